@@ -26,12 +26,12 @@ from statistics import fmean
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
 import tests  # noqa: F401  # first: all that follows shares one brain
+from narrow_places import PLACES, longest_wait
+from narrow_places import flown as flown_in
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.library.gateway.traffic.narrow import PLACES, longest_wait
-from tests.library.gateway.traffic.narrow import flown as flown_in
 from tests.library.gateway.traffic.real_skies import PRECISE
 from tests.library.gateway.traffic.real_skies import late as late_for_real
 from tests.library.gateway.traffic.skies import Sky

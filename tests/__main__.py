@@ -19,7 +19,7 @@ REWRITES = {
     "pytest tests/compiler/cli/test_blocks.py --update": "the pages of the blocks",
     "pytest tests/compiler/explain --update": "the list of diagnostics",
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial, and the page on sizes, show of commands' output",
-    "pytest tests/library/navigation --update": "the code that the page on navigation shows",
+    "pytest tests/library/drones --update": "the code that the page on navigation shows",
     "pytest tests/library/station/browser/test_every_page.py -m 'long or not long' --update": "the pictures of the ground station",
     "python -m tests.library.station.schema": "the description of the station's interface, and what is made of it",
     "pytest tests/compiler/editor/browser --update": "the pictures of the graph editor",

@@ -22,6 +22,10 @@ T = TypeVar("T")
 # Time
 
 
+TURN = 1e-9
+"""Seconds that a turn of the loop takes: what is due but for the rounding of a number is due in the next."""
+
+
 class _Selector(selectors.DefaultSelector):
     """Instead of waiting, lets the time pass."""
 
@@ -34,8 +38,8 @@ class _Selector(selectors.DefaultSelector):
         ready = super().select(0)
         if not ready and timeout is None:
             raise RuntimeError("nothing will ever happen again, and a task still waits")
-        if not ready and timeout and self.passes is not None:
-            self.passes(timeout)
+        if not ready and timeout is not None and self.passes is not None:
+            self.passes(max(timeout, TURN))
         return ready
 
 
@@ -71,6 +75,11 @@ def the_loop() -> JumpingLoop:
     loop = asyncio.get_running_loop()
     assert isinstance(loop, JumpingLoop)
     return loop
+
+
+async def passes(seconds: float) -> None:
+    """Let so many seconds pass, of such a loop."""
+    await asyncio.sleep(seconds)
 
 
 # The drone
@@ -150,7 +159,7 @@ class FakeDrone:
         if self._leg is None:
             return self.position
         begins, ends, start, end = self._leg
-        share = min(1.0, (the_loop().time() - begins) / (ends - begins)) if ends > begins else 1.0
+        share = min(1.0, (the_loop().now - begins) / (ends - begins)) if ends > begins else 1.0
         x, y, z = (a + (b - a) * share for a, b in zip(start, end, strict=True))
         return x, y, z
 
@@ -161,7 +170,7 @@ class FakeDrone:
         self.attempts += 1
         await self._does("connect")
         if not self.answers:
-            await asyncio.sleep(2)
+            await passes(2)
             raise LinkLost(f"{self.id} does not answer")
         self._connected = True
 
@@ -203,6 +212,7 @@ class FakeDrone:
         x, y, _ = self.place
         await self._move((x, y, 0.0), speed)
         self.motors = False
+        self._tell(at_once=True)
 
     async def emergency_stop(self) -> None:
         """Switch the motors off."""
@@ -239,7 +249,7 @@ class FakeDrone:
         """Do an action."""
         await self._does("act")
         self.told.append(action)
-        await asyncio.sleep(1)
+        await passes(1)
         return 21.5 if action == "measure" else None
 
     async def read(self, name: str) -> float:
@@ -256,9 +266,10 @@ class FakeDrone:
 
     # How
 
-    def _tell(self) -> DroneTelemetry:
-        last, now = self._told_last, the_loop().time()
-        if self._connected and self.answers and (last is None or now - last.time > 0.09):
+    def _tell(self, *, at_once: bool = False) -> DroneTelemetry:
+        last, now = self._told_last, the_loop().now
+        is_due = at_once or last is None or now - last.time > 0.09
+        if self._connected and self.answers and is_due:
             last = DroneTelemetry(
                 time=now,
                 position=self.place,
@@ -276,12 +287,12 @@ class FakeDrone:
         return last
 
     async def _move(self, target: Point, speed: float) -> None:
-        now, start = the_loop().time(), self.place
+        now, start = the_loop().now, self.place
         self._leg = now, now + dist(start, target) / speed, start, target
-        while self._leg is not None and the_loop().time() < self._leg[1]:
+        while self._leg is not None and the_loop().now < self._leg[1]:
             await asyncio.sleep(0.05)
             if not self.answers:
-                await asyncio.sleep(1)
+                await passes(1)
                 raise LinkLost(f"{self.id} stopped answering")
             if not self.motors:
                 raise self.fell(f"{self.id} fell")
@@ -295,7 +306,7 @@ class FakeDrone:
             raise self.raises[method]
         while method in self.hangs:
             try:
-                await asyncio.sleep(1e6)
+                await passes(1e6)
             except asyncio.CancelledError:
                 if method not in self.clings:
                     raise

@@ -59,7 +59,8 @@ class Team:
         self._kernel, self._wanted = kernel, tuple(wanted)
         self._cargo, self._feed = Cargo(folder, say), feeding
         self._say, self._clock, self._folder = say, clock, folder
-        self._vehicles: dict[str, Vehicle] = {}
+        self.vehicles: dict[str, Vehicle] = {}
+        """Each drone as it is flown, by its id."""
         self._told: dict[str, Telemetry] = {}
         self.telemetry: Mapping[str, Telemetry] = self._told
         """The drones' telemetry, always current."""
@@ -72,7 +73,7 @@ class Team:
 
     def _have(self, drone: TeamDrone) -> Vehicle:
         vehicle = Vehicle(drone, self._cargo, self._say, self._clock)
-        self._vehicles[drone.id], self._told[drone.id] = vehicle, vehicle.telemetry
+        self.vehicles[drone.id], self._told[drone.id] = vehicle, vehicle.telemetry
         self._links[drone.id] = Connection(vehicle)
         self._monitor.watch(vehicle)
         vehicle.missing_actions = partial(self._lacks, vehicle)
@@ -107,7 +108,7 @@ class Team:
         self._monitoring = Publisher(self.telemetry).subscribe(
             self._look, every=EACH, view=lambda _, known: known.silence
         )
-        for vehicle in self._vehicles.values():
+        for vehicle in self.vehicles.values():
             self._connect(vehicle)
 
     def _connect(self, vehicle: Vehicle) -> None:
@@ -133,7 +134,7 @@ class Team:
 
     async def close(self) -> None:
         """Land all drones in the air, wait until they have, and close all links."""
-        await close([(vehicle, self._links[id]) for id, vehicle in self._vehicles.items()])
+        await close([(vehicle, self._links[id]) for id, vehicle in self.vehicles.items()])
         if self._monitoring is not None:
             self._monitoring.cancel()
         tasks = [*self._tasks, *self._monitor.stop()]
@@ -147,31 +148,31 @@ class Team:
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands though it can be reached; None: it takes them."""
-        return self._vehicles[drone].down
+        return self.vehicles[drone].down
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""
-        return commands.why_not(self._vehicles[drone], action, parameters)
+        return commands.why_not(self.vehicles[drone], action, parameters)
 
     def begins(self, drone: str, job: Job | None, seconds: float) -> None:
         """Begin a flight; raise `FlightFailed` if the drone takes no commands."""
-        self._vehicles[drone].check()
+        self.vehicles[drone].check()
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off straight up to a height, if it is ready; does nothing for a drone that flies."""
-        await self._kernel.call_hook(commands.takeoff, self._vehicles[drone], height)
+        await self._kernel.call_hook(commands.takeoff, self.vehicles[drone], height)
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._kernel.call_hook(commands.go_to, self._vehicles[drone], target)
+        await self._kernel.call_hook(commands.go_to, self.vehicles[drone], target)
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        await self._kernel.call_hook(commands.land, self._vehicles[drone])
+        await self._kernel.call_hook(commands.land, self.vehicles[drone])
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        await self._kernel.call_hook(commands.hold, self._vehicles[drone])
+        await self._kernel.call_hook(commands.hold, self.vehicles[drone])
 
     async def act(
         self,
@@ -183,29 +184,29 @@ class Team:
     ) -> object:
         """Do a built-in action here, and return its result."""
         return await self._kernel.call_hook(
-            commands.act, self._vehicles[drone], action, parameters, item
+            commands.act, self.vehicles[drone], action, parameters, item
         )
 
     async def read(self, drone: str, name: str) -> float:
         """Return a sensor or variable of a drone."""
-        value = await self._kernel.call_hook(commands.read, self._vehicles[drone], name)
+        value = await self._kernel.call_hook(commands.read, self.vehicles[drone], name)
         return float(str(value))
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Set a parameter of a drone."""
-        await self._kernel.call_hook(commands.write, self._vehicles[drone], name, value)
+        await self._kernel.call_hook(commands.write, self.vehicles[drone], name, value)
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
-        self._vehicles[drone].break_off()
+        self.vehicles[drone].break_off()
 
     async def cut(self, drone: str) -> None:
         """Switch its motors off now, wherever it is."""
-        await self._kernel.call_hook(commands.cut, self._vehicles[drone])
+        await self._kernel.call_hook(commands.cut, self.vehicles[drone])
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""
-        vehicle = self._vehicles[drone]
+        vehicle = self.vehicles[drone]
         if not vehicle.must_land:
             vehicle.clear_failure()
             vehicle.looked_after = True
@@ -213,12 +214,12 @@ class Team:
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
         return bool(
-            await self._kernel.call_hook(recover, self._vehicles[drone], self._links[drone])
+            await self._kernel.call_hook(recover, self.vehicles[drone], self._links[drone])
         )
 
     async def fetched(self, drone: str) -> bool:
         """Wait until a person has put a drone back into its dock, well; False: not in time."""
-        return bool(await self._kernel.call_hook(wait_until_home, self._vehicles[drone]))
+        return bool(await self._kernel.call_hook(wait_until_home, self.vehicles[drone]))
 
     def unload(self, drone: str) -> None:
         """Record that its item was unloaded."""
@@ -227,7 +228,7 @@ class Team:
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
-        vehicle = self._vehicles[drone]
+        vehicle = self.vehicles[drone]
         problems: object = await self._kernel.call_hook(self._problems, vehicle)
         telemetry = vehicle.telemetry
         return DroneReport(

@@ -118,7 +118,7 @@ Fact = Mapping[str, Any]
 
 
 def journal_sentence(event: Fact, wall: float) -> str | None:
-    """Return an event's sentence; for an event of another version, its plain facts.
+    """Return an event's sentence; for an event that has none, its plain facts.
 
     None: it is a measurement, which only programs read.
     """

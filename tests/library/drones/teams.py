@@ -87,11 +87,11 @@ class Flown:
     async def until(self, so: Callable[[], object], limit: float = 1000.0) -> float:
         """Wait until something is so, and return for how long that was."""
         loop = the_loop()
-        began = loop.time()
+        began = loop.now
         while not so():
-            assert loop.time() - began < limit, f"not in {limit} s; the log: {self.log}"
+            assert loop.now - began < limit, f"not in {limit} s; the log: {self.log}"
             await asyncio.sleep(0.05)
-        return loop.time() - began
+        return loop.now - began
 
 
 @asynccontextmanager

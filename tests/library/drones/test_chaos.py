@@ -13,11 +13,11 @@ from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import BATTERY_LOW, LINK_LOST, LOCKED
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.reports import Down
+from tests.kit.draws import draws
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import Flown
 from tests.library.drones.test_under_a_gateway import commanded, measuring
 
-SEEDS = 24
 COUNT = 4
 LONG = 4000.0
 """Seconds in which all must be over: a link is waited for, and so is a person."""
@@ -127,7 +127,7 @@ async def flights(flown: Flown, gateway: Gateway, drone: str, chance: Random) ->
             await asyncio.wait((asyncio.ensure_future(flown.kernel.offer(rescue)),))
 
 
-@pytest.mark.parametrize("seed", range(SEEDS))
+@pytest.mark.parametrize("seed", draws(5, 24))
 async def test_everything_ends_and_all_that_can_land_has_landed(tmp_path: Path, seed: int) -> None:
     """Three flights of each of four drones, with something going wrong every fifteen seconds."""
     chance = Random(f"chaos/{seed}")

@@ -18,8 +18,8 @@ async def test_all_land_at_once_before_their_links_are_closed(tmp_path: Path) ->
             await flown.up(drone.id)
         flown.begin(flown.team.go_to("cf3", (3.0, 9.0, 1.0)))
         await flown.until(lambda: drones[2].place[1] > 2)
-        before = the_loop().time()
-    assert the_loop().time() - before < 6
+        before = the_loop().now
+    assert the_loop().now - before < 6
     assert [drone.closed_at and drone.closed_at[0] for drone in drones] == [False] * 4
     assert drones[0].told == []
     assert drones[2].told[-2:] == ["hold", "land"]
@@ -32,10 +32,10 @@ def test_a_drone_whose_link_is_lost_gets_one_more_chance(tmp_path: Path) -> None
         async with flying(tmp_path) as flown:
             drone = await flown.up()
             drone.goes_silent()
-            await flown.until(lambda: not flown.team._vehicles["cf1"].linked)
+            await flown.until(lambda: not flown.team.vehicles["cf1"].linked)
             drone.answers = back
-            before = the_loop().time()
-        assert the_loop().time() - before < 60
+            before = the_loop().now
+        assert the_loop().now - before < 60
         assert drone.motors is not back
         said = "cf1 could not be landed: it may still hover at (1, 1)"
         assert (said in flown.log) is not back
@@ -51,10 +51,10 @@ async def test_a_team_can_end_while_it_connects(tmp_path: Path) -> None:
     drones[1].answers = False
     async with flying(tmp_path, *drones) as flown:
         reaches = flown.begin(flown.team.reach("cf2"))
-        await flown.until(lambda: flown.log or the_loop().time() > 1010)
+        await flown.until(lambda: flown.log or the_loop().now > 1010)
         flown.kernel.post(reaches.cancel)
-        before = the_loop().time()
-    assert the_loop().time() - before < 5
+        before = the_loop().now
+    assert the_loop().now - before < 5
 
 
 @pytest.mark.parametrize("twice", [False, True])

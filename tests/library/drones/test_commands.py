@@ -45,12 +45,12 @@ async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, 6)]
     drones[2].hangs = {"connect"}
     async with flying(tmp_path, *drones) as flown:
-        began = the_loop().time()
+        began = the_loop().now
         for id in ("cf1", "cf2", "cf4", "cf5"):
             assert (await flown.do(flown.team.drone_report(id))).reached
-        assert the_loop().time() - began < 0.5
+        assert the_loop().now - began < 0.5
         silent = await flown.do(flown.team.drone_report("cf3"))
-        assert the_loop().time() - began == pytest.approx(15, abs=0.5)
+        assert the_loop().now - began == pytest.approx(15, abs=0.5)
         assert (silent.reached, silent.problems) == (False, ("cf3 did not answer in 15 s",))
 
 
@@ -132,7 +132,7 @@ async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: P
         flown.kernel.post(flies.cancel)
         await flown.until(lambda: drone.told[-1] == "hold", 1)
         hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: flown.team._vehicles["cf1"].commands.doing == "hover", 1)
+        await flown.until(lambda: flown.team.vehicles["cf1"].commands.doing == "hover", 1)
         flown.kernel.post(hovers.cancel)
 
 
@@ -202,10 +202,10 @@ async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None
         if hangs:
             drone.hangs = drone.clings = {"go_to", "hold"}
         flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
-        await flown.until(lambda: "fly" in team._vehicles["cf1"].commands.doing)
-        before = the_loop().time()
+        await flown.until(lambda: "fly" in team.vehicles["cf1"].commands.doing)
+        before = the_loop().now
         await flown.do(team.cut("cf1"))
-        assert the_loop().time() - before < 0.2
+        assert the_loop().now - before < 0.2
         assert not drone.motors
         await flown.until(lambda: flies.is_set, 1)
         assert str(flies.error) == "cf1's motors were cut"

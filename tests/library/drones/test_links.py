@@ -20,7 +20,7 @@ async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -
         flies = flown.begin(
             team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
         )
-        await flown.until(lambda: team._vehicles["cf1"].commands.doing)
+        await flown.until(lambda: team.vehicles["cf1"].commands.doing)
         drone.goes_silent()
         assert await flown.until(lambda: flies.is_set) == pytest.approx(1.1, abs=0.15)
         failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
@@ -35,10 +35,10 @@ async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
-        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        await flown.until(lambda: not team.vehicles["cf1"].linked)
         reaches = flown.begin(team.reach("cf1"))
         the_loop().call_later(40, setattr, drone, "answers", True)
-        assert await flown.until(lambda: reaches.is_set) < 47
+        assert await flown.until(lambda: reaches.is_set) < 48
         assert reaches.result()
         team.begins("cf1", None, 0.0)
         await flown.do(team.go_to("cf1", (1.0, 1.0, 1.0)))
@@ -51,7 +51,7 @@ async def test_a_drone_that_stays_away_is_lost_and_lands_when_it_appears(tmp_pat
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
-        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        await flown.until(lambda: not team.vehicles["cf1"].linked)
         reaches = flown.begin(team.reach("cf1"))
         assert await flown.until(lambda: reaches.is_set) == pytest.approx(120, abs=1)
         assert not reaches.result()
@@ -68,10 +68,10 @@ async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -
         drone, team = await flown.up(), flown.team
         drone.goes_silent()
         drone.falls(tells=False)
-        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        await flown.until(lambda: not team.vehicles["cf1"].linked)
         drone.put((2.0, 2.0, 0.0))
         drone.answers = True
-        await flown.until(lambda: team._vehicles["cf1"].linked)
+        await flown.until(lambda: team.vehicles["cf1"].linked)
         report = await flown.do(team.drone_report("cf1"))
         assert (report.landed, report.boot, report.location) == (True, 1, (2, 2, 0))
         assert await flown.do(team.reach("cf1"))
@@ -84,10 +84,10 @@ async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_pa
         await flown.do(team.drone_report("cf1"))
         drone.goes_silent()
         drone.hangs = drone.clings = {"connect"}
-        await flown.until(lambda: not team._vehicles["cf1"].linked)
-        before = the_loop().time()
+        await flown.until(lambda: not team.vehicles["cf1"].linked)
+        before = the_loop().now
         report = await flown.do(team.drone_report("cf1"))
-        assert the_loop().time() - before <= 17
+        assert the_loop().now - before <= 17
         assert not report.reached
 
 
@@ -121,9 +121,9 @@ async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> 
         drone, team = flown.drones["cf1"], flown.team
         await flown.do(team.drone_report("cf1"))
         drone.goes_silent()
-        await flown.until(lambda: not team._vehicles["cf1"].linked)
+        await flown.until(lambda: not team.vehicles["cf1"].linked)
         drone.answers = True
-        await flown.until(lambda: team._vehicles["cf1"].linked)
+        await flown.until(lambda: team.vehicles["cf1"].linked)
         await flown.do(team.takeoff("cf1", 1.0))
 
 
@@ -135,7 +135,7 @@ async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Pat
         report = await flown.do(flown.team.drone_report("cf1"))
         assert (report.reached, report.problems) == (False, ("cf1 did not answer in 15 s",))
         assert await flown.do(flown.team.reach("cf1"))
-        assert the_loop().time() < 1000 + 27
+        assert the_loop().now < 1000 + 27
 
 
 async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
@@ -143,9 +143,9 @@ async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path
     drone = FakeDrone()
     drone.answers = False
     async with flying(tmp_path, drone) as flown:
-        await flown.until(lambda: the_loop().time() > 1300)
+        await flown.until(lambda: the_loop().now > 1300)
         attempts = drone.attempts
-        await flown.until(lambda: the_loop().time() > 1600)
+        await flown.until(lambda: the_loop().now > 1600)
         assert drone.attempts - attempts < 12
         drone.answers = True
         assert (await flown.do(flown.team.drone_report("cf1"))).reached

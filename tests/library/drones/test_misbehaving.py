@@ -61,16 +61,16 @@ async def test_a_navigation_that_hangs_hangs_nothing(
         await flown.do(flown.team.drone_report("cf1"))
         drones[0].hangs = {method}
         drones[0].clings = {method} if clings else set()
-        before = the_loop().time()
+        before = the_loop().now
         hanging = asyncio.ensure_future(everything(flown))
         assert await everything(flown, "cf2") == []
-        assert the_loop().time() - before < 20
+        assert the_loop().now - before < 20
         wrong = await hanging
         if method not in ("connect", "hold", "events", "close"):
             assert wrong[0].startswith("cf1 ")
-        before = the_loop().time()
+        before = the_loop().now
         drones[0].hangs -= {"land"}
-    assert the_loop().time() - before < 60
+    assert the_loop().now - before < 60
 
 
 @pytest.mark.parametrize("clings", [set[str](), {"go_to", "land"}, {"connect", *METHODS}])
@@ -88,8 +88,8 @@ async def test_a_navigation_that_hangs_in_every_method_hangs_nothing(
         if silent:
             drones[1].goes_silent()
         await everything(flown, "cf2")
-        before = the_loop().time()
-    assert the_loop().time() - before < 60
+        before = the_loop().now
+    assert the_loop().now - before < 60
     assert not drones[0].motors
     assert any("cf2 could not be landed" in line for line in flown.log)
 
@@ -209,7 +209,7 @@ async def test_one_that_is_never_out_of_news_holds_up_no_one(tmp_path: Path) -> 
     chatty, other = Chatty(), FakeDrone("cf2", (3.0, 1.0, 0.0))
     async with flying(tmp_path, chatty, other) as flown:
         await flown.up("cf2")
-        await flown.until(lambda: the_loop().time() > 1005)
+        await flown.until(lambda: the_loop().now > 1005)
         assert flown.log.count("cf1: news: still here") == 1
 
 
@@ -219,6 +219,6 @@ async def test_if_the_watch_breaks_all_ends_and_all_land_first(tmp_path: Path) -
     with pytest.raises(ZeroDivisionError):
         async with flying(tmp_path, drone) as flown:
             await flown.up()
-            flown.team._vehicles["cf1"].position_problem = lambda: str(1 / 0)
+            flown.team.vehicles["cf1"].position_problem = lambda: str(1 / 0)
             await flown.until(lambda: flown.kernel.crashed)
     assert not drone.motors

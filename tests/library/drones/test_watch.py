@@ -100,9 +100,9 @@ async def test_an_empty_battery_lands_where_it_is(tmp_path: Path) -> None:
         loop.call_later(1, setattr, drone, "level", 0.02)
         loop.call_later(3, setattr, drone, "level", 0.1)
         loop.call_later(5, setattr, drone, "level", 0.02)
-        before = loop.time()
+        before = loop.now
         failure, why = await fails(flown)
-        assert loop.time() - before == pytest.approx(8.1, abs=0.2)
+        assert loop.now - before == pytest.approx(8.1, abs=0.2)
         assert failure is Failure.BATTERY
         assert why == "cf1 has 2 % in its battery: it lands at (1, 1)"
         await flown.until(lambda: not drone.motors)
@@ -212,9 +212,9 @@ async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought
         assert not await flown.do(team.reach("cf1"))
         drone.raises["looked_after"] = Rejected("it lies on its back")
         team.mended("cf1")
-        began = the_loop().time()
+        began = the_loop().now
         assert not await flown.do(team.reach("cf1"))
-        assert the_loop().time() - began < 3.0
+        assert the_loop().now - began < 3.0
         del drone.raises["looked_after"]
         team.mended("cf1")
         assert await flown.do(team.reach("cf1"))
@@ -238,9 +238,9 @@ async def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again
 async def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:
     """No person is asked to put it home: it would wait there for a word that is said of lost ones."""
     async with fallen(tmp_path) as (_, team, flown):
-        began = the_loop().time()
+        began = the_loop().now
         assert not await flown.do(team.fetched("cf1"))
-        assert the_loop().time() - began < 3.0
+        assert the_loop().now - began < 3.0
 
 
 @pytest.mark.parametrize("hovers", [False, True])

@@ -1,20 +1,27 @@
-"""A gateway in a process of its own, over a small simulated world in which time passes fast."""
+"""A gateway over a small simulated world, and a brain that talks to it through its socket.
+
+`played` starts the gateway as a process of its own, in which time passes fast; `played_inside` runs all that
+the process does in this one, on a loop whose clock jumps.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import json
 import os
+import signal
 import sys
 from collections.abc import Awaitable, Callable, Coroutine
 from pathlib import Path
 from typing import Any, TypeVar
 
 import pluto_fleet
-from pluto_fleet.gateway.process import LOCK
+from pluto_fleet.gateway.process import LOCK, NOTE, run
 from pluto_fleet.gateway.remote import RemoteLink
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
+from pluto_fleet.gateway.wire import MAX_REPORT
+from pluto_fleet.process import ipc
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -22,6 +29,7 @@ from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.world_store import DEEDS
+from tests.kit import drones
 from tests.library.gateway.flights import SCOUT, Task
 
 T = TypeVar("T")
@@ -89,6 +97,63 @@ class Brain:
         async with asyncio.timeout(60):
             while not is_so():
                 await asyncio.sleep(0.005)
+
+
+class InsideBrain(Brain):
+    """One whose gateway runs in this process."""
+
+    gateway: asyncio.Task[None] | None = None
+
+    async def linked(self) -> RemoteLink:
+        await self.begins()
+        return await super().linked()
+
+    async def begins(self) -> None:
+        """Begin a gateway, unless one runs."""
+        if not self.gateway_runs:
+            self.gateway = asyncio.create_task(run(self.folder, self._settings))
+            await self.until(lambda: ipc.address_in(self.folder / NOTE) is not None)
+
+    @property
+    def gateway_runs(self) -> bool:
+        """Whether it has not ended."""
+        return self.gateway is not None and not self.gateway.done()
+
+    async def tells(self, *lines: bytes) -> list[dict[str, Any]]:
+        """Send lines through a connection of its own, hang up, and return all answers but telemetry."""
+        reader, writer = await ipc.connect(self.folder / NOTE, MAX_REPORT)
+        writer.writelines(lines)
+        writer.write_eof()
+        answers = [json.loads(answer) for answer in (await reader.read()).splitlines()]
+        writer.close()
+        return [answer for answer in answers if set(answer) != {"seen"}]
+
+    async def ends(self) -> None:
+        """End the gateway, if it runs."""
+        if self.gateway is not None:
+            self.gateway.cancel()
+            await asyncio.wait([self.gateway])
+
+
+def played_inside(
+    folder: Path, play: Callable[[InsideBrain], Awaitable[None]], **other: Any
+) -> None:
+    """Let a brain play its part, with a gateway in this process, in virtual time."""
+
+    async def main() -> None:
+        brain = InsideBrain(RealTime(SPEED), folder, **other)
+        try:
+            await play(brain)
+        finally:
+            for link in brain.links:
+                await link.close()
+            await brain.ends()
+
+    hangs_up = signal.getsignal(signal.SIGHUP)
+    try:
+        drones.run(main())
+    finally:
+        signal.signal(signal.SIGHUP, hangs_up)
 
 
 def played(folder: Path, play: Callable[[Brain], Awaitable[None]], **other: Any) -> None:

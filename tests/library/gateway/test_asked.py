@@ -9,13 +9,13 @@ import pytest
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.gateway.flights import Field, Task
-from tests.library.gateway.processes import Brain, played
+from tests.library.gateway.processes import InsideBrain, played_inside
 
 
-def test_a_drone_in_another_process_keeps_what_it_is_set_to(tmp_path: Path) -> None:
+def test_a_drone_behind_a_socket_keeps_what_it_is_set_to(tmp_path: Path) -> None:
     """While it hovers for an action of the app's own; a drone on the ground refuses."""
 
-    async def play(brain: Brain) -> None:
+    async def play(brain: InsideBrain) -> None:
         link = await brain.linked()
         await brain.flown(link, Task(action=None))
         hover = brain.kernel.spawn(link.hold("cf1"), FLEET, "an action")
@@ -27,7 +27,7 @@ def test_a_drone_in_another_process_keeps_what_it_is_set_to(tmp_path: Path) -> N
         assert refused.value.failure is Failure.REFUSED
         hover.cancel()
 
-    played(tmp_path, play)
+    played_inside(tmp_path, play)
 
 
 def test_a_client_that_is_cut_off_hears_no_answer() -> None:

@@ -138,7 +138,7 @@ class World(Field):
             self.reported[job.id] = result
 
 
-@settings(max_examples=50)
+@settings(max_examples=20)
 @given(
     st.lists(st.tuples(st.sampled_from(EVENTS), st.integers(0, 9)), max_size=10),
     st.booleans(),

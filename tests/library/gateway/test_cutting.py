@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-import asyncio
-import os
-import signal
 from pathlib import Path
 
 import pytest
 
 from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LEDGER
-from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
+from pluto_fleet.process.ipc import line
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.simulation.world_store import DRONES
 from tests.library.gateway.flights import THERE, Field, Task
-from tests.library.gateway.processes import Brain, pid, played
+from tests.library.gateway.processes import InsideBrain, played_inside
 from tests.library.simulation.flights import failure, fly
 
 
@@ -93,18 +89,6 @@ def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
     field.advance(1)
     assert recovery.is_set
     assert recovery.result() is False
-
-
-def test_a_drone_that_cannot_be_told_is_not_taken_for_cut(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It is said why; when it can be reached again, it shall come home."""
-
-    async def unreachable(_: object, drone: str) -> None:
-        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
-
-    field = Field()
-    monkeypatch.setattr(type(field.navigation), "cut", unreachable)
-    assert cut(field) == "cf1 cannot be reached"
-    assert fly(field.virtual, field.gateway.link(1).recover("cf1")) is True
 
 
 class Kept(Field):
@@ -196,6 +180,31 @@ def test_who_could_not_be_told_is_as_before(
     field.virtual.close()
 
 
+def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The gateway before died between its record and the cut: only what was done here keeps it down."""
+
+    async def killed(_: object, drone: str) -> None:
+        """Nothing reaches the drone."""
+
+    async def unreachable(_: object, drone: str) -> None:
+        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
+
+    field = Kept(tmp_path)
+    fly(field.virtual, field.gateway.link(1).takeoff("cf1", 1.2))
+    with monkeypatch.context() as patch:
+        patch.setattr(type(field.navigation), "cut", killed)
+        cut(field)
+        field.is_killed()
+        patch.setattr(type(field.navigation), "cut", unreachable)
+        assert cut(field) == "cf1 cannot be reached"
+    assert field.problems(2) == ()
+    fly(field.virtual, field.gateway.link(3).bring_down(Down.LAND))
+    assert field.navigation.bodies["cf1"].landed
+    field.virtual.close()
+
+
 def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """What a person wants off is off."""
 
@@ -212,34 +221,6 @@ def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None
     assert fly(field.virtual, link.recover("cf1")) is True
 
 
-def test_a_gateway_that_is_killed_right_after_a_cut_comes_back_knowing_it(tmp_path: Path) -> None:
-    """So does the one after the drone was brought back: that it is well again."""
-
-    async def killed(brain: Brain) -> None:
-        number = pid(tmp_path)
-        assert number is not None
-        os.kill(number, signal.SIGKILL)
-        await brain.kernel.run(brain.lost)
-        (tmp_path / DRONES).unlink()  # as if the drones had been switched off and on again
-
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        await brain.told(link.fleet_report())
-        await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
-        await killed(brain)
-        link = await brain.linked()
-        roll = await brain.told(link.fleet_report())
-        assert roll.drones["cf1"].problems == ("cf1's motors were cut",)
-        assert not await brain.told(link.recover("cf1"))
-        brain.kernel.post(link.mended, "cf1")
-        assert await brain.told(link.recover("cf1"))
-        await killed(brain)
-        link = await brain.linked()
-        assert (await brain.told(link.fleet_report())).drones["cf1"].problems == ()
-
-    played(tmp_path, play)
-
-
 def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
     """It lands by itself, as it was about to."""
     field = Field()
@@ -253,27 +234,29 @@ def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
     assert cut(field) == ""
 
 
+async def cuts(brain: InsideBrain, **which: object) -> str:
+    """Have motors cut by a program of one's own, and return what it is told."""
+    [answer] = await brain.tells(line({"do": "cut-motors", **which}))
+    return str(answer["said"])
+
+
 def test_motors_are_cut_while_the_brain_hangs(tmp_path: Path) -> None:
     """Every program that may open the socket may do that; a brain that comes back hears of it."""
 
-    async def play(brain: Brain) -> None:
+    async def play(brain: InsideBrain) -> None:
         link, heard = await brain.linked(), list[object]()
         to_and_fro = Task(stops=(THERE, (1.0, 1.0, 1.2)) * 10)  # until long after they are cut
         brain.kernel.post(link.fly, to_and_fro, heard.append)
         await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
-        said = await asyncio.to_thread(cut_directly, tmp_path, "cf1", 5)
-        assert said == "the motors of cf1 are cut"
+        assert await cuts(brain, drone="cf1") == "the motors of cf1 are cut"
         await brain.until(lambda: bool(heard))
         assert str(heard[0]) == "cf1's motors were cut"
         assert not brain.lost.is_set
-        said = await asyncio.to_thread(cut_directly, tmp_path, None, 5)
-        assert said == "the motors of cf1, cf2 are cut"
-        with pytest.raises(
-            BadInput, match='no drone "cf9" is in the fleet; there are: "cf1", "cf2"'
-        ):
-            await asyncio.to_thread(cut_directly, tmp_path, "cf9", 5)
+        assert await cuts(brain, all=True) == "the motors of cf1, cf2 are cut"
+        said = await cuts(brain, drone="cf9")
+        assert said == 'no drone "cf9" is in the fleet; there are: "cf1", "cf2"'
         assert not await brain.told(link.recover("cf1"))
         brain.kernel.post(link.mended, "cf1")
         assert await brain.told(link.recover("cf1"))
 
-    played(tmp_path, play)
+    played_inside(tmp_path, play)

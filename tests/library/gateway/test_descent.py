@@ -191,7 +191,7 @@ places = st.tuples(st.integers(1, 10), st.integers(1, 10)).map(
 )
 
 
-@settings(max_examples=40)
+@settings(max_examples=15)
 @given(
     st.lists(places, min_size=2, max_size=6, unique=True),
     st.lists(places, min_size=6, max_size=6, unique=True),

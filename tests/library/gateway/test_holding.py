@@ -1,4 +1,4 @@
-"""No two processes command one drone, wherever the folders of their journals are are are are."""
+"""No two processes command one drone, wherever the folders of their journals are."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ import pytest
 
 from pluto_fleet.gateway.drone_lock import DroneInUse, lock_drones
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.paths import ROOT
 
 RADIO = "radio://0/80/2M/E7E7E7E7E7"
 
 
+@pytest.mark.process
 def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path) -> None:
     """The first one's number is what it takes to end it."""
     said = "is commanded by process {} already"
@@ -25,15 +25,17 @@ def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path
         _hold(tmp_path, cf1=RADIO)
 
 
+@pytest.mark.long
 def test_a_process_that_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
     """A gateway whose drones are down closes its links, and then lets go."""
     with _holder(tmp_path, RADIO) as first:
         assert first.stdin is not None
-        Timer(0.1, first.stdin.close).start()
+        Timer(0.05, first.stdin.close).start()
         with lock_drones({"cf1": RADIO}, tmp_path, patience=20.0):
             assert first.wait() == 0
 
 
+@pytest.mark.long
 def test_a_killed_process_holds_nothing_any_more(tmp_path: Path) -> None:
     """The lock ends with its process: there is nothing to clear away."""
     with _holder(tmp_path, RADIO) as first:
@@ -92,38 +94,6 @@ def test_a_folder_that_others_may_enter_is_refused(
     folder.mkdir()
     folder.chmod(0o777)
     with pytest.raises(BadInput, match="no other user may enter it"):
-        _hold(None, cf1=RADIO)
-
-
-def test_tests_take_no_lock_of_what_else_runs_on_this_machine(tmp_path: Path) -> None:
-    """Another checkout's tests, say, that command drones by the very same addresses."""
-    (tmp_path / f"pluto-drones-{os.geteuid()}").mkdir(mode=0o700)
-    alone = f"{__file__}::{test_the_users_lock_is_free.__name__}"
-    with _holder(tmp_path / f"pluto-drones-{os.geteuid()}", RADIO):
-        done = subprocess.run(
-            [
-                sys.executable,
-                "-m",
-                "pytest",
-                "-q",
-                "-p",
-                "no:cacheprovider",
-                "-p",
-                "no:xdist",
-                alone,
-            ],
-            cwd=ROOT,
-            env={**os.environ, "XDG_RUNTIME_DIR": str(tmp_path)},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_the_users_lock_is_free() -> None:
-    """Nothing but a test of this session could hold it."""
-    with lock_drones({"cf1": RADIO}), pytest.raises(DroneInUse):
         _hold(None, cf1=RADIO)
 
 

@@ -117,20 +117,6 @@ def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
     assert job.begun == 1
 
 
-def test_the_file_does_not_grow_for_ever(tmp_path: Path) -> None:
-    """What was forgotten is left out when the next process begins."""
-    path = tmp_path / "ledger"
-    ledger = FileLedger(path)
-    ledger.write(entry("stays"))
-    for number in range(1002):
-        ledger.forget(str(number))
-    ledger.close()
-    before = path.stat().st_size
-    assert kept(path) == {"stays": JobState.DONE}
-    assert path.stat().st_size < before / 100
-    assert kept(path) == {"stays": JobState.DONE}
-
-
 def test_the_file_does_not_grow_while_its_gateway_runs(tmp_path: Path) -> None:
     """However many trips are flown; what is still to be known is there all the time."""
     path = tmp_path / "ledger"

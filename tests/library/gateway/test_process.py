@@ -1,4 +1,4 @@
-"""The gateway as a process: real sockets, real files, and real kills."""
+"""The gateway as a program of its own: its socket, its files, and its end, be that a kill."""
 
 from __future__ import annotations
 
@@ -13,23 +13,53 @@ import pytest
 
 from pluto_fleet.gateway import remote, starting
 from pluto_fleet.gateway.process import LOG, main
-from pluto_fleet.gateway.starting import connect, let_end, speed_in, still_runs, stop_directly
+from pluto_fleet.gateway.starting import (
+    connect,
+    cut_directly,
+    let_end,
+    speed_in,
+    still_runs,
+    stop_directly,
+)
 from pluto_fleet.jobs.flown import Flown
-from pluto_fleet.jobs.reports import Down, JobState
+from pluto_fleet.jobs.reports import Down, FleetReport, JobState
+from pluto_fleet.process.ipc import line
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
 from tests.library.gateway.flights import THERE, Task
-from tests.library.gateway.processes import SPEED, Brain, deeds, pid, played, settings
+from tests.library.gateway.processes import (
+    SPEED,
+    Brain,
+    InsideBrain,
+    deeds,
+    pid,
+    played,
+    played_inside,
+    settings,
+)
 
 FAR = (18.0, 18.0, 1.2)
 PICK = ("cf1", "pick_item", Task().id)
 
 
+async def sent_far(brain: Brain, drone: str = "cf1") -> remote.RemoteLink:
+    """Link, send a drone far away, and return the link when it is on its way."""
+    link = await brain.linked()
+    brain.kernel.post(link.fly, Task(id=drone, drone=drone, stops=(FAR,)), lambda _: None)
+    await brain.until(lambda: link.telemetry(drone).location[0] > 3)
+    return link
+
+
+def states(report: FleetReport) -> dict[str, JobState]:
+    """Return how far each job is."""
+    return {id: job.state for id, job in report.jobs.items()}
+
+
 def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
     """Its action begins once and is done once; photos arrive whole; telemetry stays current."""
 
-    async def play(brain: Brain) -> None:
+    async def play(brain: InsideBrain) -> None:
         link = await brain.linked()
         flown: list[Flown] = []
         link.on_flown(flown.append)
@@ -40,30 +70,26 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert not link.telemetry("cf1").landed
         photo = await brain.flown(link, Task(id="photo", action="take_photo", item=None))
         assert isinstance(photo, Photo)
-        fleet_report = await brain.told(link.fleet_report())
-        assert {id: job.state for id, job in fleet_report.jobs.items()} == {
-            Task().id: JobState.DONE,
-            "photo": JobState.DONE,
-        }
-        assert fleet_report.jobs["photo"].value == photo
-        assert fleet_report.drones["cf1"].carrying == "pills"
+        report = await brain.told(link.fleet_report())
+        assert states(report) == dict.fromkeys((Task().id, "photo"), JobState.DONE)
+        assert report.jobs["photo"].value == photo
+        assert report.drones["cf1"].carrying == "pills"
         await brain.told(link.land("cf1"))
         whats = ["take_off", "leg", "action", "leg", "action", "land"]
         assert [one["what"] for one in flown] == whats  # each before what follows from it
         assert link.telemetry("cf1").landed
         await link.goodbye()
         assert not brain.lost.is_set
-        await brain.until(lambda: pid(tmp_path) is None)
+        await brain.until(lambda: not brain.gateway_runs)
 
-    played(tmp_path, play)
+    played_inside(tmp_path, play)
     assert deeds(tmp_path) == [PICK, ("cf1", "take_photo", "photo")]
-    assert speed_in(tmp_path) == SPEED
 
 
 def test_failures_arrive_with_their_reasons(tmp_path: Path) -> None:
     """Of jobs and of single commands."""
 
-    async def play(brain: Brain) -> None:
+    async def play(brain: InsideBrain) -> None:
         link = await brain.linked()
         failed = await brain.flown(link, Task(action="release_item"))
         assert isinstance(failed, FlightFailed)
@@ -75,122 +101,67 @@ def test_failures_arrive_with_their_reasons(tmp_path: Path) -> None:
             await brain.told(link.go_to("cf2", THERE))
         assert refused.value.failure is Failure.REFUSED
 
-    played(tmp_path, play)
+    played_inside(tmp_path, play)
 
 
 def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
     """It links again in time, attaches, and hears the end."""
 
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: not link.telemetry("cf1").landed)
+    async def play(brain: InsideBrain) -> None:
+        link = await sent_far(brain)
         await link.close()
         link = await brain.linked()
-        fleet_report = await brain.told(link.fleet_report())
-        assert (fleet_report.jobs[Task().id].state, fleet_report.jobs[Task().id].flies) == (
-            JobState.FLYING,
-            True,
-        )
+        job = (await brain.told(link.fleet_report())).jobs["cf1"]
+        assert (job.state, job.flies) == (JobState.FLYING, True)
         heard: list[object] = []
-        brain.kernel.post(link.attach, Task().id, heard.append)
+        brain.kernel.post(link.attach, "cf1", heard.append)
         await brain.until(lambda: bool(heard))
         assert heard == [None]
 
-    played(tmp_path, play)
-    assert deeds(tmp_path) == [PICK]
+    played_inside(tmp_path, play)
+    assert deeds(tmp_path) == [("cf1", "pick_item", "cf1")]
 
 
 def test_without_a_brain_everything_lands_and_then_it_ends(tmp_path: Path) -> None:
     """The world stays as it is on the disk: the next gateway finds the drone where it landed."""
 
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+    async def play(brain: InsideBrain) -> None:
+        link = await sent_far(brain)
         await link.close()
-        await brain.until(lambda: pid(tmp_path) is None)
+        await brain.until(lambda: not brain.gateway_runs)
         link = await brain.linked()
         assert link.telemetry("cf1").landed
-        assert link.telemetry("cf1").location[0] > 2
+        assert 3 < link.telemetry("cf1").location[0] < FAR[0]
         assert (await brain.told(link.fleet_report())).jobs == {}
 
-    played(tmp_path, play, patience=0.1, idle=0.5)
-
-
-def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -> None:
-    """The brain notices; drones went on meanwhile; what was done is done, what was not is flown."""
-
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        await brain.flown(link, Task())
-        brain.kernel.post(link.fly, Task(id="far", drone="cf2", stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: link.telemetry("cf2").location[0] > 3)
-        killed = pid(tmp_path)
-        assert killed is not None
-        os.kill(killed, signal.SIGKILL)
-        await brain.kernel.run(brain.lost)
-        link = await brain.linked()
-        fleet_report = await brain.told(link.fleet_report())
-        assert pid(tmp_path) != killed
-        assert {id: entry.state for id, entry in fleet_report.jobs.items()} == {
-            Task().id: JobState.DONE
-        }
-        assert fleet_report.drones["cf1"].carrying == "pills"
-        assert not fleet_report.drones["cf2"].landed
-        assert fleet_report.drones["cf2"].location[0] > 3
-        assert await brain.flown(link, Task(id="far", drone="cf2", stops=(FAR,))) is None
-
-    played(tmp_path, play)
-    assert deeds(tmp_path) == [PICK, ("cf2", "pick_item", "far")]
+    played_inside(tmp_path, play, patience=0.1, idle=0.5)
 
 
 def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> None:
     """Home at the brain's word; where they are at that of any program on the socket."""
 
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
+    async def play(brain: InsideBrain) -> None:
+        link = await sent_far(brain)
         await brain.told(link.bring_down(Down.HOME))
         assert link.telemetry("cf1").landed
         assert link.telemetry("cf1").location == pytest.approx((1, 1, 0))
-        fleet_report = await brain.told(link.fleet_report())
-        assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
-        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
-        assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
+        assert states(await brain.told(link.fleet_report())) == {"cf1": JobState.BROKEN_OFF}
+        await sent_far(brain)
+        [answer] = await brain.tells(line({"do": "stop", "how": "land"}))
+        assert answer == {"ok": True, "said": "the drones come down"}
         await brain.kernel.run(brain.lost)
         link = await brain.linked()
-        fleet_report = await brain.told(link.fleet_report())
-        assert fleet_report.drones["cf1"].landed
-        assert fleet_report.drones["cf1"].location[0] > 2
+        report = await brain.told(link.fleet_report())
+        assert report.drones["cf1"].landed
+        assert report.drones["cf1"].location[0] > 3
 
-    played(tmp_path, play)
-
-
-def test_a_gateway_to_which_no_brain_comes_back_lands_its_drones_and_ends(tmp_path: Path) -> None:
-    """At once, not after the time in which another brain might come; until then it can be seen."""
-
-    async def play(brain: Brain) -> None:
-        link = await brain.linked()
-        brain.kernel.post(link.fly, Task(stops=(FAR,)), lambda _: None)
-        await brain.until(lambda: link.telemetry("cf1").location[0] > 2)
-        assert still_runs(tmp_path) == pid(tmp_path)
-        await link.close()
-        let_end(tmp_path)
-        await brain.until(lambda: still_runs(tmp_path) is None)
-        let_end(tmp_path)  # who is not heard any more
-        assert "all drones are down" in (tmp_path / LOG).read_text()
-
-    played(tmp_path, play, idle=1000.0)
-    assert still_runs(tmp_path / "nowhere") is None
+    played_inside(tmp_path, play)
 
 
 def test_an_older_brain_is_refused_and_a_newer_one_cuts_it_off(tmp_path: Path) -> None:
     """The numbers come from the journal, and only grow."""
 
-    async def play(brain: Brain) -> None:
+    async def play(brain: InsideBrain) -> None:
         brain.epoch = 5
         await brain.linked()
         lost = brain.lost
@@ -200,9 +171,46 @@ def test_an_older_brain_is_refused_and_a_newer_one_cuts_it_off(tmp_path: Path) -
         with pytest.raises(BadInput, match="another run of this app has taken over"):
             await brain.linked()
 
+    played_inside(tmp_path, play)
+
+
+@pytest.mark.process
+def test_a_gateway_that_is_killed_comes_back_to_the_same_world(tmp_path: Path) -> None:
+    """The brain notices; drones went on meanwhile; what was done is done, what was not is flown.
+
+    In the end any program brings all down, and it ends when it is asked to.
+    """
+
+    async def play(brain: Brain) -> None:
+        link = await brain.linked()
+        await brain.flown(link, Task())
+        link = await sent_far(brain, "cf2")
+        killed = pid(tmp_path)
+        assert killed is not None
+        assert (still_runs(tmp_path), speed_in(tmp_path)) == (killed, SPEED)
+        os.kill(killed, signal.SIGKILL)
+        await brain.kernel.run(brain.lost)
+        link = await brain.linked()
+        report = await brain.told(link.fleet_report())
+        assert pid(tmp_path) != killed
+        assert states(report) == {Task().id: JobState.DONE}
+        assert report.drones["cf1"].carrying == "pills"
+        assert not report.drones["cf2"].landed
+        assert report.drones["cf2"].location[0] > 3
+        assert await brain.flown(link, Task(id="cf2", drone="cf2", stops=(FAR,))) is None
+        assert cut_directly(tmp_path, "cf1", 5) == "the motors of cf1 are cut"
+        assert stop_directly(tmp_path, Down.LAND, 5) == "the drones come down"
+        await brain.kernel.run(brain.lost)
+        let_end(tmp_path)
+        await brain.until(lambda: still_runs(tmp_path) is None)
+        assert "all drones are down" in (tmp_path / LOG).read_text()
+
     played(tmp_path, play)
+    assert deeds(tmp_path) == [PICK, ("cf2", "pick_item", "cf2")]
+    assert still_runs(tmp_path / "nowhere") is None
 
 
+@pytest.mark.process
 def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
     """With the last line of its log, and where the rest is."""
 
@@ -214,6 +222,7 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
     played(tmp_path, play)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("code", [0, 9])
 def test_a_gateway_that_says_nothing_does_not_refer_to_its_log(tmp_path: Path, code: int) -> None:
     """It says how it ended instead; and it is not started again and again."""
@@ -226,23 +235,7 @@ def test_a_gateway_that_says_nothing_does_not_refer_to_its_log(tmp_path: Path, c
     played(tmp_path, play)
 
 
-def test_a_gateway_that_hangs_before_it_is_ready_keeps_out_no_other(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """It is ended when no brain waits for it any more."""
-    hangs = (sys.executable, "-c", "import time; time.sleep(1000)")
-
-    async def play(brain: Brain) -> None:
-        with monkeypatch.context() as patch:
-            patch.setattr(starting, "_WITHIN", 0.1)
-            with pytest.raises(BadInput, match="the gateway does not answer"):
-                await connect(tmp_path, settings(), RealTime(), 1, command=hangs)
-        assert starting._STARTED[-1].wait(10) == -signal.SIGKILL
-        await brain.linked()
-
-    played(tmp_path, play)
-
-
+@pytest.mark.long
 def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) -> None:
     """Some rows still have room: not even its log can say so."""
     disk = tmp_path / "disk"
@@ -272,6 +265,7 @@ def test_a_disk_without_room_for_a_gateway_is_said_to_be_full(tmp_path: Path) ->
         assert "disk is full" in one or "cannot be started: [Errno 28] No space left" in one
 
 
+@pytest.mark.long
 def test_a_gateway_that_hangs_is_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """It says nothing any more: it is killed, and another one takes over the world."""
     monkeypatch.setattr(remote, "GATEWAY_TIMEOUT", 1.5)  # it says something each second
@@ -295,12 +289,11 @@ def test_a_folder_that_cannot_be_written_is_said_so(tmp_path: Path) -> None:
     """Before any process is started."""
     (tmp_path / "file").touch()
 
-    async def play(brain: Brain) -> None:
-        brain.folder = tmp_path / "file"
+    async def play(brain: InsideBrain) -> None:
         with pytest.raises(BadInput, match=r"the gateway cannot be started: .*File exists"):
-            await brain.linked()
+            await connect(tmp_path / "file", settings(), brain.kernel, 1)
 
-    played(tmp_path, play)
+    played_inside(tmp_path, play)
 
 
 @pytest.mark.parametrize("arguments", [[], ["--help"], ["a", "b"]])

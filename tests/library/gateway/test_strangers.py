@@ -5,51 +5,35 @@ from __future__ import annotations
 import json
 import os
 import signal
-import socket
 import stat
-from collections.abc import Iterator
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.process import LOG, NOTE
+from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
 from pluto_fleet.gateway.wire import MAX_COMMAND
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.process.ipc import NotRunning, address_in
-from tests.library.gateway.processes import COMMAND, pid
+from tests.library.gateway.processes import COMMAND, InsideBrain, played_inside
 from tests.library.gateway.processes import settings as gateway_settings
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """A gateway that runs as long as the tests do."""
-    folder = tmp_path_factory.mktemp("gateway")
-    process = start(folder, gateway_settings(idle=3600.0), COMMAND)
-    while address_in(folder / NOTE) is None:
-        assert process.poll() is None
-    yield folder
-    process.kill()
-    process.wait()
+def said(folder: Path, *sessions: tuple[bytes, ...]) -> list[list[dict[str, Any]]]:
+    """Say lines to a gateway, each session through a connection of its own; return all answers."""
+    answers: list[list[dict[str, Any]]] = []
 
+    async def play(brain: InsideBrain) -> None:
+        await brain.begins()
+        for lines in sessions:
+            answers.append(await brain.tells(*lines))
 
-def said(folder: Path, *lines: bytes) -> list[dict[str, Any]]:
-    """Say something, hang up, and return all that was answered, but for how the drones look."""
-    address = address_in(folder / NOTE)
-    assert address is not None
-    with socket.socket(socket.AF_UNIX) as wire:
-        wire.settimeout(10)
-        wire.connect(str(address))
-        wire.sendall(b"".join(lines))
-        wire.shutdown(socket.SHUT_WR)
-        told = b""
-        while piece := wire.recv(65536):
-            told += piece
-    answers = [json.loads(answer) for answer in told.splitlines()]
-    return [answer for answer in answers if set(answer) != {"seen"}]
+    played_inside(folder, play)
+    return answers
 
 
 def message(**facts: object) -> bytes:
@@ -60,11 +44,16 @@ def message(**facts: object) -> bytes:
 LINK = message(do="link", epoch=1)
 
 
-def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
+def test_its_socket_is_where_only_its_owner_goes(tmp_path: Path) -> None:
     """The folder around it is closed to all others."""
-    address = address_in(folder / NOTE)
-    assert address is not None
-    assert stat.S_IMODE(address.parent.stat().st_mode) == 0o700
+
+    async def play(brain: InsideBrain) -> None:
+        await brain.begins()
+        address = address_in(tmp_path / NOTE)
+        assert address is not None
+        assert stat.S_IMODE(address.parent.stat().st_mode) == 0o700
+
+    played_inside(tmp_path, play)
 
 
 @pytest.mark.parametrize(
@@ -90,23 +79,26 @@ def test_its_socket_is_where_only_its_owner_goes(folder: Path) -> None:
     ],
 )
 def test_what_makes_no_sense_is_refused_and_logged(
-    folder: Path, lines: tuple[bytes, ...], why: str
+    tmp_path: Path, lines: tuple[bytes, ...], why: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """In words; the client may go on, but for lines without an end."""
-    refusal = said(folder, *lines)[-1]
+    [answers] = said(tmp_path, lines)
+    refusal = answers[-1]
     assert refusal["ok"] is False
     assert why in refusal["said"]
-    assert f"refused: {refusal['said']}" in (folder / LOG).read_text()
+    assert f"refused: {refusal['said']}" in capsys.readouterr().err
 
 
-def test_numbers_that_are_none_move_no_drone(folder: Path) -> None:
+def test_numbers_that_are_none_move_no_drone(tmp_path: Path) -> None:
     """Not a number, or endless: outside the map."""
-    answers = said(
-        folder,
-        LINK,
-        b'{"do": "takeoff", "drone": "cf1", "height": NaN, "n": 1}\n',
-        b'{"do": "go_to", "drone": "cf1", "target": [NaN, 1, 1], "n": 2}\n',
-        b'{"do": "go_to", "drone": "cf1", "target": [1, 1, Infinity], "n": 3}\n',
+    [answers] = said(
+        tmp_path,
+        (
+            LINK,
+            b'{"do": "takeoff", "drone": "cf1", "height": NaN, "n": 1}\n',
+            b'{"do": "go_to", "drone": "cf1", "target": [NaN, 1, 1], "n": 2}\n',
+            b'{"do": "go_to", "drone": "cf1", "target": [1, 1, Infinity], "n": 3}\n',
+        ),
     )
     failed = {answer["n"]: answer["reason"] for answer in answers if "n" in answer}
     assert failed[1] == "nan m is not between the ground and 10 m"
@@ -146,15 +138,14 @@ facts = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=100)
+@settings(max_examples=30)
 @given(st.lists(facts | st.dictionaries(st.text(max_size=5), anything), max_size=6))
-def test_after_any_message_the_gateway_goes_on(
-    folder: Path, messages: list[dict[str, object]]
-) -> None:
+def test_after_any_message_the_gateway_goes_on(messages: list[dict[str, object]]) -> None:
     """Any messages, from a client that has linked."""
-    said(folder, LINK, *(json.dumps(one).encode() + b"\n" for one in messages))
-    assert pid(folder) is not None
-    assert said(folder, LINK)[0].keys() == {"linked"}
+    strange = tuple(json.dumps(one).encode() + b"\n" for one in messages)
+    with TemporaryDirectory() as folder:
+        _, answers = said(Path(folder), (LINK, *strange), (LINK,))
+    assert answers[0].keys() == {"linked"}
 
 
 def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:
@@ -163,6 +154,7 @@ def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:
         stop_directly(tmp_path, Down.LAND, 1)
 
 
+@pytest.mark.long
 def test_it_ends_when_it_is_told_to(tmp_path: Path) -> None:
     """As a system that shuts down tells it."""
     process = start(tmp_path, gateway_settings(patience=0.1), COMMAND)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 from hypothesis import given
+from hypothesis import settings as limited
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.settings import data_of, settings_of
@@ -79,6 +80,7 @@ def test_jobs_arrive_as_they_were(
     assert begun == [id]
 
 
+@limited(max_examples=30)
 @given(
     st.lists(
         st.builds(

@@ -1,12 +1,11 @@
-"""Appends rows to a journal until it cannot, and says on standard output what was acknowledged.
+"""Appends rows to a journal until it is killed, and says on standard output what was acknowledged.
 
-`python -m tests.library.journal.appender J [bytes that the disk has]`
+`python -m tests.library.journal.appender J`
 """
 
 from __future__ import annotations
 
 import json
-import resource
 import sys
 from itertools import count
 from pathlib import Path
@@ -14,8 +13,6 @@ from pathlib import Path
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
-
-WHY = json.dumps([{"t": 0.0, "event": "log", "text": "no room"}])
 
 
 def text(number: int) -> str:
@@ -28,30 +25,19 @@ def say(word: object) -> None:
     print(word, flush=True)
 
 
-def main(path: Path, room: int | None) -> None:
-    """Append until it is ended."""
-    failures: list[JournalError] = []
-    try:
-        store = Store.open(path) if path.exists() else Store.create(path, {"event": "header"})
-        if room is not None:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (room, resource.RLIM_INFINITY))
-        writer = Writer(store, say, failures.append)
-        for number in count(store.seq + 1):
-            writer.add(text(number))
-            if number % 7 == 0:
-                writer.flush()
-            if number % 500 == 0:
-                writer.snapshot(f"state {number}")
-    except JournalError as error:
-        say(error)
-    else:
-        return
-    if failures:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
-        say(f"last words: {store.last_words(WHY)}")
-        writer.close()
-        store.close()
+def fill(writer: Writer, number: int) -> None:
+    """Add a row, and now and then wait for the disk, or keep a snapshot."""
+    writer.add(text(number))
+    if number % 7 == 0:
+        writer.flush()
+    if number % 500 == 0:
+        writer.snapshot(f"state {number}")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else None)
+    path = Path(sys.argv[1])
+    failures: list[JournalError] = []
+    store = Store.open(path) if path.exists() else Store.create(path, {"event": "header"})
+    writer = Writer(store, say, failures.append)
+    for number in count(store.seq + 1):
+        fill(writer, number)

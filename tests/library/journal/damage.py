@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import resource
 import shutil
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
 from pathlib import Path
 
 from pluto_fleet.journal.errors import JournalError
@@ -31,10 +35,22 @@ def written(folder: Path) -> Store:
         store.append(ROWS[first : first + 10])
         if first == 41:
             store.snapshot("state " + "s" * 5_000)
-    store._database.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    with closing(sqlite3.connect(folder / "J")) as other:
+        other.execute("PRAGMA wal_checkpoint(TRUNCATE)")
     for first in range(101, 121, LAST_COMMIT):
         store.append(ROWS[first : first + LAST_COMMIT])
     return store
+
+
+@contextmanager
+def full_disk(most: int = 1) -> Iterator[None]:
+    """Let no file of this process grow beyond so many bytes."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
 def closed(folder: Path) -> dict[str, bytes]:

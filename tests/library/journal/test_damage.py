@@ -47,8 +47,9 @@ def places(length: int, first: int, size: int) -> Iterator[int]:
     """Yield, in every page, places in its head and some that are drawn."""
     chance = Random(length)
     for start in range(first, length, size):
-        drawn = [chance.randrange(size) for _ in range(2)]
-        yield from (start + place for place in (0, 3, 5, 8, *drawn) if start + place < length)
+        for place in (0, 3, 8, chance.randrange(size)):
+            if start + place < length:
+                yield start + place
 
 
 def test_both_are_whole_before_they_are_damaged(
@@ -200,14 +201,18 @@ def test_another_database_is_refused_and_left_as_it_is(tmp_path: Path) -> None:
     assert path.read_bytes() == content
 
 
-def test_a_later_format_is_refused_by_its_number(tmp_path: Path) -> None:
+@pytest.mark.parametrize("version", [VERSION + 1, VERSION + 9])
+def test_another_format_is_refused_by_its_number(tmp_path: Path, version: int) -> None:
     path = tmp_path / "J"
     Store.create(path, HEADER).close()
     database = sqlite3.connect(path)
-    database.execute(f"PRAGMA user_version = {VERSION + 1}")
+    database.execute(f"PRAGMA user_version = {version}")
     database.close()
     for opens in (Store.open, Reader):
-        with pytest.raises(JournalError, match=f"its format is {VERSION + 1}, and this app reads"):
+        with pytest.raises(
+            JournalError,
+            match=f"its format is {version}, and pluto-fleet .* reads {VERSION}: install",
+        ):
             opens(path)
 
 

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -14,13 +15,17 @@ from pluto_fleet.journal import place
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
-from tests.library.journal.appender import WHY, text
+from pluto_fleet.journal.writer import Writer
+from tests.library.journal.appender import fill, text
+from tests.library.journal.damage import full_disk
 from tests.paths import ROOT
 
+WHY = '[{"t": 0.0, "event": "log", "text": "no room"}]'
 
-def appender(*arguments: object) -> subprocess.Popen[str]:
+
+def appender(path: Path) -> subprocess.Popen[str]:
     return subprocess.Popen(
-        [sys.executable, "-m", "tests.library.journal.appender", *map(str, arguments)],
+        [sys.executable, "-m", "tests.library.journal.appender", str(path)],
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT / "runtime")},
         stdout=subprocess.PIPE,
@@ -41,26 +46,13 @@ def rows_of(path: Path, *, torn: bool = False) -> list[str]:
     return rows
 
 
-@pytest.fixture
-def small_disk(tmp_path: Path) -> Iterator[Path]:
-    """A file system of 2 MiB of its own."""
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    mounted = subprocess.run(
-        ["mount", "-t", "tmpfs", "-o", "size=2m", "tmpfs", disk], capture_output=True, check=False
-    )
-    if mounted.returncode != 0:
-        pytest.skip("a file system can be mounted here by root alone")
-    yield disk
-    subprocess.run(["umount", disk], check=True)
-
-
+@pytest.mark.process
 def test_nothing_that_was_acknowledged_is_lost_by_a_kill(tmp_path: Path) -> None:
     path, durable = tmp_path / "J", 0
-    for kill in range(6):
+    for kill in range(3):
         process = appender(path)
         assert process.stdout is not None
-        for _ in range(3 + 9 * kill):
+        for _ in range(3 + 20 * kill):
             durable = int(process.stdout.readline())
         process.kill()
         said = process.communicate()[0].splitlines()
@@ -69,108 +61,80 @@ def test_nothing_that_was_acknowledged_is_lost_by_a_kill(tmp_path: Path) -> None
         assert len(rows) >= durable
         assert rows == [text(number) for number in range(1, len(rows) + 1)]
     store = Store.open(path)
-    assert store.epoch == 7
+    assert store.epoch == 4
     store.close()
 
 
-def full(process: subprocess.Popen[str], path: Path) -> list[str]:
-    """Return what an appender said when its disk was full; assert what holds then."""
-    lines = process.communicate()[0].splitlines()
-    assert process.returncode == 0
-    *numbers, why, words = lines
-    durable = int(numbers[-1]) if numbers else 0
-    rows = rows_of(path, torn=True)
-    assert rows[:durable] == [text(number) for number in range(1, durable + 1)]
-    written = len(rows) - (rows[-1:] == [WHY])
-    assert rows[:written] == [text(number) for number in range(1, written + 1)]
-    assert f"{path}: the journal cannot be written: " in why
-    assert f"What was written before, {written} rows, is safe" in why
-    assert not place.beside(path, ".reserve").exists()
-    return [why, words]
-
-
+@pytest.mark.parametrize("room", [60_000, 300_000, 1_000_000])
 def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
-    small_disk: Path,
+    room: int, tmp_path: Path
 ) -> None:
-    path = small_disk / "J"
-    why, words = full(appender(path), path)
-    assert "the disk is full" in why
-    assert words == "last words: True"
-    assert rows_of(path, torn=True)[-1] == WHY
-
-
-def test_on_a_disk_that_is_almost_full_no_part_of_a_journal_is_made(small_disk: Path) -> None:
-    filler = small_disk / "filler"
-    for left in (0, 8_192, 100_000, 280_000, 310_000):
-        facts = os.statvfs(small_disk)
-        filler.write_bytes(b"x" * (facts.f_bavail * facts.f_frsize - left))
-        with pytest.raises(JournalError, match=r"the journal cannot be (made|opened): the disk"):
-            Store.create(small_disk / "J", {})
-        assert os.listdir(small_disk) == ["filler"]
-        filler.unlink()
-    Store.create(small_disk / "J", {}).close()
-
-
-def test_where_files_may_not_grow_nothing_is_acknowledged_either(tmp_path: Path) -> None:
-    for room in (60_000, 300_000, 1_000_000):
-        path = tmp_path / f"J{room}"
-        why, words = full(appender(path, room), path)
-        assert "the disk" in why
-        assert words == "last words: True"
-
-
-def test_a_journal_goes_on_once_there_is_room_again(tmp_path: Path) -> None:
-    path = tmp_path / "J"
-    full(appender(path, 200_000), path)
-    before = len(rows_of(path, torn=True))
+    """Once there is room again, the journal goes on."""
+    path, told, failures = tmp_path / "J", [0], list[JournalError]()
+    store = Store.create(path, {"event": "header"})
+    writer = Writer(store, told.append, failures.append)
+    with full_disk(room), pytest.raises(JournalError):
+        for number in count(1):
+            fill(writer, number)
+    assert store.last_words(WHY)
+    writer.close()
+    store.close()
+    *rows, last = rows_of(path, torn=True)
+    assert last == WHY
+    assert told[-1] <= len(rows)
+    assert rows == [text(number) for number in range(1, len(rows) + 1)]
+    why = str(failures[0])
+    assert why.startswith(f"{path}: the journal cannot be written: the disk")
+    assert f"What was written before, {len(rows)} rows, is safe" in why
+    assert not place.beside(path, ".reserve").exists()
     store = Store.open(path)
     store.append(['["more"]'])
     store.close()
-    assert len(rows_of(path)) == before + 1
+    assert rows_of(path) == [*rows, WHY, '["more"]']
 
 
-def test_two_processes_never_write_one_journal(tmp_path: Path) -> None:
+@pytest.mark.parametrize("room", [1, 8_192, 100_000, 256 * 1024 - 1])
+def test_where_there_is_too_little_room_no_part_of_a_journal_is_made(
+    room: int, tmp_path: Path
+) -> None:
     path = tmp_path / "J"
-    store = Store.create(path, {})
-    said = appender(path).communicate()[0]
-    assert said.startswith(f"{path}: process {os.getpid()} is writing this journal, and only one")
-    store.close()
+    with full_disk(room), pytest.raises(JournalError, match="cannot be made: the disk"):
+        Store.create(path, {})
+    assert os.listdir(tmp_path) == []
+    Store.create(path, {}).close()
+    with full_disk(room), pytest.raises(JournalError, match="cannot be opened: the disk"):
+        Store.open(path)
+    assert os.listdir(tmp_path) == ["J"]
 
 
 @pytest.fixture
-def read_only(tmp_path: Path) -> Iterator[Path]:
-    """A folder in which nothing can be written, with a journal whose app was killed."""
-    folder = tmp_path / "folder"
-    folder.mkdir()
-    root = os.geteuid() == 0
-    if root:
-        mount = ["mount", "-t", "tmpfs", "tmpfs", str(folder)]
-        if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
-            pytest.skip("root may write everywhere, and no file system can be mounted here")
-    process = appender(folder / "J")
+def mounted(tmp_path: Path) -> Iterator[Path]:
+    """A file system of its own."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+        pytest.skip("a file system can be mounted here by root alone")
+    yield disk
+    subprocess.run(["umount", disk], check=True)
+
+
+@pytest.mark.long
+def test_in_a_folder_that_may_only_be_read_a_journal_is_read_and_nothing_else(
+    mounted: Path,
+) -> None:
+    """Of an app that was killed: its log is still there."""
+    process = appender(mounted / "J")
     assert process.stdout is not None
     process.stdout.readline()
     process.kill()
     process.communicate()
-    (folder / "J-shm").unlink()
-    if root:
-        subprocess.run(["mount", "-o", "remount,ro", folder], check=True)
-    else:
-        folder.chmod(0o555)
-    yield folder
-    if root:
-        subprocess.run(["umount", folder], check=True)
-    else:
-        folder.chmod(0o755)
-
-
-def test_in_a_folder_that_may_only_be_read_a_journal_is_read_and_nothing_else(
-    read_only: Path,
-) -> None:
-    assert rows_of(read_only / "J")
+    (mounted / "J-shm").unlink()
+    subprocess.run(["mount", "-o", "remount,ro", mounted], check=True)
+    assert rows_of(mounted / "J")
     with pytest.raises(
         JournalError, match=r"cannot be made: .*; name another place with --journal"
     ):
-        Store.create(read_only / "another", {})
+        Store.create(mounted / "another", {})
     with pytest.raises(JournalError, match="the journal cannot be opened"):
-        Store.open(read_only / "J")
+        Store.open(mounted / "J")

@@ -9,9 +9,12 @@ import pytest
 from pluto_fleet.cli import main
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.mending import mend
+from pluto_fleet.journal.salvage import salvage
 from pluto_fleet.journal.store import Store
 from tests.library.files.an_app import APP
 from tests.library.journal.damage import HEADER, ROWS, closed, killed
+
+PAGE = 4096
 
 
 def texts(path: Path) -> list[str]:
@@ -53,6 +56,38 @@ def test_rows_after_a_gap_are_left_out_and_counted(tmp_path: Path) -> None:
     assert store.epoch > epoch
     store.append(["[]"])
     store.close()
+
+
+@pytest.mark.parametrize("newer_is_in_the_log", [True, False])
+def test_of_two_rows_of_one_number_the_later_epoch_counts(
+    tmp_path: Path, newer_is_in_the_log: bool
+) -> None:
+    """One was torn off by a crash, and another was written in its place: wherever each is found."""
+    files = []
+    for lives in (1, 2):
+        path = tmp_path / f"{lives}"
+        store = Store.create(path, HEADER)
+        for _ in range(1, lives):
+            store.close()
+            store = Store.open(path)
+        store.append([f'["life {lives}"]'])
+        store.close()
+        files.append(path.read_bytes())
+    older, newer = files
+    content, logged = (older, newer) if newer_is_in_the_log else (newer, older)
+    path = tmp_path / "J"
+    path.write_bytes(content)
+    (tmp_path / "J-wal").write_bytes(log_of(logged))
+    assert [(row.seq, row.text) for row in salvage(path, 0)] == [(1, '["life 2"]')]
+
+
+def log_of(content: bytes) -> bytes:
+    """Return a write-ahead log with all pages of a journal."""
+    starts = range(0, len(content), PAGE)
+    pages = [
+        (at // PAGE + 1).to_bytes(4, "big") + bytes(20) + content[at : at + PAGE] for at in starts
+    ]
+    return bytes(32) + b"".join(pages)
 
 
 def test_a_sound_journal_is_left_as_it_is(tmp_path: Path) -> None:

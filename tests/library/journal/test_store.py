@@ -5,8 +5,11 @@ from __future__ import annotations
 import gc
 import json
 import os
+import sqlite3
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
+from typing import Any, ClassVar
 
 import pytest
 
@@ -17,6 +20,9 @@ from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
 
 HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}
+
+FULL = 2
+"""Of SQLite's `synchronous`: a commit returns when the disk has it."""
 
 
 def row(number: int) -> str:
@@ -46,6 +52,32 @@ def test_what_was_appended_is_read_in_another_life(store: Store, place: Path) ->
     ]
     assert (read.damaged, read.snapshot, again.header) == (None, None, HEADER)
     again.close()
+
+
+class Watched(sqlite3.Connection):
+    """A database that notes whether it waits for the disk when it commits."""
+
+    waits: ClassVar[list[bool]] = []
+
+    def execute(self, sql: str, /, *parameters: Any) -> sqlite3.Cursor:
+        """Execute a statement."""
+        if sql == "COMMIT":
+            (mode,) = super().execute("PRAGMA synchronous").fetchone()
+            self.waits.append(mode >= FULL)
+        return super().execute(sql, *parameters)
+
+
+def test_all_that_is_committed_is_on_the_disk_by_then(
+    place: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A row that was acknowledged, the header, and each epoch: the power may fail right after."""
+    Watched.waits.clear()
+    monkeypatch.setattr(sqlite3, "connect", partial(sqlite3.connect, factory=Watched))
+    store = Store.create(place, HEADER)
+    store.append([row(1)])
+    store.snapshot("state")
+    store.close()
+    assert Watched.waits == [True] * 4
 
 
 def test_the_epoch_grows_at_each_opening_even_if_nothing_is_written(place: Path) -> None:

@@ -10,6 +10,7 @@ import pytest
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
+from tests.library.journal.damage import full_disk
 
 
 def row(number: int) -> str:
@@ -63,10 +64,10 @@ def test_after_a_failure_no_row_is_ever_called_durable(store: Store) -> None:
     writer = Writer(store, told.append, failures.append)
     writer.add(row(1))
     writer.flush()
-    store._database.execute("PRAGMA query_only = ON")  # as if the disk took no more
-    writer.add(row(2))
-    with pytest.raises(JournalError, match="cannot be written"):
-        writer.flush()
+    with full_disk():
+        writer.add(row(2))
+        with pytest.raises(JournalError, match="cannot be written"):
+            writer.flush()
     writer.add(row(3))
     with pytest.raises(JournalError):
         writer.flush()

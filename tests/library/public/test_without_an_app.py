@@ -49,6 +49,7 @@ def program(tmp_path_factory: pytest.TempPathFactory) -> tuple[str, ...]:
     return installed(tmp_path_factory.mktemp("site"))
 
 
+@pytest.mark.process
 def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ...]) -> None:
     """By the author of a navigation, for one: it is the library's own brain that they share."""
     code = (
@@ -72,11 +73,13 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
     assert home == f"{folder}/pluto_fleet/shared/domain/errors.py"
 
 
+@pytest.mark.long
 def test_the_program_says_its_version(program: tuple[str, ...]) -> None:
     done = subprocess.run([*program, "--version"], capture_output=True, text=True, check=True)
     assert done.stdout.endswith("\nextras: not installed: areas, crazyflie, plot, station\n")
 
 
+@pytest.mark.long
 def test_the_gateway_flies_from_its_settings_alone(
     program: tuple[str, ...], tmp_path: Path
 ) -> None:
@@ -92,6 +95,7 @@ def test_the_gateway_flies_from_its_settings_alone(
     assert "the gateway ends" in (tmp_path / LOG).read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_simulated_crazyflies_need_no_app(program: tuple[str, ...], tmp_path: Path) -> None:
     homes = {"cf1": (1.0, 1.0, 0.0), "cf2": (2.0, 1.0, 0.0)}
     try:
@@ -109,6 +113,7 @@ def test_both_are_the_library_s_own_processes() -> None:
     assert (command[0], command[-4:]) == (sys.executable, [home, "pluto_fleet", home, "gateway"])
 
 
+@pytest.mark.long
 def test_a_navigation_in_an_app_s_own_package_is_found(tmp_path: Path) -> None:
     """Also where the app is not installed: the gateway looks where the app was found."""
     home = compiled(APP, tmp_path) / "src"

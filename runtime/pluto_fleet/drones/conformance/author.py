@@ -46,6 +46,9 @@ class Author:
     together = False
     """Whether the flights may run concurrently, as with simulated drones."""
 
+    loop_factory: Callable[[], asyncio.AbstractEventLoop] | None = None
+    """What makes the event loops on which to fly: one of a simulator whose time is not the clock's."""
+
     # Provided by the author
 
     def make(self) -> DroneNavigation:
@@ -82,7 +85,8 @@ class Author:
             all_of_it = self._flights()
             at_once = self.together and name != "tour"
             wanted = [one for one in all_of_it if one != "tour"] if at_once else [name]
-            flown.update(asyncio.run(_flying({one: all_of_it[one] for one in wanted})))
+            with asyncio.Runner(loop_factory=self.loop_factory) as runner:
+                flown.update(runner.run(_flying({one: all_of_it[one] for one in wanted})))
         return flown[name]
 
     def _flights(self) -> Mapping[str, _Flight]:

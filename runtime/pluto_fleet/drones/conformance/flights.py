@@ -6,7 +6,6 @@ A command that raises ends a flight, which then lands and closes; it is recorded
 from __future__ import annotations
 
 import asyncio
-import time
 from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from functools import partial
@@ -44,6 +43,11 @@ class Subject(Protocol):
         ...
 
 
+def now() -> float:
+    """Return the time, as the loop knows it: `time.monotonic()`, on an ordinary one."""
+    return asyncio.get_running_loop().time()
+
+
 class Ended(Exception):
     """A command has failed, which ends the flight."""
 
@@ -59,7 +63,7 @@ class Flight:
     def look(self) -> Sample:
         """Take a sample of the drone."""
         told, true = self.navigation.telemetry, self.subject.truth(self.navigation)
-        sample = Sample(at=time.monotonic(), during=self.during, telemetry=told, truth=true)
+        sample = Sample(at=now(), during=self.during, telemetry=told, truth=true)
         self.record.samples.append(sample)
         return sample
 
@@ -69,7 +73,7 @@ class Flight:
         """Run a command with a time-out, and record how it ended."""
         self.during = name
         step = Step(
-            name=name, began=time.monotonic(), ended=0.0, before=(first := self.look()), after=first
+            name=name, began=now(), ended=0.0, before=(first := self.look()), after=first
         )
         try:
             async with asyncio.timeout(limit) as timer:
@@ -79,7 +83,7 @@ class Flight:
             step.error = TimeoutError(f"not over after {limit:.1f} s") if expired else error
         except _MISTAKES as error:
             step.error = error
-        step.ended, step.after = time.monotonic(), self.look()
+        step.ended, step.after = now(), self.look()
         self.record.steps[name] = step
         self.during = f"after {name}"
         return step

@@ -34,7 +34,7 @@ class Sample:
     """One sample of a drone."""
 
     at: float
-    """`time.monotonic()`."""
+    """By the loop's time, which is `time.monotonic()`."""
     during: str
     """The name of the step."""
     telemetry: DroneTelemetry

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Coroutine as Call
 from itertools import combinations
 from math import dist, inf
 from random import Random
-from typing import Any
+from typing import Any, TypeVar
 
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.shared.alone.faults import Faults
@@ -22,6 +23,8 @@ from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.library.gateway.flights import Task
+
+T = TypeVar("T")
 
 ENDURING = Category(name="enduring", speed=0.5, flight_time=1e6, charge_time=1.0)
 """A drone whose battery ends no wait for the others."""
@@ -115,6 +118,19 @@ class Sky:
         )
         self.link.fly(job, over.set)
         return await over
+
+    def gives(self, drone: str, *stops: Point, item: Item | None = None) -> Coroutine[object]:
+        """Give a drone a job, as a brain does in the middle of other things."""
+        job = self.fly(drone, *stops, item=item)
+        return self.kernel.spawn(job, FLEET + 50, f"{drone} is given a job")
+
+    def sends(self, command: Call[Any, Any, T]) -> Coroutine[T]:
+        """Begin a command."""
+        return self.kernel.spawn(command, FLEET, "a command")
+
+    def at(self, drone: str) -> Point:
+        """Return where a drone is."""
+        return self.navigation.telemetry[drone].location
 
     async def goes_home(self, drone: str) -> None:
         """Let a drone return as the fleet does it: one command after the other."""

@@ -19,7 +19,8 @@ from pluto_fleet.shared.domain.actions import PHOTO
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
-from pluto_fleet.shared.time.kernel import FLEET, Task
+from pluto_fleet.shared.time.kernel import FLEET
+from tests.kit.draws import draws
 from tests.library.gateway.flights import PILLS
 from tests.library.gateway.flights import Task as Job
 from tests.library.gateway.traffic.skies import Sky
@@ -31,16 +32,6 @@ OPEN, LOW = Airspace(), Airspace(ceiling=1.3)
 WALLED = Airspace(no_fly=(WALL,))
 CORNER = Airspace(size=(10.0, 5.0))
 PLACES = {"open": OPEN, "low": LOW, "walled": WALLED, "at the edge": CORNER}
-
-
-def gives(sky: Sky, drone: str, target: Point = SPOT) -> Task[object]:
-    """Give a drone a job."""
-    return sky.kernel.spawn(sky.fly(drone, target), FLEET + 50, f"{drone} is given a job")
-
-
-def at(sky: Sky, drone: str) -> Point:
-    """Return where a drone is."""
-    return sky.navigation.telemetry[drone].location
 
 
 def hears(sky: Sky) -> list[Mapping[str, object]]:
@@ -55,12 +46,12 @@ def hears(sky: Sky) -> list[Mapping[str, object]]:
 def test_some_at_one_spot_take_hardly_longer_than_one(count: int, slack: float) -> None:
     """Each is nowhere nearer to another than it may be, and at the height of the target."""
     alone = Sky(DOCKS, slack=slack)
-    assert alone.until(gives(alone, "cf1"), 60)
+    assert alone.until(alone.gives("cf1", SPOT), 60)
     sky = Sky(DOCKS, slack=slack)
-    jobs = [gives(sky, f"cf{n + 1}") for n in range(count)]
+    jobs = [sky.gives(f"cf{n + 1}", SPOT) for n in range(count)]
     assert all(sky.until(job, 60) for job in jobs)
     assert sky.kernel.now <= 1.25 * alone.kernel.now
-    places = [at(sky, f"cf{n + 1}") for n in range(count)]
+    places = [sky.at(f"cf{n + 1}") for n in range(count)]
     assert places[0] == SPOT
     assert all(place[2] == SPOT[2] for place in places)
     assert min(dist(a, b) for a, b in combinations(places, 2)) >= sky.apart + slack - 1e-6
@@ -72,9 +63,9 @@ def test_a_dozen_find_room_around_one_spot() -> None:
     """From all sides, while none of them leaves."""
     homes = [(x, y) for x in (1.0, 3.5, 6.5, 9.0) for y in (1.0, 5.0, 9.0)]
     sky = Sky(homes)
-    jobs = [gives(sky, drone.id) for drone in sky.drones]
+    jobs = [sky.gives(drone.id, SPOT) for drone in sky.drones]
     assert all(sky.until(job, 90) for job in jobs)
-    assert max(dist(at(sky, drone.id), SPOT) for drone in sky.drones) <= FURTHEST * sky.apart + 1e-6
+    assert max(dist(sky.at(drone.id), SPOT) for drone in sky.drones) <= FURTHEST * sky.apart + 1e-6
     assert sky.nearest >= sky.apart - 1e-6
 
 
@@ -82,10 +73,10 @@ def test_it_is_told_where_an_action_is_done_beside_its_target() -> None:
     """With the flight that it is done for, and not of the one that has the place."""
     sky = Sky(DOCKS[:2])
     told = hears(sky)
-    jobs = [gives(sky, "cf1"), gives(sky, "cf2")]
+    jobs = [sky.gives("cf1", SPOT), sky.gives("cf2", SPOT)]
     assert all(sky.until(job, 60) for job in jobs)
     [one] = told
-    place = [round(along, 3) for along in at(sky, "cf2")]
+    place = [round(along, 3) for along in sky.at("cf2")]
     assert one == {
         "drone": "cf2",
         "what": BESIDE,
@@ -99,15 +90,16 @@ def test_it_is_told_where_an_action_is_done_beside_its_target() -> None:
 def test_a_brain_that_comes_while_the_action_is_done_is_told_once_more() -> None:
     """The one before may have died before it could write it down."""
     sky = Sky(DOCKS[:2])
-    assert sky.until(gives(sky, "cf1"), 60)
+    assert sky.until(sky.gives("cf1", SPOT), 60)
     first = hears(sky)
     photo = Job(id="M/A/0/1", drone="cf2", stops=(SPOT,), action=PHOTO, item=None, beside=True)
     sky.link.fly(photo, lambda _: None)
     while not first:
         sky.advance(0.1)
+        assert sky.kernel.now < 120
     sky.link = sky.gateway.link(2)
     second, reported = hears(sky), list[object]()
-    there = sky.kernel.spawn(sky.link.fleet_report(), FLEET, "another brain asks for all")
+    there = sky.sends(sky.link.fleet_report())
     assert sky.until(there, 1)
     sky.link.attach("M/A/0/1", reported.append)
     sky.advance(2)
@@ -122,28 +114,28 @@ def test_who_only_passes_through_a_place_does_not_have_it() -> None:
     """The other waits for a moment, and acts just where it was told to."""
     sky = Sky([(1.0, 5.0), (5.0, 1.0)], airspace=LOW)
     told = hears(sky)
-    jobs = [gives(sky, "cf1", (9.0, 5.0, 1.2)), gives(sky, "cf2")]
+    jobs = [sky.gives("cf1", (9.0, 5.0, 1.2)), sky.gives("cf2", SPOT)]
     assert all(sky.until(job, 60) for job in jobs)
-    assert at(sky, "cf2") == SPOT
+    assert sky.at("cf2") == SPOT
     assert told == []
 
 
 def test_where_the_place_is_taken_only_in_part_it_is_done_as_near_as_can_be() -> None:
     """The other hovers 30 cm beside: 25 cm to the other side are enough."""
     sky = Sky([(5.0, 1.0), (5.0, 9.0)])
-    assert sky.until(gives(sky, "cf1", (5.0, 4.7, 1.2)), 60)
-    assert sky.until(gives(sky, "cf2"), 60)
-    assert dist(at(sky, "cf2"), SPOT) == pytest.approx(0.25)
+    assert sky.until(sky.gives("cf1", (5.0, 4.7, 1.2)), 60)
+    assert sky.until(sky.gives("cf2", SPOT), 60)
+    assert dist(sky.at("cf2"), SPOT) == pytest.approx(0.25)
     assert sky.nearest >= sky.apart - 1e-6
 
 
 def test_nothing_forbidden_is_between_a_target_and_the_place_beside_it() -> None:
     """What is behind a wall cannot be seen from there."""
     sky = Sky(DOCKS, airspace=WALLED)
-    jobs = [gives(sky, f"cf{n + 1}") for n in range(4)]
+    jobs = [sky.gives(f"cf{n + 1}", SPOT) for n in range(4)]
     assert all(sky.until(job, 90) for job in jobs)
     for n in range(4):
-        assert leg_problem(WALLED, SPOT, at(sky, f"cf{n + 1}")) is None
+        assert leg_problem(WALLED, SPOT, sky.at(f"cf{n + 1}")) is None
     assert sky.nearest >= sky.apart - 1e-6
 
 
@@ -157,8 +149,8 @@ def test_where_the_map_leaves_no_place_around_there_is_one_above() -> None:
     airspace = Airspace(no_fly=shaft)
     sky = Sky([(5.0, 1.0), (6.0, 1.0), (7.0, 1.0), (8.0, 1.0)], airspace=airspace)
     for n in range(4):
-        assert sky.until(gives(sky, f"cf{n + 1}"), 90)
-    places = [at(sky, f"cf{n + 1}") for n in range(4)]
+        assert sky.until(sky.gives(f"cf{n + 1}", SPOT), 90)
+    places = [sky.at(f"cf{n + 1}") for n in range(4)]
     assert places[0] == SPOT
     assert dist(places[1], SPOT) == pytest.approx(sky.apart)
     assert [place[2] for place in places[:2]] == [SPOT[2]] * 2
@@ -169,18 +161,18 @@ def test_where_the_map_leaves_no_place_around_there_is_one_above() -> None:
 def test_they_land_where_they_are_as_before() -> None:
     """None on another, and none in another's way."""
     sky = Sky(DOCKS)
-    jobs = [gives(sky, f"cf{n + 1}") for n in range(3)]
+    jobs = [sky.gives(f"cf{n + 1}", SPOT) for n in range(3)]
     assert all(sky.until(job, 60) for job in jobs)
     lands = [sky.kernel.spawn(sky.link.land(f"cf{n + 1}"), FLEET + n, "it lands") for n in range(3)]
     assert all(sky.until(land, 60) for land in lands)
-    places = [at(sky, f"cf{n + 1}") for n in range(3)]
+    places = [sky.at(f"cf{n + 1}") for n in range(3)]
     assert all(z == 0.0 for _, _, z in places)
     assert min(dist(a, b) for a, b in combinations(places, 2)) >= sky.apart - 1e-6
 
 
 @pytest.mark.parametrize("slack", [0.0, CRAZYFLIE.slack])
 @pytest.mark.parametrize("where", PLACES)
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", draws(1, 6))
 def test_a_crowd_at_a_few_spots_neither_hangs_nor_comes_too_near(
     seed: int, where: str, slack: float
 ) -> None:
@@ -197,7 +189,7 @@ def test_a_crowd_at_a_few_spots_neither_hangs_nor_comes_too_near(
             target = chance.choice(spots)
             await sky.fly(drone, target, item=item)
             if item is not None:
-                assert at(sky, drone) == pytest.approx(target)
+                assert sky.at(drone) == pytest.approx(target)
             await sky.pause(chance.choice([0.0, 1.0, 20.0]))
             if chance.random() < 0.3:
                 await sky.link.land(drone)

@@ -43,12 +43,12 @@ def test_no_leg_leads_through_a_no_fly_area(apart: float) -> None:
     sky.puts((2, 5, 1.2))
     reason = "the straight way from (2, 5) to (8, 5) leads through no-fly area 1"
     assert said(sky, "cf1", (8, 5, 1.2)) == reason
-    assert sky.navigation.telemetry["cf1"].location == (2, 5, 1.2)
+    assert sky.at("cf1") == (2, 5, 1.2)
     assert said(sky, "cf1", (2, 9, 1.2)) == ""
     assert said(sky, "cf1", (8, 9, 1.2)) == ""
     job = sky.kernel.spawn(sky.fly("cf1", (2, 5, 1.2)), FLEET + 1, "job")  # goes around it
     assert sky.until(job, 60)
-    assert (job.result(), sky.navigation.telemetry["cf1"].location) == (None, (2, 5, 1.2))
+    assert (job.result(), sky.at("cf1")) == (None, (2, 5, 1.2))
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_who_has_drifted_out_flies_back_in(apart: float, place: tuple[float, flo
         else:
             down = sky.kernel.spawn(sky.link.land("cf1"), FLEET + 1, what)
             assert sky.until(down, 60)
-        assert WALL.problem(sky.navigation.telemetry["cf1"].location) is None
+        assert WALL.problem(sky.at("cf1")) is None
 
 
 @given(st.tuples(st.floats(-2, 12), st.floats(-2, 12), st.floats(-1, 4)))

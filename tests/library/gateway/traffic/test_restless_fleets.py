@@ -11,13 +11,10 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
-from pluto_fleet.shared.time.kernel import FLEET
+from tests.kit.draws import draws
 from tests.library.gateway.traffic.skies import ENDURING, Restless, Sky, is_home
 from traffic import APART, flown, measured
 from traffic import crossings as crossing
-
-CASES = 40
-
 
 UNEVEN = replace(ENDURING, motion=replace(CRAZYFLIE, spread=0.3, action_spread=0.3))
 """Drones that fly like Crazyflies, but seldom take what was expected."""
@@ -50,10 +47,8 @@ def sky_of(chance: Random, category: Category = ENDURING) -> tuple[Sky, list[Poi
     return sky, targets
 
 
-@pytest.mark.parametrize(
-    ("seed", "category"),
-    [(seed, ENDURING) for seed in range(CASES)] + [(seed, UNEVEN) for seed in range(CASES // 4)],
-)
+@pytest.mark.parametrize("category", [ENDURING, UNEVEN], ids=["enduring", "uneven"])
+@pytest.mark.parametrize("seed", draws(6, 40))
 def test_every_flight_ends_and_none_comes_too_near(seed: int, category: Category) -> None:
     """Drones fail in flight, targets are the same, ceilings low, and few may be in the air."""
     chance = Random(seed)
@@ -66,10 +61,8 @@ def test_every_flight_ends_and_none_comes_too_near(seed: int, category: Category
     sky.kernel.close()
 
 
-@pytest.mark.parametrize(
-    ("seed", "category"),
-    [(seed, ENDURING) for seed in range(CASES // 2)] + [(seed, UNEVEN) for seed in range(10)],
-)
+@pytest.mark.parametrize("category", [ENDURING, UNEVEN], ids=["enduring", "uneven"])
+@pytest.mark.parametrize("seed", draws(6, 20))
 def test_a_stop_in_between_brings_all_down(seed: int, category: Category) -> None:
     """In the middle of anything; who is well and can get home is home, if that was asked for."""
     chance = Random(1000 + seed)
@@ -77,7 +70,7 @@ def test_a_stop_in_between_brings_all_down(seed: int, category: Category) -> Non
     Restless(sky, seed, targets, 3, 0.0).begin()
     sky.advance(chance.uniform(1, 60))
     how = chance.choice([Down.LAND, Down.HOME])
-    down = sky.kernel.spawn(sky.link.bring_down(how), FLEET, "down")
+    down = sky.sends(sky.link.bring_down(how))
     assert sky.until(down, 500)
     assert sky.nearest >= sky.apart - 1e-6
     assert all(sky.navigation.telemetry[drone.id].landed for drone in sky.drones)
@@ -86,10 +79,7 @@ def test_a_stop_in_between_brings_all_down(seed: int, category: Category) -> Non
     sky.kernel.close()
 
 
-@pytest.mark.parametrize(("runs", "drones"), [(60, 2), (6, 10)])
-def test_trips_that_cross_keep_apart(runs: int, drones: int) -> None:
+def test_trips_that_cross_keep_apart() -> None:
     """No two drones come nearer; without a distance some would."""
-    assert measured(runs, drones, 10.0).nearest >= APART - 1e-6
-    assert any(
-        flown(*crossing(seed, drones, 10.0), 10.0, 0.0).nearest < APART for seed in range(runs)
-    )
+    assert measured(6, 10, 10.0).nearest >= APART - 1e-6
+    assert any(flown(*crossing(seed, 10, 10.0), 10.0, 0.0).nearest < APART for seed in range(6))

@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.domain.model import Item, Point
+from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.library.gateway.flights import PILLS
@@ -19,21 +19,10 @@ LOW = Airspace(ceiling=1.3)
 """So low that no drone can go over another."""
 
 
-def gives(sky: Sky, drone: str, *stops: Point, item: Item | None = None) -> Task[object]:
-    """Give a drone a job; an item is picked just there, and nowhere beside."""
-    job = sky.fly(drone, *stops, item=item)
-    return sky.kernel.spawn(job, FLEET + 50, f"{drone} is given a job")
-
-
-def at(sky: Sky, drone: str) -> Point:
-    """Return where a drone is."""
-    return sky.navigation.telemetry[drone].location
-
-
 def test_one_of_two_that_cross_goes_over_the_other() -> None:
     """Both leave at once, and neither waits."""
     sky = Sky([(1, 5), (5, 1)])
-    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    jobs = sky.gives("cf1", (9, 5, 1.2)), sky.gives("cf2", (5, 9, 1.2))
     assert all(sky.until(job, 24) for job in jobs)
     assert sky.nearest >= APART - 1e-6
     assert sky.navigation.flown("cf1") == pytest.approx(9.2)
@@ -43,12 +32,12 @@ def test_one_of_two_that_cross_goes_over_the_other() -> None:
 def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed() -> None:
     """What lies behind a drone is free: it need not have arrived."""
     sky = Sky([(1, 5), (5, 1)], airspace=LOW)
-    first, second = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    first, second = sky.gives("cf1", (9, 5, 1.2)), sky.gives("cf2", (5, 9, 1.2))
     sky.advance(10)
-    assert at(sky, "cf2") == (5, 1, 0)
+    assert sky.at("cf2") == (5, 1, 0)
     assert not first.is_set
     sky.advance(4)
-    assert at(sky, "cf2")[2] > 0
+    assert sky.at("cf2")[2] > 0
     assert not first.is_set
     assert sky.until(second, 30)
     assert sky.nearest >= APART - 1e-6
@@ -57,9 +46,9 @@ def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed(
 def test_of_two_jobs_of_one_instant_the_first_that_was_given_goes_first() -> None:
     """As those of a brain in another process do, which come one by one."""
     sky = Sky([(1, 5), (5, 1)], airspace=LOW)
-    second, first = gives(sky, "cf2", (5, 9, 1.2)), gives(sky, "cf1", (9, 5, 1.2))
+    second, first = sky.gives("cf2", (5, 9, 1.2)), sky.gives("cf1", (9, 5, 1.2))
     sky.advance(10)
-    assert (at(sky, "cf1"), at(sky, "cf2")[2] > 0) == ((1, 5, 0), True)
+    assert (sky.at("cf1"), sky.at("cf2")[2] > 0) == ((1, 5, 0), True)
     assert all(sky.until(job, 40) for job in (second, first))
 
 
@@ -68,17 +57,17 @@ def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
     sky = Sky([(5, 5), (1, 5)], airspace=Airspace(ceiling=2.0), slack=CRAZYFLIE.slack)
     sky.put("cf1", (5, 5, 1.24))
     sky.link = sky.another().link(sky.epoch)
-    assert sky.until(gives(sky, "cf2", (9, 5, 1.2)), 40)
+    assert sky.until(sky.gives("cf2", (9, 5, 1.2)), 40)
     assert sky.nearest >= APART + CRAZYFLIE.slack - 1e-6
 
 
 def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:
     """Nothing else helps where an item is to be picked."""
     sky = Sky([(1, 1), (9, 1)])
-    first, second = gives(sky, "cf1", (5, 5, 1.2)), gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
+    first, second = sky.gives("cf1", (5, 5, 1.2)), sky.gives("cf2", (5, 5, 1.2), item=PILLS)
     assert sky.until(first, 60)
     assert not sky.until(second, 60)
-    home = sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "cf1 goes home")
+    home = sky.sends(sky.goes_home("cf1"))
     assert sky.until(second, 60)
     assert sky.until(home, 60)
     assert sky.nearest >= APART - 1e-6
@@ -91,7 +80,7 @@ def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
 
     async def there_and_home(drone: str, target: Point) -> Point:
         assert await sky.fly(drone, target, item=PILLS) is None
-        reached = at(sky, drone)
+        reached = sky.at(drone)
         await sky.goes_home(drone)
         return reached
 
@@ -106,17 +95,17 @@ def test_two_that_hover_in_each_others_way_do_not_wait_for_ever() -> None:
 def test_no_drone_lands_on_another() -> None:
     """Nor in another's dock; in its own it may, beside one that stands there."""
     sky = Sky([(1, 1), (1.3, 1), (5, 5)])
-    jobs = [gives(sky, "cf2", (5, 5, 1.2)), gives(sky, "cf1", (8, 8, 1.2))]
+    jobs = [sky.gives("cf2", (5, 5, 1.2)), sky.gives("cf1", (8, 8, 1.2))]
     assert all(sky.until(job, 60) for job in jobs)
-    land = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "cf2 lands")
+    land = sky.sends(sky.link.land("cf2"))
     assert sky.until(land, 30)
-    x, y, z = at(sky, "cf2")
+    x, y, z = sky.at("cf2")
     assert z == 0
     assert APART <= hypot(x - 5, y - 5) <= APART + 0.3
     for drone in ("cf1", "cf2"):
-        assert sky.until(sky.kernel.spawn(sky.goes_home(drone), FLEET, f"{drone} returns"), 80)
-    assert at(sky, "cf1") == pytest.approx((1, 1, 0))
-    assert at(sky, "cf2") == pytest.approx((1.3, 1, 0))
+        assert sky.until(sky.sends(sky.goes_home(drone)), 80)
+    assert sky.at("cf1") == pytest.approx((1, 1, 0))
+    assert sky.at("cf2") == pytest.approx((1.3, 1, 0))
 
 
 def waits_for_one_that_hovers() -> tuple[Sky, Task[object]]:
@@ -124,18 +113,18 @@ def waits_for_one_that_hovers() -> tuple[Sky, Task[object]]:
     sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=LOW)
     sky.puts((5, 1, 1.2), (5, 5, 1.2), (9, 7, 1.2))
     for drone in ("cf1", "cf3"):
-        assert sky.until(sky.kernel.spawn(sky.link.land(drone), FLEET, "down"), 20)
-    return sky, gives(sky, "cf1", (5, 9, 1.2))
+        assert sky.until(sky.sends(sky.link.land(drone)), 20)
+    return sky, sky.gives("cf1", (5, 9, 1.2))
 
 
 def test_none_ends_where_one_that_came_before_wants_to_fly() -> None:
     """Else those who come and go could keep it for ever; where they stay for long, two are enough."""
     sky, elder = waits_for_one_that_hovers()
     sky.advance(1)
-    younger = gives(sky, "cf3", (5, 7, 1.2))
+    younger = sky.gives("cf3", (5, 7, 1.2))
     sky.advance(5)
-    assert at(sky, "cf3") == (9, 7, 0)
-    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    assert sky.at("cf3") == (9, 7, 0)
+    home = sky.sends(sky.goes_home("cf2"))
     assert sky.until(elder, 60)
     assert not younger.is_set
     assert sky.until(younger, 60)
@@ -147,10 +136,10 @@ def test_who_only_crosses_flies_while_the_other_has_to_wait_anyway() -> None:
     """However long that has waited: for one that hovers in its way."""
     sky, elder = waits_for_one_that_hovers()
     sky.advance(25)
-    younger = gives(sky, "cf3", (1, 7, 1.2))
+    younger = sky.gives("cf3", (1, 7, 1.2))
     assert sky.until(younger, 21)
     assert not elder.is_set
-    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    home = sky.sends(sky.goes_home("cf2"))
     assert sky.until(elder, 60)
     assert home.is_set
     assert sky.nearest >= APART - 1e-6
@@ -160,9 +149,9 @@ def test_who_has_waited_long_flies_before_younger_ones_once_its_way_becomes_free
     """Else those that cross could keep it for ever."""
     sky, elder = waits_for_one_that_hovers()
     sky.advance(25)
-    sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 makes room")
+    sky.sends(sky.goes_home("cf2"))
     sky.advance(0.2)
-    younger = gives(sky, "cf3", (1, 7, 1.2))
+    younger = sky.gives("cf3", (1, 7, 1.2))
     assert sky.until(elder, 60)
     assert not younger.is_set
     assert sky.until(younger, 60)
@@ -172,17 +161,17 @@ def test_who_has_waited_long_flies_before_younger_ones_once_its_way_becomes_free
 def test_where_the_ground_is_full_of_docks_a_drone_lands_in_its_own() -> None:
     """Real drones land further apart than docks may be."""
     sky = Sky([(0.1, 0.1), (0.6, 0.1)], airspace=Airspace(size=(0.7, 0.2)), slack=0.15)
-    assert sky.until(gives(sky, "cf1", (0.35, 0.1, 1.2)), 20)
-    assert sky.until(sky.kernel.spawn(sky.link.land("cf1"), FLEET, "down"), 20)
-    assert at(sky, "cf1") == (0.1, 0.1, 0)
+    assert sky.until(sky.gives("cf1", (0.35, 0.1, 1.2)), 20)
+    assert sky.until(sky.sends(sky.link.land("cf1")), 20)
+    assert sky.at("cf1") == (0.1, 0.1, 0)
 
 
 def test_no_more_are_in_the_air_than_may_be() -> None:
     """Also if the brain asks for more: the others wait on the ground."""
     sky = Sky([(1, 1), (4, 1), (7, 1)], max_airborne=2)
-    jobs = [gives(sky, f"cf{n}", (3 * n - 2, 5, 1.2)) for n in (1, 2, 3)]
+    jobs = [sky.gives(f"cf{n}", (3 * n - 2, 5, 1.2)) for n in (1, 2, 3)]
     assert not sky.until(jobs[2], 60)
-    assert sky.until(sky.kernel.spawn(sky.goes_home("cf1"), FLEET, "home"), 60)
+    assert sky.until(sky.sends(sky.goes_home("cf1")), 60)
     assert sky.until(jobs[2], 60)
     assert sky.airborne == 2
 
@@ -190,14 +179,14 @@ def test_no_more_are_in_the_air_than_may_be() -> None:
 def test_who_waits_can_be_told_not_to() -> None:
     """Its flight is over, and it stays where it is."""
     sky = Sky([(1, 5), (5, 1)], airspace=LOW)
-    gives(sky, "cf1", (5, 5, 1.2))
-    waits = gives(sky, "cf2", (5, 5, 1.2), item=PILLS)
+    sky.gives("cf1", (5, 5, 1.2))
+    waits = sky.gives("cf2", (5, 5, 1.2), item=PILLS)
     sky.advance(5)
     sky.link.break_off("cf2")
     sky.advance(40)
     assert not waits.is_set
     assert sky.navigation.flown("cf2") == 0
-    home = sky.kernel.spawn(sky.goes_home("cf2"), FLEET, "cf2 is told something else")
+    home = sky.sends(sky.goes_home("cf2"))
     assert sky.until(home, 60)
 
 
@@ -205,7 +194,7 @@ def test_who_waits_can_be_told_not_to() -> None:
 def test_real_drones_keep_further_apart(slack: float) -> None:
     """By what their positions may be wrong."""
     sky = Sky([(1, 5), (5, 1)], slack=slack)
-    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    jobs = sky.gives("cf1", (9, 5, 1.2)), sky.gives("cf2", (5, 9, 1.2))
     assert all(sky.until(job, 30) for job in jobs)
     assert APART + slack - 1e-6 <= sky.nearest
 
@@ -213,13 +202,13 @@ def test_real_drones_keep_further_apart(slack: float) -> None:
 def test_what_a_stopped_drone_may_still_fly_into_stays_its_own_for_a_moment() -> None:
     """A real one shoots past where it was told to stop."""
     sky = Sky([(1, 5), (3.9, 4.5)], airspace=LOW, slack=0.1)
-    gives(sky, "cf1", (9, 5, 1.2))
+    sky.gives("cf1", (9, 5, 1.2))
     sky.advance(4 + 4.2)
     sky.link.break_off("cf1")
-    assert at(sky, "cf1") == pytest.approx((3.1, 5, 1.2))
-    up = gives(sky, "cf2", (3.9, 1, 1.2))
+    assert sky.at("cf1") == pytest.approx((3.1, 5, 1.2))
+    up = sky.gives("cf2", (3.9, 1, 1.2))
     sky.advance(1)
-    assert at(sky, "cf2")[2] == 0
+    assert sky.at("cf2")[2] == 0
     assert sky.until(up, 20)
 
 
@@ -228,9 +217,9 @@ def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
     sky = Sky([(1, 1), (5, 1)], airspace=LOW)
     sky.puts((5, 4, 1.2), (9, 1, 1.2))
     sky.advance(0)
-    down = sky.kernel.spawn(sky.link.land("cf2"), FLEET, "down")
+    down = sky.sends(sky.link.land("cf2"))
     assert sky.until(down, 20)
-    blocked = gives(sky, "cf2", (5, 4, 1.2), item=PILLS)
+    blocked = sky.gives("cf2", (5, 4, 1.2), item=PILLS)
     assert not sky.until(blocked, 40)
     assert sky.nearest >= APART
 
@@ -238,15 +227,15 @@ def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
 def test_a_drone_that_sinks_has_the_air_below_it() -> None:
     """Until it is down; then it lies there, and others fly over it."""
     sky = Sky([(1, 1), (5, 1)], airspace=LOW)
-    flown = gives(sky, "cf1", (5, 5, 1.2))
+    flown = sky.gives("cf1", (5, 5, 1.2))
     assert sky.until(flown, 60)
-    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    hovers = sky.sends(sky.link.hold("cf1"))
     hovers.watch(lambda _: None)
     sky.advance(1)
     sky.navigation.strike("cf1", Failure.LINK)
-    other = gives(sky, "cf2", (5, 9, 1.2))
+    other = sky.gives("cf2", (5, 9, 1.2))
     sky.advance(1)
-    assert at(sky, "cf2") == (5, 1, 0)
+    assert sky.at("cf2") == (5, 1, 0)
     assert sky.until(other, 40)
     with pytest.raises(FlightFailed):
         hovers.result()
@@ -256,7 +245,7 @@ def test_without_a_distance_nothing_is_done() -> None:
     """Each flies as if it were alone."""
     sky = Sky([(1, 5), (5, 1)], apart=0.0)
     assert sky.gateway.traffic is None
-    jobs = gives(sky, "cf1", (9, 5, 1.2)), gives(sky, "cf2", (5, 9, 1.2))
+    jobs = sky.gives("cf1", (9, 5, 1.2)), sky.gives("cf2", (5, 9, 1.2))
     assert all(sky.until(job, 21) for job in jobs)
     assert sky.nearest < 0.1
 
@@ -264,17 +253,17 @@ def test_without_a_distance_nothing_is_done() -> None:
 def test_no_drone_flies_below_one_that_sinks() -> None:
     """Who is on its way there stops, and goes on by another, or when the air is free again."""
     sky = Sky([(5, 4), (1, 5)])
-    assert sky.until(gives(sky, "cf1", (5, 5, 2.2)), 60)
-    hovers = sky.kernel.spawn(sky.link.hold("cf1"), FLEET, "hold")
+    assert sky.until(sky.gives("cf1", (5, 5, 2.2)), 60)
+    hovers = sky.sends(sky.link.hold("cf1"))
     hovers.watch(lambda _: None)
-    below = gives(sky, "cf2", (9, 5, 1.2))
+    below = sky.gives("cf2", (9, 5, 1.2))
     sky.advance(4 + 4)
-    assert at(sky, "cf2") == pytest.approx((3, 5, 1.2))
+    assert sky.at("cf2") == pytest.approx((3, 5, 1.2))
     sky.navigation.strike("cf1", Failure.LINK)
     nearest = APART
     while not below.is_set and sky.kernel.now < 100:
         if not sky.navigation.telemetry["cf1"].landed:
-            nearest = min(nearest, dist(at(sky, "cf1"), at(sky, "cf2")))
+            nearest = min(nearest, dist(sky.at("cf1"), sky.at("cf2")))
         sky.advance(0.1)
     assert below.result() is None
     assert nearest == APART

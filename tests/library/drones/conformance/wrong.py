@@ -11,27 +11,71 @@ from dataclasses import replace
 from math import degrees, isfinite
 from typing import ClassVar
 
+from pluto_fleet.drones.conformance.contract import NavigationContract
+from pluto_fleet.drones.conformance.recording import Truth
 from pluto_fleet.drones.errors import LinkLost, Rejected
-from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
-from pluto_fleet.shared.domain.model import Category, Point
-from pluto_fleet.simulation.body import SimulatedDrone
-from tests.library.navigation.simulated import SPEED, Simulated, SimulatedContract
+from pluto_fleet.drones.protocol import DroneEvent, DroneNavigation, DroneTelemetry
+from pluto_fleet.shared.domain.model import Point
+from tests.kit.drones import YAW, FakeDrone, JumpingLoop, the_loop
+
+SPEED = 1.0
 
 
-class Wrong(Simulated):
+class FakeContract(NavigationContract):
+    """The kit, over a fake drone in virtual time."""
+
+    navigation: type[FakeDrone] = FakeDrone
+    height, away, speed = 1.0, 2.0, SPEED
+    may_fall = together = True
+    loop_factory = JumpingLoop
+
+    def make(self) -> DroneNavigation:
+        return self.navigation()
+
+    def make_unreachable(self) -> DroneNavigation:
+        drone = self.navigation()
+        drone.answers = False
+        return drone
+
+    def silence(self, navigation: DroneNavigation) -> None:
+        assert isinstance(navigation, FakeDrone)
+        navigation.goes_silent()
+
+    def crash(self, navigation: DroneNavigation) -> None:
+        assert isinstance(navigation, FakeDrone)
+        navigation.falls()
+
+    def truth(self, navigation: DroneNavigation) -> Truth | None:
+        assert isinstance(navigation, FakeDrone)
+        return Truth(position=navigation.place, yaw=YAW, motors=navigation.motors)
+
+
+class Wrong(FakeDrone):
     """A navigation with one mistake."""
 
     found_by: ClassVar[str]
     """The check of the kit that finds it."""
     says: ClassVar[str]
     """What the check says then."""
-    rest: ClassVar[float] = SimulatedContract.rest
-    """How long the check observes the drone between commands, in seconds."""
+
+
+class Retelling(Wrong):
+    """One that tells something else than its drone does."""
+
+    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
+        """Return what it makes of what the drone told."""
+        raise NotImplementedError
+
+    @property
+    def telemetry(self) -> DroneTelemetry:
+        told = super().telemetry
+        return self.retold(told) if isfinite(told.time) else told
 
 
 def send() -> None:
-    """What many libraries do: return when there is an answer."""
-    time.sleep(0.15)
+    """Do what many libraries do: return when there is an answer."""
+    for _ in range(4):
+        time.sleep(0.05)
 
 
 class Blocking(Wrong):
@@ -41,7 +85,6 @@ class Blocking(Wrong):
     says = "wrong.py:"
 
     async def go_to(self, target: Point, speed: float) -> None:
-        self.check(target, speed)
         send()
         await super().go_to(target, speed)
 
@@ -68,15 +111,14 @@ class Deaf(Wrong):
             await super().go_to(target, speed)
 
 
-class Degrees(Wrong):
+class Degrees(Retelling):
     """Tells degrees, as its library does."""
 
     found_by = "test_it_counts_in_metres_and_radians_in_the_maps_frame"
     says = "radians are between"
 
-    def told(self) -> DroneTelemetry:
-        told = super().told()
-        return told if self.muted else replace(told, yaw=degrees(told.yaw))
+    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
+        return replace(told, yaw=degrees(told.yaw))
 
 
 class Dropping(Wrong):
@@ -86,21 +128,24 @@ class Dropping(Wrong):
     says = "close cut the motors"
 
     async def close(self) -> None:
-        if self.telemetry.flying:
-            await self.obey(self.team.cut(self.id))
+        if self.motors:
+            self.motors = False
+            await asyncio.sleep(0.1)
+            self.falls(tells=False)
         await super().close()
 
 
-class Drowsy(Wrong):
+class Drowsy(Retelling):
     """Tells where it is once a second."""
 
     found_by = "test_telemetry_is_fresh"
     says = "it told nothing new for"
+    last: DroneTelemetry | None = None
 
-    def told(self) -> DroneTelemetry:
-        now, before = super().told(), self.telemetry
-        done = self.body.command == ""  # it knows when it has arrived
-        return now if done or time.monotonic() - before.time > 0.9 else before
+    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
+        if self.last is None or told.time - self.last.time > 0.9:
+            self.last = told
+        return self.last
 
 
 class Early(Wrong):
@@ -119,7 +164,7 @@ class Early(Wrong):
 FOOT = 0.3048
 
 
-class Feet(Wrong):
+class Feet(Retelling):
     """Hands metres to a library that counts in feet, and tells what that says."""
 
     found_by = "test_it_counts_in_metres_and_radians_in_the_maps_frame"
@@ -132,10 +177,7 @@ class Feet(Wrong):
         x, y, z = target
         await super().go_to((x * FOOT, y * FOOT, z * FOOT), speed)
 
-    def told(self) -> DroneTelemetry:
-        told = super().told()
-        if self.muted:
-            return told
+    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
         x, y, z = told.position
         return replace(told, position=(x / FOOT, y / FOOT, z / FOOT))
 
@@ -146,24 +188,20 @@ class Forgetful(Wrong):
     found_by = "test_it_connects_again_and_goes_on_telling"
     says = "it tells nothing any more"
 
-    linked = 0
-
     async def connect(self) -> None:
-        self.linked += 1
         await super().connect()
-        self.muted = self.linked > 1
+        if self.attempts > 1:
+            self.goes_silent()
 
 
 class Hasty(Wrong):
     """Takes the speed for a wish."""
 
     found_by = "test_it_is_never_faster_than_it_was_told"
-    says = "go_to at no more than 5.0 m/s flew at"
+    says = "go_to at no more than 1.0 m/s flew at"
 
-    def __init__(self, setup: DroneSetup) -> None:
-        super().__init__(setup)
-        quick = Category(name="quick", speed=0.8)
-        self.body.drone = SimulatedDrone(id=setup.id, category=quick, home=setup.home)
+    async def go_to(self, target: Point, speed: float) -> None:
+        await super().go_to(target, 2 * speed)
 
 
 class Lingering(Wrong):
@@ -171,7 +209,6 @@ class Lingering(Wrong):
 
     found_by = "test_closing_leaves_no_thread_task_or_socket"
     says = "the thread radio"
-
     over = threading.Event()
 
     async def connect(self) -> None:
@@ -199,11 +236,9 @@ class Plunging(Wrong):
     says = "its motors were off in the air"
 
     async def land(self, speed: float) -> None:
-        await self.obey(self.team.cut(self.id))
-
-
-_FAR = (1000.0, 2.0, 1.0)
-"""So far that it still flies when the check looks, however busy the machine is."""
+        self.motors = False
+        await asyncio.sleep(0.1)
+        self.falls(tells=False)
 
 
 class Restless(Wrong):
@@ -211,18 +246,16 @@ class Restless(Wrong):
 
     found_by = "test_hold_stops_the_drone_here"
     says = "hold returned, and it moved"
-    rest = 0.5  # long enough for it to set off on a busy machine
-
-    _going: asyncio.Task[None] | None = None
+    going: asyncio.Task[None] | None = None
 
     async def hold(self) -> None:
-        if self.telemetry.flying:
-            self._going = asyncio.create_task(self.go_to(_FAR, SPEED))
+        if self.motors:
+            self.going = asyncio.create_task(self.go_to((1000.0, 2.0, 1.0), SPEED))
 
     async def land(self, speed: float) -> None:
-        if self._going is not None:
-            self._going.cancel()
-            await asyncio.wait([self._going])
+        if self.going is not None:
+            self.going.cancel()
+            await asyncio.wait([self.going])
         await super().land(speed)
 
 
@@ -238,13 +271,19 @@ class Tacit(Wrong):
                 yield event
 
 
-class Undated(Wrong):
+class Undated(Retelling):
     """Dates what the drone told with the moment at which it is asked."""
 
     found_by = "test_a_drone_that_falls_silent_is_a_lost_link"
     says = "it is when the drone told it"
 
-    @property
-    def telemetry(self) -> DroneTelemetry:
-        told = super().telemetry
-        return replace(told, time=time.monotonic()) if isfinite(told.time) else told
+    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
+        return replace(told, time=the_loop().now)
+
+
+def all_wrong(kind: type[Wrong] = Wrong) -> list[type[Wrong]]:
+    """Return every navigation with a mistake."""
+    found: list[type[Wrong]] = []
+    for one in kind.__subclasses__():
+        found += [one] if hasattr(one, "found_by") else all_wrong(one)
+    return found

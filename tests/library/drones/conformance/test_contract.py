@@ -1,21 +1,32 @@
-"""The kit finds what is wrong with a navigation, by the check that is named after it."""
+"""The kit finds what is wrong with a navigation, by the check that is named after it; a right one passes."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from unittest import SkipTest
 
 import pytest
 
 from pluto_fleet.drones.conformance.contract import NavigationContract
 from pluto_fleet.drones.protocol import DroneNavigation
-from tests.library.navigation.simulated import SPEED, Simulated, SimulatedContract, setup
-from tests.library.navigation.wrong import Wrong
+from tests.kit.drones import FakeDrone, JumpingLoop
+from tests.library.drones.conformance.wrong import FakeContract, Lingering, Wrong, all_wrong
 
 
-@pytest.mark.parametrize("wrong", Wrong.__subclasses__(), ids=lambda wrong: wrong.__name__)
+@pytest.fixture(scope="module", autouse=True)
+def threads_end() -> Iterator[None]:
+    """What lingers goes when all is over."""
+    yield
+    Lingering.over.set()
+
+
+class TestFake(FakeContract):
+    """A fake drone does what it must."""
+
+
+@pytest.mark.parametrize("wrong", all_wrong(), ids=lambda wrong: wrong.__name__)
 def test_a_wrong_navigation_is_found_by_the_check_that_it_names(wrong: type[Wrong]) -> None:
-    given = {"navigation": wrong, "away": 4.0, "rest": wrong.rest}
-    contract = type("Contract", (SimulatedContract,), given)()
+    contract = type("Contract", (FakeContract,), {"navigation": wrong})()
     with pytest.raises(AssertionError) as found:
         getattr(contract, wrong.found_by)()
     assert wrong.says in str(found.value)
@@ -24,10 +35,10 @@ def test_a_wrong_navigation_is_found_by_the_check_that_it_names(wrong: type[Wron
 class Bare(NavigationContract):
     """An author who can neither silence a drone nor look at it."""
 
-    height, away, speed, rest = 1.0, 2.0, SPEED, 0.1
+    loop_factory = JumpingLoop
 
     def make(self) -> DroneNavigation:
-        return Simulated(setup())
+        return FakeDrone()
 
 
 @pytest.mark.parametrize(

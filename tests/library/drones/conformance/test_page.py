@@ -34,6 +34,7 @@ def test_the_page_shows_the_files_as_they_are(name: str, place: int, update: boo
         assert shown == code
 
 
+@pytest.mark.long
 def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
     """As its reader runs it: with pytest, and nothing of ours besides."""
     (tmp_path / "test_wren.py").write_text(BLOCK.findall(PAGE)[2])

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Mapping
 
 from pluto_fleet.jobs.telemetry import Publisher, Telemetry
+from tests.kit.drones import run
 from tests.library.gateway.flights import Field
 
 News = Mapping[str, bool]
@@ -40,7 +41,7 @@ def test_each_subscriber_hears_at_its_own_rate_of_what_changed() -> None:
         await asyncio.sleep(0.05)
         assert len(looks) == so_far
 
-    asyncio.run(hears())
+    run(hears())
     on_the_ground = dict.fromkeys(field.navigation.telemetry, True)
     assert fast == [on_the_ground, {"cf1": False}]
     assert slow == [{**on_the_ground, "cf1": False}]

@@ -8,7 +8,7 @@ from typing import Any
 
 from pluto_fleet.drones import Point
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
-from tests.library.navigation.simulated import Simulated
+from tests.kit.drones import FakeDrone
 
 NUMBER = 7
 
@@ -23,8 +23,11 @@ def logged(command: Callable[..., Coroutine[Any, Any, None]]) -> Callable[..., A
     return call
 
 
-class Good(Simulated):
+class Good(FakeDrone):
     """It has everything, and calls its arguments as it likes."""
+
+    def __init__(self, setup: DroneSetup) -> None:
+        super().__init__(setup.id, setup.home)
 
     async def land(self, slowly: float, *, quietly: bool = True) -> None:
         """Come down."""
@@ -32,6 +35,16 @@ class Good(Simulated):
     @logged
     async def hold(self) -> None:
         """Hover."""
+
+
+class Simple:
+    """It has what it must have, and no more."""
+
+    def __init__(self, setup: DroneSetup) -> None: ...
+
+    connect, preflight, takeoff, go_to = Good.connect, Good.preflight, Good.takeoff, Good.go_to
+    land, hold, emergency_stop, close = Good.land, Good.hold, Good.emergency_stop, Good.close
+    telemetry, events = Good.telemetry, Good.events
 
 
 class Holder:
@@ -76,7 +89,7 @@ class Lazy:
         return []
 
 
-class Half(Good):
+class Half(Simple):
     """It acts, and cannot say what it cannot do."""
 
     async def act(self, action: str, parameters: Mapping[str, object], item: object) -> None: ...

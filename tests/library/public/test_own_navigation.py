@@ -7,11 +7,15 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import pluto_fleet
 from tests.kill.trial import end_gateway
 from tests.kit.apps import compiled
-from tests.library.navigation.test_loading import offered
+from tests.library.drones.test_loading import Installed
 from tests.paths import ROOT
+
+pytestmark = pytest.mark.long
 
 DOCS = ROOT / "docs/navigation"
 MISSIONS = """
@@ -57,7 +61,7 @@ def fly(folder: Path, fleet: str) -> subprocess.CompletedProcess[str]:
     source = compiled("alfalfa", folder / "package") / "src"
     (folder / "missions.toml").write_text(MISSIONS)
     (folder / "fleet.toml").write_text(fleet)
-    offered(folder, "pluto-wren", "plutoc.navigations", "wren = wren:Wren")
+    Installed(folder).offers("pluto-wren", "plutoc.navigations", "wren = wren:Wren")
     runtime = Path(pluto_fleet.__path__[0]).parent
     words = ["fly", "missions.toml", "--fleet", "fleet.toml", "--journal", "flight.journal"]
     try:
@@ -87,35 +91,28 @@ def test_the_navigation_of_forty_lines_flies_an_app(tmp_path: Path) -> None:
     assert "1 of 1 mission completed" in done.stdout
 
 
-def test_a_class_that_is_not_there_is_refused_before_anything_begins(tmp_path: Path) -> None:
-    done = fly(tmp_path, FLEET.replace("wren:Wren", "wren:Robin"))
-    assert done.returncode == 2
-    assert 'its module has no class "Robin"' in done.stderr
-    assert not (tmp_path / "flight.journal").exists()
-
-
-def test_a_drone_that_cannot_be_made_is_refused_before_anything_is_written(tmp_path: Path) -> None:
-    done = fly(tmp_path, FLEET.replace("wren:100,50", "wren:here"))
-    assert done.returncode == 2
-    assert "could not be made for w1: ValueError" in done.stderr
-    assert not (tmp_path / "flight.journal").exists()
-    assert "Traceback" not in done.stderr
-
-
-def test_a_module_that_ends_its_importing_process_does_not_end_the_app(tmp_path: Path) -> None:
-    """Not with an exit code that says that all was flown."""
+@pytest.mark.parametrize(
+    ("old", "new", "why"),
+    [
+        ("wren:Wren", "wren:Robin", 'its module has no class "Robin"'),
+        ("wren:100,50", "wren:here", "could not be made for w1: ValueError"),
+        ("wren:Wren", "leaving:Wren", '"leaving" ends the process that imports it (exit code 0)'),
+        (
+            '"wren:Wren"',
+            '"wren:Wren"\nlocalization = "lines:Lines"',
+            "w1 cannot be told where they are",
+        ),
+    ],
+)
+def test_what_cannot_fly_is_refused_before_anything_is_written(
+    tmp_path: Path, old: str, new: str, why: str
+) -> None:
+    """A module that ends its process does not end the app with an exit code that says all was flown."""
     (tmp_path / "leaving.py").write_text(
         "import os; os._exit(0)\nclass Wren:\n    async def connect(self): ..."
     )
-    done = fly(tmp_path, FLEET.replace("wren:Wren", "leaving:Wren"))
+    done = fly(tmp_path, FLEET.replace(old, new))
     assert done.returncode == 2
-    assert '"leaving" ends the process that imports it (exit code 0)' in done.stderr
-    assert not (tmp_path / "flight.journal").exists()
-
-
-def test_drones_that_cannot_hear_where_they_are_are_refused(tmp_path: Path) -> None:
-    fleet = FLEET.replace('"wren:Wren"', '"wren:Wren"\nlocalization = "lines:Lines"')
-    done = fly(tmp_path, fleet)
-    assert done.returncode == 2
-    assert "w1 cannot be told where they are" in done.stderr
+    assert why in done.stderr
+    assert "Traceback" not in done.stderr
     assert not (tmp_path / "flight.journal").exists()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 from pathlib import Path
 
+import pytest
 from wren import Wren
 
 from pluto_fleet.drones.conformance.contract import NavigationContract
@@ -15,6 +16,7 @@ from tests.paths import ROOT
 HERE = ROOT / "docs/navigation"
 
 
+@pytest.mark.long
 class TestWren(NavigationContract):
     """In real time, as a Wren flies."""
 
