@@ -10,7 +10,6 @@ from plutoc.format.document import (
     Group,
     IfBroken,
     Indent,
-    Remark,
     written,
 )
 
@@ -27,32 +26,11 @@ def brackets(*items: Document) -> Document:
     return Group(("[", Indent((*content, last)), NOTHING, "]"))
 
 
-def test_a_group_that_fits_stands_on_one_line() -> None:
-    """To the very last column."""
-    assert printed(brackets("abc", "def")) == "[abc, def]"
-    assert printed(brackets("abc", "defg")) == "[\n  abc,\n  defg,\n]"
-
-
 def test_what_follows_up_to_the_next_break_must_fit_too() -> None:
     """A group with a tail is broken before the tail is."""
     assert printed((brackets("abc"), "12345")) == "[abc]12345"
     assert printed((brackets("abc"), "123456")) == "[\n  abc,\n]123456"
     assert printed((brackets("abc"), "12345", NEWLINE, "6")) == "[abc]12345\n6"
-
-
-def test_an_outer_group_breaks_before_an_inner_one() -> None:
-    """And the inner one only if it must."""
-    inner = brackets("a", "b")
-    assert printed(brackets(inner, "cd")) == "[\n  [a, b],\n  cd,\n]"
-    assert printed(brackets(inner, "c"), 6) == "[\n  [\n    a,\n    b,\n  ],\n  c,\n]"
-
-
-def test_a_remark_takes_no_room_and_breaks_what_it_stands_in() -> None:
-    """The line ends behind it."""
-    assert printed(brackets("a", ("b", Remark("# a long remark")))) == (
-        "[\n  a,\n  b  # a long remark,\n]"
-    )
-    assert printed((brackets("abc", "def"), Remark("# long"), NEWLINE)) == "[abc, def]  # long\n"
 
 
 def test_deep_and_wide_documents_need_no_stack() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Sequence
 from typing import Any
 
@@ -179,25 +178,6 @@ def test_only_an_action_that_may_wait_has_a_live_drone(kit: Kit) -> None:
         assert kit.call(waiting, kit.drone(), kit.trip(), context) == 1.0
 
 
-def test_a_context_may_be_passed_by_name(kit: Kit) -> None:
-    """As a hook has named it."""
-
-    async def look(drone: Drone, trip: Trip, its: Context) -> float:
-        return its.live(drone).battery
-
-    assert kit.call(look, kit.drone(battery=0.7), kit.trip(), its=kit.context()) == 0.7
-
-
-def test_asyncio_is_refused_as_in_a_simulation(kit: Kit) -> None:
-    """With the same words."""
-
-    async def impatient(drone: Drone, trip: Trip, context: Context) -> None:
-        await asyncio.sleep(1.0)
-
-    with pytest.raises(RuntimeError, match="in a simulation a hook may await only what"):
-        kit.call(impatient, kit.drone(), kit.trip(), kit.context())
-
-
 async def limit_trip(mission: Mission[Trip], context: Context, *, limit: float) -> Status:
     if not await context.trip_ended(mission.current, within=limit):
         return Status.FAILED
@@ -276,20 +256,6 @@ def test_a_hook_can_be_called_off(kit: Kit) -> None:
     call = kit.start(grip, kit.drone(), kit.trip(), kit.context())
     call.cancel()
     assert closed == [True] and call.done
-
-
-def test_two_hooks_run_side_by_side(kit: Kit) -> None:
-    """Each has its own context; the clock is one."""
-    first, second = kit.context(), kit.context()
-    for context in (first, second):
-        context.sensors |= {"range.zrange": 900.0, "pump.poured": 1.0}
-    kit.start(pour, kit.drone(), kit.trip(), first, amount=1.0)
-    kit.clock.advance(2.0)
-    kit.start(pour, kit.drone(), kit.trip(), second, amount=1.0)
-    kit.clock.advance(3.0)
-    assert first.lines == ["scout 1 has poured at 5 s"] and second.lines == []
-    kit.clock.advance(2.0)
-    assert second.lines == ["scout 2 has poured at 7 s"]
 
 
 def test_an_evaluator_gets_what_is_new_once(kit: Kit) -> None:

@@ -148,21 +148,6 @@ def test_a_hook_leads_to_its_function_and_back(alfalfa: Path) -> None:
     assert [(one.uri, one.range.start) for one in back] == [(app, place(TEXT, "find_blooms\n"))]
 
 
-def test_hooks_are_completed_by_the_app_beside_them(alfalfa: Path) -> None:
-    hooks = uri_of(alfalfa / "hooks.py")
-    code = (alfalfa / "hooks.py").read_text(encoding="utf-8")
-
-    async def act(client: Client) -> list[str]:
-        client.open(hooks, code)
-        at = place(code, "context.sleep", len("context."))
-        document = types.TextDocumentIdentifier(hooks)
-        found = await client.text_document_completion_async(types.CompletionParams(document, at))
-        assert isinstance(found, types.CompletionList)
-        return [item.label for item in found.items]
-
-    assert "sleep" in talk(act)
-
-
 def test_formatting_whole_and_in_part_is_that_of_fmt() -> None:
     ugly = TEXT.replace("  wait = Clock", "wait=Clock").replace(
         "  again = MissionRepeater", "     again   = MissionRepeater"
@@ -270,43 +255,3 @@ def test_letters_beyond_the_plain_ones_are_counted_as_agreed(
     (hidden,) = after
     now = Places(text=text.replace("🌼🌼", "ä\u200b"), encoding=encoding)
     assert hidden.code == "P0004" and now.text[now.span(hidden.range).start] == "\u200b"
-
-
-FIELDS = TEXT.replace(
-    "  evaluator find_blooms\n",
-    "  mission has owner: text, patience: time = 5 min\n"
-    '  trip has owner: text = ""\n  evaluator find_blooms\n',
-)
-
-
-def test_a_field_is_found_listed_and_renamed() -> None:
-    """That of missions, and not that of trips of the same name."""
-
-    async def act(client: Client) -> tuple[str, list[str], int]:
-        client.open(URI, FIELDS)
-        at = place(FIELDS, "owner: text,")
-        done = await client.text_document_rename_async(types.RenameParams(DOCUMENT, at, "client"))
-        assert done is not None and done.changes is not None
-        listed = await client.text_document_document_symbol_async(
-            types.DocumentSymbolParams(DOCUMENT)
-        )
-        (app,) = listed or ()
-        assert isinstance(app, types.DocumentSymbol)
-        fields = [one for one in app.children or () if one.kind is types.SymbolKind.Field]
-        used = await client.text_document_references_async(
-            types.ReferenceParams(types.ReferenceContext(True), DOCUMENT, at)
-        )
-        text = applied(FIELDS, list(done.changes[URI]))
-        assert client.told == [
-            "Missions files are not changed: where one has `owner`, write `client`; `check` tells each"
-        ]
-        return text, [f"{one.name}: {one.detail}" for one in fields], len(used or ())
-
-    text, fields, used = talk(act)
-    assert text == FIELDS.replace("mission has owner", "mission has client")
-    assert fields == [
-        "owner: mission has, text",
-        "patience: mission has, time",
-        "owner: trip has, text",
-    ]
-    assert used == 1

@@ -63,14 +63,6 @@ def test_edges_lead_down_but_for_those_that_close_a_loop(path: Path) -> None:
     assert max(y for _, y in found.values()) == found["end"][1]
 
 
-def test_a_block_that_hangs_on_nothing_moves_no_other() -> None:
-    names, ways = ["a", "b", "c"], [("start", "a"), ("a", "b"), ("a", "c"), ("b", "end")]
-    before = laid_out(names, ways, {})
-    after = laid_out([*names, "d"], ways, {})
-    assert {name: after[name] for name in before} == before
-    assert after["d"][0] > max(x for x, _ in before.values())
-
-
 def test_a_block_at_the_end_of_a_branch_leaves_those_before_where_they_were() -> None:
     names, ways = ["a", "b", "c"], [("start", "a"), ("a", "b"), ("b", "c"), ("c", "end")]
     before = laid_out(names, ways, {})
