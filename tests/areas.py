@@ -14,9 +14,10 @@ import sys
 from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from math import ceil, cos, pi, sin
 from random import Random
+
+import shapely
 
 from pluto_fleet.files.missions import missions_of
 from pluto_fleet.files.reading import parsed
@@ -34,8 +35,6 @@ ENOUGH = 0.99
 _NEARLY = 2e-6
 """Metres: trips are told to a micrometre."""
 
-Triangle = tuple[Corner, Corner, Corner]
-
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
@@ -43,8 +42,6 @@ class Drawn:
 
     kind: str
     corners: Polygon
-    triangles: Sequence[Triangle]
-    """What it is made of."""
     spacing: float
     airspace: Airspace
 
@@ -65,68 +62,55 @@ class Judged:
 def drawn(number: int) -> Drawn:
     """Return an area, the same for each number."""
     chance = Random(number)
-    kind = chance.choice(["around a point", "convex", "comb", "sliver", "box"])
-    corners, triangles = _KINDS[kind](chance)
+    kind = chance.choice(list(_KINDS))
+    corners = _KINDS[kind](chance)
     x, y = chance.uniform(-2, SIZE[0] - 4), chance.uniform(-2, SIZE[1] - 4)
     turn = 0.0 if kind == "box" else chance.choice([0.0, chance.uniform(0, 2 * pi)])
-    moved = [_moved(one, turn, x, y) for one in corners]
-    pieces = [
-        (_moved(a, turn, x, y), _moved(b, turn, x, y), _moved(c, turn, x, y))
-        for a, b, c in triangles
-    ]
+    moved = tuple(
+        (a * cos(turn) - b * sin(turn) + x + 3, a * sin(turn) + b * cos(turn) + y + 3)
+        for a, b in corners
+    )
     spacing = chance.choice([0.5, 1.0, chance.uniform(0.4, 3.0)])
     no_fly = tuple(_obstacle(chance) for _ in range(chance.choice([0, 1, 2, 5])))
-    return Drawn(kind, tuple(moved), pieces, spacing, Airspace(size=SIZE, no_fly=no_fly))
+    return Drawn(kind, moved, spacing, Airspace(size=SIZE, no_fly=no_fly))
 
 
-def _around(chance: Random, least: float = 0.2) -> tuple[list[Corner], list[Triangle]]:
+def _around(chance: Random, least: float = 0.2) -> list[Corner]:
     """Return corners around a point, in order: concave, and never crossing."""
     count = chance.randint(4, 12)  # of three, two may be on one side of the point
     angles = sorted(2 * pi * (i + chance.uniform(0.05, 0.95)) / count for i in range(count))
     far = [chance.uniform(least, 1.0) * 6 for _ in angles]
-    corners = [(r * cos(a), r * sin(a)) for r, a in zip(far, angles, strict=True)]
-    return corners, [
-        ((0.0, 0.0), a, b) for a, b in zip(corners, (*corners[1:], corners[0]), strict=True)
-    ]
+    return [(r * cos(a), r * sin(a)) for r, a in zip(far, angles, strict=True)]
 
 
-def _convex(chance: Random) -> tuple[list[Corner], list[Triangle]]:
+def _convex(chance: Random) -> list[Corner]:
     """Return corners on an ellipse."""
     width, depth = chance.uniform(1, 7), chance.uniform(1, 7)
     count = chance.randint(3, 9)
     angles = sorted(2 * pi * (i + chance.uniform(0.1, 0.9)) / count for i in range(count))
-    corners = [(width * cos(a), depth * sin(a)) for a in angles]
-    first = corners[0]
-    return corners, [(first, a, b) for a, b in pairwise(corners[1:])]
+    return [(width * cos(a), depth * sin(a)) for a in angles]
 
 
-def _comb(chance: Random) -> tuple[list[Corner], list[Triangle]]:
+def _comb(chance: Random) -> list[Corner]:
     """Return a back with teeth, some of them longer than others."""
     teeth, wide, gap = chance.randint(2, 6), chance.uniform(0.1, 1.5), chance.uniform(0.1, 1.0)
-    corners, triangles = [(0.0, 0.0)], list[Triangle]()
+    corners = [(0.0, 0.0)]
     for i in range(teeth):
         x, tall = i * (wide + gap), chance.uniform(1.0, 7.0)
         corners += [(x, 1.0), (x, tall + 1.0), (x + wide, tall + 1.0), (x + wide, 1.0)]
-        triangles += _halves(x, 1.0, x + wide, tall + 1.0)
-    most = teeth * wide + (teeth - 1) * gap
-    return [*corners, (most, 0.0)], [*triangles, *_halves(0.0, 0.0, most, 1.0)]
+    return [*corners, (teeth * wide + (teeth - 1) * gap, 0.0)]
 
 
-def _sliver(chance: Random) -> tuple[list[Corner], list[Triangle]]:
+def _sliver(chance: Random) -> list[Corner]:
     """Return a strip as thin as a hair."""
     long, thin = chance.uniform(2, 15), 10 ** chance.uniform(-3, 0)
-    corners = [(0.0, 0.0), (long, chance.uniform(0, thin)), (long, thin * 2), (0.0, thin)]
-    return corners, [(corners[0], corners[1], corners[2]), (corners[0], corners[2], corners[3])]
+    return [(0.0, 0.0), (long, chance.uniform(0, thin)), (long, thin * 2), (0.0, thin)]
 
 
-def _box(chance: Random) -> tuple[list[Corner], list[Triangle]]:
+def _box(chance: Random) -> list[Corner]:
     """Return a box, as people draw."""
     wide, deep = chance.choice([1.0, 4.0, 8.0, 0.3]), chance.choice([1.0, 5.0, 7.5])
-    return [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.0, deep)], [*_halves(0.0, 0.0, wide, deep)]
-
-
-def _halves(x: float, y: float, to_x: float, to_y: float) -> Sequence[Triangle]:
-    return ((x, y), (to_x, y), (to_x, to_y)), ((x, y), (to_x, to_y), (x, to_y))
+    return [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.0, deep)]
 
 
 _KINDS = {
@@ -140,15 +124,9 @@ _KINDS = {
 
 def _obstacle(chance: Random) -> Polygon:
     """Return a no-fly area: small or large, concave too."""
-    corners, _ = _around(chance, 0.3)
     scale = chance.choice([0.05, 0.2, 0.5])
     x, y = chance.uniform(0, SIZE[0]), chance.uniform(0, SIZE[1])
-    return tuple((x + scale * a, y + scale * b) for a, b in corners)
-
-
-def _moved(corner: Corner, turn: float, x: float, y: float) -> Corner:
-    a, b = corner
-    return a * cos(turn) - b * sin(turn) + x + 3, a * sin(turn) + b * cos(turn) + y + 3
+    return tuple((x + scale * a, y + scale * b) for a, b in _around(chance, 0.3))
 
 
 # Judging
@@ -158,7 +136,7 @@ def judged(area: Drawn, number: int) -> Judged:
     """Cover an area, and judge that."""
     strewn = [
         point
-        for point in _strewn(area.triangles, Random(f"strewn {number}"))
+        for point in _strewn(area.corners, Random(f"strewn {number}"))
         if area.airspace.problem((*point, 0.0)) is None
     ]
     entry = {
@@ -183,22 +161,16 @@ def judged(area: Drawn, number: int) -> Judged:
     return Judged(len(targets), _share(strewn, targets, area.spacing), wrong)
 
 
-def _strewn(triangles: Sequence[Triangle], chance: Random) -> list[Corner]:
-    """Return points all over some triangles."""
-    weights = [
-        abs((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])) for a, b, c in triangles
-    ]
+def _strewn(corners: Polygon, chance: Random) -> list[Corner]:
+    """Return points all over a polygon."""
+    triangles = shapely.constrained_delaunay_triangles(shapely.Polygon(corners)).geoms
     found = []
-    for a, b, c in chance.choices(triangles, weights, k=STREWN):
+    for one in chance.choices(triangles, [one.area for one in triangles], k=STREWN):
+        (ax, ay), (bx, by), (cx, cy), _ = one.exterior.coords
         s, t = chance.random(), chance.random()
         if s + t > 1:
             s, t = 1 - s, 1 - t
-        found.append(
-            (
-                a[0] + s * (b[0] - a[0]) + t * (c[0] - a[0]),
-                a[1] + s * (b[1] - a[1]) + t * (c[1] - a[1]),
-            )
-        )
+        found.append((ax + s * (bx - ax) + t * (cx - ax), ay + s * (by - ay) + t * (cy - ay)))
     return found
 
 

@@ -25,115 +25,101 @@ from tests.paths import EXAMPLES
 ENOUGH = 0.98
 """The share of broken files of which exactly one thing is to be said."""
 
-_TOKEN = re.compile(r"\w+|->|\"[^\"\n]*\"|[^\w\s]")
+_TOKEN = re.compile(r"#.*|\w+|->|\"[^\"\n]*\"|[^\w\s]")
 _CHARACTERS = "abcxyzAZ019 _-.,:;()[]{}<>=#\"'/\\%→é\t"
 _INSERTED = [
     *("(", ")", "[", "]", "{", "}", '"', "'", "->", "=", ",", ":", ".", "when", "otherwise"),
     *("app", "use", "category", "action", "policy", "end", "start", "x", "5 min", "# "),
 ]
+Pieces = list[str]
 
 
-def _insert_character(text: str, dice: random.Random) -> str:
-    at = dice.randrange(len(text) + 1)
-    return text[:at] + dice.choice(_CHARACTERS) + text[at:]
+def _tokens(text: str) -> Pieces:
+    """Return what stands between tokens and each token, in turn; comments belong to what is between."""
+    pieces, at = [""], 0
+    for match in _TOKEN.finditer(text):
+        pieces[-1] += text[at : match.start()]
+        at = match.end()
+        if match[0].startswith("#"):
+            pieces[-1] += match[0]
+        else:
+            pieces += [match[0], ""]
+    pieces[-1] += text[at:]
+    return pieces
 
 
-def _delete_character(text: str, dice: random.Random) -> str:
-    at = dice.randrange(len(text))
-    return text[:at] + text[at + 1 :]
+def _lines(text: str) -> Pieces:
+    return ["", *(part for line in text.splitlines(keepends=True) for part in (line, ""))]
 
 
-def _replace_character(text: str, dice: random.Random) -> str:
-    at = dice.randrange(len(text))
-    return text[:at] + dice.choice(_CHARACTERS) + text[at + 1 :]
+def _characters(text: str) -> Pieces:
+    return ["", *(part for character in text for part in (character, ""))]
 
 
-def _transpose_characters(text: str, dice: random.Random) -> str:
-    at = dice.randrange(len(text) - 1)
-    return text[:at] + text[at + 1] + text[at] + text[at + 2 :]
+def _delete(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] = ""
 
 
-def _places(text: str) -> list[tuple[int, int]]:
-    """Return where tokens are, outside of comments."""
-    return [
-        (match.start() + offset, match.end() + offset)
-        for offset, line in _lines(text)
-        for match in _TOKEN.finditer(re.sub(r"#.*", "", line))
-    ]
+def _duplicate(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] += ("" if pieces[at].endswith("\n") else " ") + pieces[at]
 
 
-def _lines(text: str) -> Iterator[tuple[int, str]]:
-    offset = 0
-    for line in text.splitlines(keepends=True):
-        yield offset, line
-        offset += len(line)
+def _swap(pieces: Pieces, at: int, dice: random.Random) -> None:
+    other = min(at + 2, len(pieces) - 2)
+    pieces[at], pieces[other] = pieces[other], pieces[at]
 
 
-def _delete_token(text: str, dice: random.Random) -> str:
-    start, end = dice.choice(_places(text))
-    return text[:start] + text[end:]
+def _insert_token(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at + dice.choice((-1, 1))] += f" {dice.choice(_INSERTED)} "
 
 
-def _duplicate_token(text: str, dice: random.Random) -> str:
-    start, end = dice.choice(_places(text))
-    return text[:end] + " " + text[start:end] + text[end:]
+def _insert_character(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] += dice.choice(_CHARACTERS)
 
 
-def _swap_tokens(text: str, dice: random.Random) -> str:
-    places = _places(text)
-    i = dice.randrange(len(places) - 1)
-    (a, b), (c, d) = places[i], places[i + 1]
-    return text[:a] + text[c:d] + text[b:c] + text[a:b] + text[d:]
+def _replace(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] = dice.choice(_CHARACTERS)
 
 
-def _insert_token(text: str, dice: random.Random) -> str:
-    at = dice.choice(_places(text))[dice.randrange(2)]
-    return f"{text[:at]} {dice.choice(_INSERTED)} {text[at:]}"
+def _change_case(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] = dice.choice((pieces[at].swapcase(), pieces[at].capitalize()))
 
 
-def _change_case(text: str, dice: random.Random) -> str:
-    start, end = dice.choice([(a, b) for a, b in _places(text) if text[a:b].isidentifier()])
-    word = text[start:end]
-    return text[:start] + dice.choice((word.swapcase(), word.capitalize())) + text[end:]
+def _split(pieces: Pieces, at: int, dice: random.Random) -> None:
+    pieces[at] += "\n"
 
 
-def _delete_line(text: str, dice: random.Random) -> str:
-    lines = text.splitlines(keepends=True)
-    del lines[dice.randrange(len(lines))]
-    return "".join(lines)
+def _join(pieces: Pieces, at: int, dice: random.Random) -> None:
+    """Lead a line's end on to the next line."""
+    pieces[at] = pieces[at].rstrip("\n") + " "
+    if at + 2 < len(pieces):
+        pieces[at + 2] = pieces[at + 2].lstrip(" ")
 
 
-def _duplicate_line(text: str, dice: random.Random) -> str:
-    lines = text.splitlines(keepends=True)
-    at = dice.randrange(len(lines))
-    return "".join([*lines[: at + 1], *lines[at:]])
-
-
-def _split_line(text: str, dice: random.Random) -> str:
-    at = dice.randrange(len(text) + 1)
-    return text[:at] + "\n" + text[at:]
-
-
-def _join_lines(text: str, dice: random.Random) -> str:
-    at = dice.choice([i for i, char in enumerate(text) if char == "\n"])
-    return text[:at] + " " + text[at + 1 :].lstrip(" ")
-
-
-MUTATIONS: dict[str, Callable[[str, random.Random], str]] = {
-    "insert a character": _insert_character,
-    "delete a character": _delete_character,
-    "replace a character": _replace_character,
-    "transpose two characters": _transpose_characters,
-    "delete a token": _delete_token,
-    "duplicate a token": _duplicate_token,
-    "swap two tokens": _swap_tokens,
-    "insert a token": _insert_token,
-    "change case": _change_case,
-    "delete a line": _delete_line,
-    "duplicate a line": _duplicate_line,
-    "split a line": _split_line,
-    "join two lines": _join_lines,
+Mutation = tuple[Callable[[str], Pieces], Callable[[Pieces, int, random.Random], None]]
+MUTATIONS: dict[str, Mutation] = {
+    "insert a character": (_characters, _insert_character),
+    "delete a character": (_characters, _delete),
+    "replace a character": (_characters, _replace),
+    "transpose two characters": (_characters, _swap),
+    "delete a token": (_tokens, _delete),
+    "duplicate a token": (_tokens, _duplicate),
+    "swap two tokens": (_tokens, _swap),
+    "insert a token": (_tokens, _insert_token),
+    "change case": (_tokens, _change_case),
+    "delete a line": (_lines, _delete),
+    "duplicate a line": (_lines, _duplicate),
+    "split a line": (_characters, _split),
+    "join two lines": (_lines, _join),
 }
+
+
+def mutated(text: str, mutation: str, dice: random.Random) -> str:
+    """Make one mistake somewhere in a text."""
+    parted, change = MUTATIONS[mutation]
+    pieces = parted(text)
+    change(pieces, dice.randrange(1, len(pieces), 2), dice)
+    return "".join(pieces)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,10 +158,10 @@ def mutants(count: int, seed: int, text: str | None = None) -> Iterator[Mutant]:
         example = dice.choice(list(examples))
         mutation = dice.choice(list(MUTATIONS))
         text, hooks_source = examples[example]
-        mutated = MUTATIONS[mutation](text, dice)
-        if mutated != text:
+        wrong = mutated(text, mutation, dice)
+        if wrong != text:
             count -= 1
-            yield Mutant(example=example, mutation=mutation, text=mutated, hooks=hooks_source)
+            yield Mutant(example=example, mutation=mutation, text=wrong, hooks=hooks_source)
 
 
 def _examples() -> dict[str, tuple[str, Source | None]]:
@@ -217,8 +203,8 @@ def main() -> int:
     campaign.option("--seed", type=int, default=1)
     campaign.option("--show", type=int, default=10, help="how many of the worst to print")
     options = campaign.parse()
-    mutated = mutants(options.count, options.seed)
-    outcomes = [came for _, came in campaign.each(outcome, mutated)]
+    drawn = mutants(options.count, options.seed)
+    outcomes = [came for _, came in campaign.each(outcome, drawn)]
     several = [each for each in outcomes if each.broken and len(each.found) > 1]
     several.sort(key=lambda each: (all(d.code >= "P2" for d in each.found), -len(each.found)))
     for each in several[: options.show]:

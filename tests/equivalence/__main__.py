@@ -12,9 +12,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 
-from tests.equivalence.campaign import Tally, blamed, differs, one_graph
+from tests.equivalence.campaign import Tally, blamed, one_graph, smallest
 from tests.equivalence.coverage import missed
-from tests.equivalence.shrink import shrunk
 from tests.kit.campaign import Campaign
 
 SHOWN = 5
@@ -31,7 +30,7 @@ def main() -> int:
     for _, each in campaign.each(one_graph, campaign.names):
         tally.add(each)
     for finding in sorted(tally.findings, key=lambda finding: len(finding.text))[:SHOWN]:
-        small = shrunk(finding, differs)
+        small = smallest(finding)
         campaign.found(finding.name, str(small), f"after the pass: {blamed(small)}")
     unseen = [] if options.only else missed(tally.seen)
     return campaign.over(*lines(tally), fails=[f"never seen: {what}" for what in unseen])

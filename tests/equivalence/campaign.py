@@ -21,18 +21,20 @@ from plutoc.plan.verify import verify
 from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import read
-from tests.equivalence import coverage, strangers
+from tests.equivalence import coverage
 from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
 from tests.equivalence.fly import Record, difference, record
-from tests.equivalence.graphs import random_source
 from tests.equivalence.worlds import TIMES, World, random_world
+from tests.kit.graphs import others
+from tests.kit.graphs.graph import random_source
+from tests.kit.shrink import shrunk, simpler, smaller_sources
 
 WORLDS = 3
 """For each graph. What is learnt in one about how long trips take is used in the next."""
 
 INSTALLED = Blocks(
-    packages=(STD, strangers.PACKAGE),
-    of=lambda name: strangers.BLOCKS if name == strangers.PACKAGE else blocks_of(name),
+    packages=(STD, others.PACKAGE),
+    of=lambda name: others.BLOCKS if name == others.PACKAGE else blocks_of(name),
 )
 Planner = Callable[[Checked], Plan]
 plainly: Planner = partial(planned, optimise=False)
@@ -200,10 +202,34 @@ def differs(text: str, world: World, contender: Contender = OURS) -> str | None:
     return difference(plain, record(other, world))
 
 
-def first_finding(contender: Contender, graphs: int, seed: int = 1) -> Finding | None:
+def smallest(finding: Finding, contender: Contender = OURS) -> Finding:
+    """Return a smaller source and world that leave two traces all the same."""
+    if finding.world is None:
+        return finding
+    said = [finding.said]
+
+    def smaller(case: tuple[str, World]) -> Iterator[tuple[str, World]]:
+        text, world = case
+        yield from ((text, each) for each in simpler(world))
+        yield from ((each, world) for each in smaller_sources(text))
+
+    def shows(case: tuple[str, World]) -> bool:
+        try:
+            found = differs(*case, contender)
+        except (TypeError, KeyError, AttributeError):  # the world speaks of what is no more
+            return False
+        if found is not None:
+            said.append(found)
+        return found is not None
+
+    text, world = shrunk((finding.text, finding.world), smaller, shows)
+    return replace(finding, text=text, world=world, said=said[-1])
+
+
+def first_finding(contender: Contender, first: int, graphs: int) -> Finding | None:
     """Return what shows first that a contender is not the plain package, within so many graphs."""
-    for number in range(graphs):
-        found = one_graph(f"{seed}/{number}", contender).findings
+    for number in range(first, first + graphs):
+        found = one_graph(f"1/{number}", contender).findings
         if found:
             return found[0]
     return None

@@ -13,9 +13,9 @@ from plutoc.block import Gate
 from plutoc.graph.model import Node
 from plutoc.plan.model import Body, Call, Dispatch, Join, Loop, Plan, Step, Switch
 from plutoc_runtime.domain.trace import Event
-from tests.equivalence import strangers
 from tests.equivalence.fly import Record
 from tests.equivalence.worlds import World
+from tests.kit.graphs import others
 
 RETRIES = {0: "retries without bound", 1: "retries at most once", 3: "retries at most three times"}
 
@@ -160,7 +160,7 @@ WANTED = (
     *(f"block: {kind}" for kind in ("TripMonitor", "TimerMonitor", "GapMonitor", "GateFIFO")),
     *(f"block: {kind}" for kind in ("GateFunnel", "MissionRepeater", "MissionEvaluator")),
     *(f"block: {kind}" for kind in ("MissionModifier", "PriorityManager")),
-    *(f"block: {kind}" for kind in strangers.BLOCKS),
+    *(f"block: {kind}" for kind in others.BLOCKS),
     *RETRIES.values(),
     *("modifier with emits", "modifier without emits", "allocate_within"),
     *(f"policy: {name}" for name in ("nearest", "first", "least_used", "batch_optimal", "own")),

@@ -6,7 +6,6 @@ import asyncio
 from collections.abc import Callable, Sequence
 from contextvars import Context
 from heapq import heappop, heappush
-from selectors import DefaultSelector, SelectorKey
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.outcome import SimulationResult
@@ -14,6 +13,7 @@ from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput
+from tests.kit.drones import JumpingLoop
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
@@ -27,18 +27,13 @@ if TYPE_CHECKING:
 Arguments = TypeVarTuple("Arguments")
 
 
-class _Jumping(asyncio.SelectorEventLoop):
-    """A loop in which nothing waits: where all others would sleep, it is later already."""
+class _ToTheLastBit(JumpingLoop):
+    """A loop that comes to each time that was asked for exactly: no difference of two is rounded."""
 
     def __init__(self) -> None:
+        self.whens: list[float] = []
+        super().__init__()
         self.now = 0.0
-        self._whens: list[float] = []
-        self.stuck: Callable[[], object] = lambda: None
-        """Called when nothing is left to wait for."""
-        super().__init__(_Selector(self))
-
-    def time(self) -> float:
-        return self.now
 
     def call_at(
         self,
@@ -47,28 +42,14 @@ class _Jumping(asyncio.SelectorEventLoop):
         *args: *Arguments,
         context: Context | None = None,
     ) -> asyncio.TimerHandle:
-        heappush(self._whens, when)
+        heappush(self.whens, when)
         return super().call_at(when, callback, *args, context=context)
 
-    def jump(self) -> None:
-        """Make it as late as the next thing that was asked for, to the last bit."""
-        while self._whens and self._whens[0] <= self.now:
-            heappop(self._whens)
-        if self._whens:
-            self.now = self._whens[0]
-
-
-class _Selector(DefaultSelector):
-    def __init__(self, loop: _Jumping) -> None:
-        super().__init__()
-        self.loop = loop
-
-    def select(self, timeout: float | None = None) -> list[tuple[SelectorKey, int]]:
-        if timeout is None:
-            self.loop.stuck()
-        elif timeout > 0:
-            self.loop.jump()
-        return super().select(0)
+    def advance(self, seconds: float) -> None:
+        while self.whens and self.whens[0] <= self.now:
+            heappop(self.whens)
+        if self.whens:
+            self.now = self.whens[0]
 
 
 class _Midnight(RealTime):
@@ -113,11 +94,16 @@ def in_real_time(
             simulation.close()
         return simulation.outcome(missions, events, ended, "")
 
-    loop = _Jumping()
+    loop = _ToTheLastBit()
     try:
         task = loop.create_task(flown())
-        loop.stuck = task.cancel
-        return loop.run_until_complete(task)
+        try:
+            return loop.run_until_complete(task)
+        except RuntimeError:  # nothing is left to wait for
+            if task.done():
+                raise
+            task.cancel()
+            return loop.run_until_complete(task)
     finally:
         loop.close()
 

@@ -16,8 +16,8 @@ from plutoc.emit.flow_file import flow_file
 from plutoc.emit.model_file import model_file
 from plutoc.graph.model import Graph
 from plutoc.plan.model import Plan
-from tests.equivalence import strangers
 from tests.equivalence.patience import Patience
+from tests.kit.graphs import others
 
 PACKAGE = "equivalent"
 BLOCKS = "_runtime.blocks."
@@ -122,8 +122,8 @@ def _of_the_runtime(
     target: str, wanted: Sequence[str], overrides: Overrides, patience: Patience | None
 ) -> object:
     """Return what a generated module imports from `_runtime`, from where it is at home."""
-    if target.startswith(f"{BLOCKS}{strangers.PACKAGE}."):
-        home = strangers.__name__
+    if target.startswith(f"{BLOCKS}{others.PACKAGE}."):
+        home = others.__name__
     elif target.startswith(BLOCKS):
         home = f"plutoc_blocks.{target.removeprefix(BLOCKS)}.step"
     else:

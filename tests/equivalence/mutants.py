@@ -1,74 +1,211 @@
-"""Optimised packages with one mistake each, of the kinds that a pass could make."""
+"""Optimised packages with one mistake each, of the kinds that a pass could make, what it emits, or the wait."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
+from copy import copy
+from dataclasses import replace
 from functools import reduce
+from typing import TYPE_CHECKING, Any
 
+from pluto_fleet.shared.flow.run import watch as wait
+from pluto_fleet.shared.time.future import Future
+from plutoc.block import Gate, Param
 from plutoc.check.model import Checked
 from plutoc.compile import planned
 from plutoc.plan.build import build
-from plutoc.plan.model import Plan
+from plutoc.plan.model import (
+    Arm,
+    Body,
+    Break,
+    Call,
+    Continue,
+    Dispatch,
+    End,
+    Join,
+    Plan,
+    Step,
+    Switch,
+    Watch,
+)
 from plutoc.plan.optimise import PASSES
 from plutoc.plan.passes.clones import clones
 from plutoc.plan.passes.constants import constants
 from plutoc.plan.passes.watch import watch
 from plutoc.plan.rewrite import Replace, rewritten
-from tests.equivalence import mistakes
-from tests.equivalence.campaign import Contender, Planner
+from plutoc_blocks.timer_monitor.step import timer_limit
+from tests.equivalence.campaign import Contender
+
+if TYPE_CHECKING:
+    from pluto_fleet.shared.domain.status import Status
+    from pluto_fleet.shared.flow.run import Branch, Run
+    from pluto_fleet.shared.trips.flight import Flight, Limit
+
+Pass = Callable[[Plan], Plan]
+
+MUTANTS: dict[str, tuple[int, Contender]] = {}
+"""By what is wrong with each, with the number of the first graph that shows it."""
 
 
-def _then(change: Replace) -> Planner:
-    """Return a planner that makes a change after all passes."""
-    return lambda checked: rewritten(planned(checked), change)
+def after_all(graph: int) -> Callable[[Replace], Replace]:
+    """Make a change after all passes."""
+
+    def known(change: Replace) -> Replace:
+        name = change.__name__.replace("_", " ")
+        MUTANTS[name] = graph, Contender(
+            planner=lambda checked: rewritten(planned(checked), change)
+        )
+        return change
+
+    return known
 
 
-def _instead(mended: Callable[[Plan], Plan], wrong: Callable[[Plan], Plan]) -> Planner:
-    """Return a planner with another pass in the place of one of ours."""
-    passes = [wrong if one is mended else one for one in PASSES]
-    assert passes != list(PASSES)
+def instead_of(mended: Pass, graph: int) -> Callable[[Pass], Pass]:
+    """Run another pass in the place of one of ours."""
 
-    def plan(checked: Checked) -> Plan:
-        return reduce(lambda found, one: one(found), passes, build(checked))
+    def known(wrong: Pass) -> Pass:
+        passes = [wrong if one is mended else one for one in PASSES]
+        assert passes != list(PASSES)
 
-    return plan
+        def plan(checked: Checked) -> Plan:
+            return reduce(lambda found, one: one(found), passes, build(checked))
+
+        MUTANTS[wrong.__name__.replace("_", " ")] = graph, Contender(planner=plan)
+        return wrong
+
+    return known
 
 
-MUTANTS: Mapping[str, Contender] = {
-    "two arms of a switch are swapped": Contender(planner=_then(mistakes.swap_arms)),
-    "a guard is dropped": Contender(planner=_then(mistakes.drop_guard)),
-    "a fused wait has no limits": Contender(planner=_then(mistakes.drop_limits)),
-    "a fused wait has its limits the wrong way round": Contender(
-        planner=_then(mistakes.turn_limits_round)
-    ),
-    "branches begin in the wrong order": Contender(planner=_then(mistakes.turn_branches_round)),
-    "hooks that leave the status alone are dropped": Contender(
-        planner=_then(mistakes.drop_quiet_hooks)
-    ),
-    "a bare arrow to the gate of the first is forgotten": Contender(
-        planner=_instead(watch, mistakes.fuse_first_with_a_bare_arrow)
-    ),
-    "a wait is fused over a hook": Contender(planner=_instead(watch, mistakes.fuse_over_hooks)),
-    "the arrow to a gate of the first gets no clone": Contender(
-        planner=_instead(clones, mistakes.spare_the_first_arrow)
-    ),
-    "no arrow to a gate of all gets a clone": Contender(
-        planner=_instead(clones, mistakes.spare_every_arrow)
-    ),
-    "a parameter that is given is left out": Contender(
-        planner=_instead(constants, mistakes.leave_out_what_has_a_default)
-    ),
-    "a way out of a loop leads round": Contender(planner=_then(mistakes.go_round_instead)),
-    "two cases are exchanged": Contender(planner=_then(mistakes.exchange_cases)),
-    "a gate forgets to call the others off": Contender(
-        overrides={"pass_first": mistakes.pass_first_and_leave_the_rest}
-    ),
-    "a funnel lets the first pass": Contender(overrides={"wait_for_all": mistakes.wait_for_any}),
-    "a wait that is called off forgets to cancel its limits": Contender(
-        overrides={"watch": mistakes.watch_and_never_let_go}
-    ),
-    "a declared default hides the mission's own safe time": Contender(
-        overrides={"timer_limit": mistakes.limit_by_default}
-    ),
-}
-"""By what is wrong with each."""
+@after_all(0)
+def two_arms_of_a_switch_are_swapped(step: Step, _: Step) -> Body:
+    match step:
+        case Switch(arms=(first, second, *rest)) if first.body != second.body:
+            swapped = Arm(statuses=first.statuses, body=second.body, to=second.to)
+            other = Arm(statuses=second.statuses, body=first.body, to=first.to)
+            return (replace(step, arms=(swapped, other, *rest)),)
+    return (step,)
+
+
+@after_all(0)
+def a_fused_wait_has_no_limits(step: Step, _: Step) -> Body:
+    match step:
+        case Watch(watchers=watchers):
+            return (replace(step, watchers=tuple(w for w in watchers if not w.block.limits)),)
+    return (step,)
+
+
+@after_all(0)
+def a_fused_wait_has_its_limits_the_wrong_way_round(step: Step, _: Step) -> Body:
+    match step:
+        case Watch(watchers=watchers):
+            return (replace(step, watchers=watchers[::-1]),)
+    return (step,)
+
+
+@after_all(0)
+def branches_begin_in_the_wrong_order(step: Step, _: Step) -> Body:
+    match step:
+        case Join(branches=branches):
+            return (replace(step, branches=branches[::-1]),)
+    return (step,)
+
+
+@after_all(0)
+def hooks_that_leave_the_status_alone_are_dropped(step: Step, _: Step) -> Body:
+    match step:
+        case Call(node=node) if node.block.emits_by_hook and not (node.hook and node.hook.emits):
+            return ()
+    return (step,)
+
+
+@after_all(0)
+def a_way_out_of_a_loop_leads_round(step: Step, _: Step) -> Body:
+    return (Continue(),) if isinstance(step, Break) else (step,)
+
+
+@after_all(0)
+def two_cases_are_exchanged(step: Step, _: Step) -> Body:
+    match step:
+        case Dispatch(cases=(first, second, *rest)):
+            exchanged = replace(first, body=second.body), replace(second, body=first.body)
+            return (replace(step, cases=(*exchanged, *rest)),)
+    return (step,)
+
+
+@instead_of(watch, 0)
+def a_bare_arrow_to_the_gate_of_the_first_is_forgotten(plan: Plan) -> Plan:
+    def without(step: Step, _: Step) -> Body:
+        match step:
+            case Join(gate=gate, branches=branches) if gate.block.gate is Gate.FIRST:
+                busy = tuple(branch for branch in branches if branch.body != (End(),))
+                return (replace(step, branches=busy),) if busy else (step,)
+        return (step,)
+
+    return watch(rewritten(plan, without))
+
+
+@instead_of(clones, 0)
+def no_arrow_to_a_gate_of_all_gets_a_clone(plan: Plan) -> Plan:
+    """No matter what the others bring."""
+
+    def idle(step: Step, _: Step) -> Body:
+        match step:
+            case Join(gate=gate, branches=branches) if gate.block.gate is Gate.ALL:
+                spared = tuple(replace(each, idle=each.body == (End(),)) for each in branches)
+                return (
+                    (step,)
+                    if all(each.idle for each in spared)
+                    else (replace(step, branches=spared),)
+                )
+        return (step,)
+
+    return rewritten(plan, idle)
+
+
+@instead_of(constants, 0)
+def a_parameter_that_is_given_is_left_out(plan: Plan) -> Plan:
+    """It has a default, of another value."""
+    left_out = [
+        (node.name, name)
+        for node in plan.checked.graph.nodes
+        for name in getattr(node.block.step, "__kwdefaults__", None) or {}
+        if isinstance(node.block.param(name), Param)
+    ]
+    return replace(plan, left_out=tuple(left_out))
+
+
+async def leave_the_rest(run: Run[Any], status: Status, *branches: Branch[Any]) -> Status:
+    """Let the first pass a gate, and forget to call the other branches off."""
+    first: Future[Any] = Future()
+    for clone in run.fork(status, branches):
+        clone.watch(first.set)
+    arrived: Status = (await first).result()
+    return arrived
+
+
+def never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
+    """Wait with limits that go on when the wait is called off."""
+    taskless = copy(run)
+    taskless.task = None
+    return wait(taskless, *limits)
+
+
+def limit_by_default(
+    run: Run[Any], *, default: float | None = None, safe_time: float | None = None
+) -> Limit | None:
+    """Let the declared default settle it, and forget the mission's own safe time."""
+    return timer_limit(run, default=default, safe_time=default)
+
+
+MUTANTS["a gate forgets to call the others off"] = (
+    0,
+    Contender(overrides={"pass_first": leave_the_rest}),
+)
+MUTANTS["a wait that is called off forgets to cancel its limits"] = (
+    0,
+    Contender(overrides={"watch": never_let_go}),
+)
+MUTANTS["a declared default hides the mission's own safe time"] = (
+    0,
+    Contender(overrides={"timer_limit": limit_by_default}),
+)

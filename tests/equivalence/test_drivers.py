@@ -10,7 +10,7 @@ from tests.equivalence.flows import packaged
 from tests.equivalence.fly import record
 from tests.equivalence.worlds import random_world
 
-GRAPHS = 40
+GRAPHS = 8
 
 
 def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> None:
@@ -28,4 +28,4 @@ def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> N
             whole = not virtual.ends[0].startswith(("BadInput", f"over after {world.until!r}"))
             assert seen(real, world, whole) == seen(virtual, world, whole), f"{text}\n{world}"
             events += len(virtual.events)
-    assert events > 3_000
+    assert events > 500

@@ -25,8 +25,8 @@ from plutoc.report.json import render_line
 from plutoc.report.pictures import dot, json, mermaid
 from plutoc.report.text import render
 from plutoc.source import Source
-from tests.fuzz.apps import grown
 from tests.fuzz.mutants import mutated, spliced
+from tests.kit.graphs.usual import grown
 
 TOP = frozenset({".gitattributes", "LICENSE", "README.md", "pyproject.toml", LOCK, "src", "tests"})
 

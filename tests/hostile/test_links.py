@@ -29,27 +29,15 @@ def outside(here: Path) -> Path:
     return folder
 
 
-LINKED = [
-    "crop",
-    "crop/src",
-    "crop/src/crop",
-    "crop/src/crop/_runtime",
-    "crop/src/crop/_runtime/blocks",
-    "crop/src/crop/flow.py",
-    "crop/src/crop/hooks.py",
-    "crop/tests",
-    "crop/src/crop/testing.py",
-    "crop/tests/conftest.py",
-    "crop/tests/test_flow.py",
-    "crop/tests/test_hooks.py",
-    "crop/pluto.lock",
-    "crop/README.md",
-]
+FOLDERS = ("crop", "crop/src/crop", "crop/src/crop/_runtime/blocks", "crop/tests")
+FILES = ("src/crop/flow.py", "src/crop/hooks.py", "tests/test_hooks.py", "pluto.lock", "README.md")
+LINKED = [*FOLDERS, *(f"crop/{name}" for name in FILES)]
 
 
 @pytest.mark.parametrize("path", LINKED)
-@pytest.mark.parametrize("target", ["outside", "moved", "nowhere"])
-@pytest.mark.parametrize("force", [[], ["--force"]], ids=["", "force"])
+@pytest.mark.parametrize(
+    ("target", "force"), [("outside", ["--force"]), ("moved", []), ("nowhere", ["--force"])]
+)
 def test_no_link_is_written_through(
     app: Path, outside: Path, path: str, target: str, force: list[str]
 ) -> None:
@@ -66,7 +54,7 @@ def test_no_link_is_written_through(
     done = plutoc("compile", app, *force)
     assert tree(outside) == before
     assert "BEGIN PRIVATE" not in done.out + done.err
-    if place.name in ("hooks.py", "test_hooks.py", "conftest.py") and target != "nowhere":
+    if place.name in ("hooks.py", "test_hooks.py") and target != "nowhere":
         return  # theirs: it is not written in any case
     assert done.code == 3, done
     assert place.is_symlink()

@@ -25,21 +25,18 @@ PLACES = [
 
 
 @pytest.mark.parametrize(("old", "new"), PLACES, ids=lambda text: text.strip())
-@pytest.mark.parametrize("name", ODD, ids=ascii)
-def test_an_odd_name_is_refused_with_a_place(name: str, old: str, new: str) -> None:
+def test_an_odd_name_is_refused_with_a_place(old: str, new: str) -> None:
     """Or it is an ordinary name in that place, such as `os` for a block."""
-    source = Source("crop.pluto", app("plain").replace(old, new.format(name)))
-    try:
-        checked, _ = analyse(source)
-    except Rejected as rejected:
-        first = rejected.diagnostics[0]
-        assert 0 <= first.span.start <= first.span.end <= len(source.text) + 1
-        return
-    assert name.isidentifier()
-    assert name.isascii()
-    assert len(name) <= 63
-    assert not (old.startswith("app") and name in ("os", "json", "tests", "src", "con", "nul"))
-    assert checked.graph.name.isidentifier()
+    for name in ODD:
+        source = Source("crop.pluto", app("plain").replace(old, new.format(name)))
+        try:
+            analyse(source)
+        except Rejected as rejected:
+            first = rejected.diagnostics[0]
+            assert 0 <= first.span.start <= first.span.end <= len(source.text) + 1, name
+            continue
+        assert name.isidentifier() and name.isascii() and len(name) <= 63
+        assert not (old.startswith("app") and name in ("os", "json", "tests", "src", "con", "nul"))
 
 
 def test_letters_that_look_alike_are_told_apart() -> None:

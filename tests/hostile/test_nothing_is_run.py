@@ -99,6 +99,7 @@ def test_hooks_are_read_and_never_run(app: Path) -> None:
     assert not trap.exists()
 
 
+@pytest.mark.process
 def test_the_folder_that_we_are_in_is_no_place_for_modules(app: Path) -> None:
     """A stranger's folder may hold a json.py, a lark.py or a plutoc_blocks.py beside the app."""
     for name in ("json", "lark", "ast", "black", "plutoc_blocks", "sitecustomize", "jinja2"):

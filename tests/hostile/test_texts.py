@@ -5,19 +5,17 @@ from __future__ import annotations
 import ast
 import json
 import re
-import shutil
 import tomllib
-import unicodedata
 from collections.abc import Iterator
 from functools import cache
-from xml.etree import ElementTree
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plutoc.emit.package import Package
-from plutoc.report.pictures import dot, dot_to_svg, mermaid
+from plutoc.emit.readme_file import readme
+from plutoc.report.pictures import dot, mermaid
 from plutoc.report.pictures import json as as_json
 from plutoc.syntax.characters import HIDDEN
 from tests.fuzz.texts import HOSTILE
@@ -79,7 +77,7 @@ def assert_same_shape(package: Package) -> None:
                 assert path in ("README.md", ".gitattributes")
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=8, deadline=None, derandomize=True)
 @given(TEXTS)
 @example("coding: utf-7 +AAo-x+AD0-1")
 @example('"""\\')
@@ -131,26 +129,16 @@ def test_texts_say_what_was_written() -> None:
     assert description == " ".join(text.split())
 
 
-def test_comments_get_into_no_file() -> None:
-    """They are for people who read the source."""
-    for comment in (text for text in ALWAYS if "\n" not in text):
-        assert checked(PLAIN, comment).graph == checked(PLAIN, comment).graph
-    marked = checked(PLAIN, "touch hacked " + "".join(ALWAYS))
-    assert marked.graph.title == PLAIN
-
-
 def unmarked(line: str) -> str:
     """Return a line of Markdown without what is escaped."""
     return re.sub(r"\\[\\`*_\[\]<>#|~&$@!(){}+.-]", "", line)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=20, deadline=None, derandomize=True)
 @given(TEXTS)
 @example("".join(ALWAYS))
 def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
     """No link, no picture, no HTML, no heading, no code, no formula, no mention of a person."""
-    from plutoc.emit.readme_file import readme
-
     written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()
     plain = readme(checked(PLAIN).graph, "crop.pluto", "flowchart TD\n").splitlines()
     others = [line for line in plain if PLAIN not in line]
@@ -161,7 +149,7 @@ def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
         assert unmarked(line).strip("*") == unmarked(line)[2:-2]
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=20, deadline=None, derandomize=True)
 @given(TEXTS)
 @example("".join(ALWAYS))
 def test_a_title_adds_nothing_to_a_picture(text: str) -> None:
@@ -176,15 +164,3 @@ def test_a_title_adds_nothing_to_a_picture(text: str) -> None:
     ]
     assert re.fullmatch(r'    graph \[label="(?:[^"\\]|\\\\|\\")*", .*', lines[1])
     assert list(keys(json.loads(as_json(odd)))) == list(keys(json.loads(as_json(plain))))
-
-
-def test_graphviz_draws_every_title() -> None:
-    """The picture is well-formed XML with the elements of a plain one, and no other."""
-    if shutil.which("dot") is None:
-        pytest.skip("Graphviz is not installed")
-    plain = ElementTree.fromstring(dot_to_svg(dot(checked(PLAIN))))
-    for text in ("".join(t for t in ALWAYS if t.isprintable()), "</text><script>", "<b>&amp;x"):
-        drawn = ElementTree.fromstring(dot_to_svg(dot(checked(text))))
-        assert [node.tag for node in drawn.iter()] == [node.tag for node in plain.iter()]
-        said = "".join(node.text or "" for node in drawn.iter() if node.tag.endswith("}text"))
-        assert unicodedata.normalize("NFC", text[:5]) in unicodedata.normalize("NFC", said)

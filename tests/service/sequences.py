@@ -32,7 +32,7 @@ from plutoc.service.editing.operations import (
     SetTitle,
 )
 from plutoc.source import Source, Span
-from tests.equivalence.graphs import random_source
+from tests.kit.graphs.graph import random_source
 from tests.paths import ROOT
 from tests.service.model import App, after, app_of, comments
 

@@ -6,7 +6,7 @@
 
 Prints a table and every disagreement, with the app and a run that shows it; exits with 1 if there
 is one. With `--fly` what is accepted is flown, too, by hooks that never change their mind, in virtual
-time and the first of them in real time; it exits with 1 as well where a mission then never ends.
+time, and the first of them by the driver of real flights; it exits with 1 as well where a mission then never ends.
 """
 
 from __future__ import annotations
@@ -23,9 +23,8 @@ from tests.kit.campaign import Campaign
 from tests.soundness.app import App
 from tests.soundness.compare import Compared, compare
 from tests.soundness.endings import End, endings
-from tests.soundness.loops import looping_app
 from tests.soundness.mutants import mutants
-from tests.soundness.randoms import random_app
+from tests.soundness.randoms import looping_app, random_app
 from tests.soundness.table import Tally, lines
 from tests.soundness.thesis import thesis_graphs
 
@@ -35,7 +34,9 @@ def main() -> int:
     campaign = Campaign("tests.soundness", __doc__)
     campaign.option("--random", type=int, default=0, metavar="N", help="random apps instead")
     campaign.option("--loops", type=int, default=0, metavar="N", help="apps full of loops instead")
-    campaign.option("--fly", type=int, metavar="N", help="fly what is accepted, N in real time")
+    campaign.option(
+        "--fly", type=int, metavar="N", help="fly what is accepted, N as in real flights, too"
+    )
     campaign.option("--seed", type=int, default=1, metavar="N", help="of the first; default: 1")
     campaign.option(
         "--only", action="store_true", help="that one alone: of each kind that is asked for"

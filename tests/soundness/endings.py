@@ -6,7 +6,6 @@ should not have been accepted is gone round for ever; that nothing does but what
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -19,13 +18,10 @@ from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.flight.simulation import Simulation
-from pluto_fleet.process.hook_runner import RealHooks
-from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.domain.model import AfterTrip, Category, Mission, Point, Results
+from pluto_fleet.shared.domain.model import AfterTrip, Mission, Point, Results
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.hooks.context import Context, Verdict
@@ -34,6 +30,7 @@ from plutoc.check.model import Checked
 from plutoc.compile import planned
 from plutoc.graph.model import Graph, Hook
 from plutoc_runtime.domain.status import Status
+from tests.equivalence.drivers import in_real_time
 from tests.equivalence.flows import packaged
 from tests.equivalence.patience import Spins
 
@@ -41,7 +38,7 @@ CALLS = 300
 """Of hooks between two launches, instead of a hundred thousand."""
 FLIGHTS = 6
 """After so many an evaluator asks for no more."""
-VIRTUAL, REAL = 2_000.0, 20.0
+LONGEST = 2_000.0
 """Seconds after which those that still fly are left to it: a retry without a bound has no end."""
 GOES_ROUND = "goes round in its graph for ever"
 
@@ -105,9 +102,10 @@ def endings(checked: Checked, seed: int, *, real: bool = False) -> tuple[End, ..
     """Fly an app's missions, and return what became of each."""
     hooks = Hooks(seed=seed, graph=checked.graph)
     app = packaged(planned(checked)).app(hooks.module(), patient=real)
-    app = replace(app, categories=(_category(app.categories[0], 200.0 if real else 2.0),))
-    flown = described(app)
-    missions = _missions(flown, Random(seed), 0.003 if real else 1.2)
+    category = replace(app.categories[0], speed=2.0, flight_time=1e7)
+    flown = described(replace(app, categories=(category,)))
+    missions = _missions(flown, Random(seed))
+    fly = in_real_time if real else simulate
     launched: dict[object, float] = {}
     ended: dict[object, None] = {}
 
@@ -119,15 +117,23 @@ def endings(checked: Checked, seed: int, *, real: bool = False) -> tuple[End, ..
 
     try:
         with _fewer_calls():
-            (_really if real else _virtually)(flown, missions, seed, hear)
+            faults = Faults(action=(0.0, 0.2, 0.5)[seed % 3])
+            fly(
+                flown,
+                missions,
+                _fleet(flown),
+                seed=seed,
+                faults=faults,
+                until=LONGEST,
+                on_event=hear,
+            )
     except (BadInput, Spins):
         return (End.HANGS,)
-    late = (REAL if real else VIRTUAL) / 2
     return tuple(
         (
             _end(mission, hooks)
             if mission.name in ended
-            else End.FLIES if launched.get(mission.name, 0.0) > late else End.HANGS
+            else End.FLIES if launched.get(mission.name, 0.0) > LONGEST / 2 else End.HANGS
         )
         for mission in missions
     )
@@ -137,33 +143,6 @@ def _end(mission: Mission[Any], hooks: Hooks) -> End:
     if GOES_ROUND in mission.reason:
         return End.CHOSEN if hooks.free.get(mission.name) else End.HANGS
     return End.COMPLETED if mission.status.value == "COMPLETED" else End.FAILED
-
-
-def _virtually(
-    app: App, missions: list[Mission[Any]], seed: int, hear: Callable[[Event], object]
-) -> None:
-    fleet = _fleet(app, Airspace())
-    faults = _faults(seed)
-    simulate(app, missions, fleet, seed=seed, faults=faults, until=VIRTUAL, on_event=hear)
-
-
-def _really(
-    app: App, missions: list[Mission[Any]], seed: int, hear: Callable[[Event], object]
-) -> None:
-    async def flown() -> None:
-        kernel = RealTime()
-        fleet = _fleet(app, Airspace(cruise_height=0.003))
-        hooks = RealHooks(kernel)
-        simulation = Simulation(app, fleet, kernel, seed, _faults(seed), hear, hooks=hooks)
-        try:
-            async with asyncio.timeout(REAL):
-                await kernel.run(simulation.start(missions))
-        except TimeoutError:
-            pass  # what still flies is told from what hangs by its launches
-        finally:
-            simulation.close()
-
-    asyncio.run(flown())
 
 
 @contextmanager
@@ -176,30 +155,20 @@ def _fewer_calls() -> Iterator[None]:
         asking.MOST_CALLS = usual
 
 
-def _category(given: Category, speed: float) -> Category:
-    return replace(given, speed=speed, flight_time=1e7)
-
-
-def _fleet(app: App, airspace: Airspace) -> FleetFile:
+def _fleet(app: App) -> FleetFile:
     category, homes = app.categories[0].name, ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
     drones = tuple(
         DroneEntry(id=f"cf{number}", category=category, home=home)
         for number, home in enumerate(homes, start=1)
     )
-    return FleetFile(
-        airspace=airspace, drones=drones, after_trip=AfterTrip.HOME, max_airborne=None, apart=0.0
-    )
+    return FleetFile(airspace=Airspace(), drones=drones, after_trip=AfterTrip.HOME, apart=0.0)
 
 
-def _faults(seed: int) -> Faults:
-    return Faults(action=(0.0, 0.2, 0.5)[seed % 3])
-
-
-def _missions(app: App, rng: Random, height: float) -> list[Mission[Any]]:
+def _missions(app: App, rng: Random) -> list[Mission[Any]]:
     missions = []
     for place in range(2):
         trips = [
-            app.trip(name=f"{number}", action="take_photo", target=_spot(rng, height), index=number)
+            app.trip(name=f"{number}", action="take_photo", target=_spot(rng), index=number)
             for number in range(rng.choice((1, 2)))
         ]
         mission = app.mission(name=f"m{place}", index=place, trips=trips)
@@ -209,5 +178,5 @@ def _missions(app: App, rng: Random, height: float) -> list[Mission[Any]]:
     return missions
 
 
-def _spot(rng: Random, height: float) -> Point:
-    return float(rng.randint(1, 9)), float(rng.randint(1, 9)), height
+def _spot(rng: Random) -> Point:
+    return float(rng.randint(1, 9)), float(rng.randint(1, 9)), 1.2

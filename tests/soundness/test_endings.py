@@ -11,9 +11,10 @@ from plutoc.check.model import Checked
 from plutoc.compile import analyse
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
+from tests.kit.sections import given
 from tests.soundness.app import App
 from tests.soundness.endings import End, endings
-from tests.soundness.loops import looping_app
+from tests.soundness.randoms import looping_app
 from tests.soundness.test_endless import ENDLESS, HEAD
 
 
@@ -37,13 +38,13 @@ def flown(seeds: range, *, real: bool) -> list[End]:
 
 
 def test_what_is_accepted_ends_with_hooks_that_never_change_their_mind() -> None:
-    ends = flown(range(100), real=False)
-    assert ends.count(End.COMPLETED) > 50
-    assert ends.count(End.FAILED) > 10
+    ends = flown(range(60), real=False)
+    assert ends.count(End.COMPLETED) > 25
+    assert ends.count(End.FAILED) > 3
 
 
-def test_it_ends_in_real_time_as_well() -> None:
-    assert len(flown(range(6), real=True)) >= 4
+def test_it_ends_by_the_driver_of_real_flights_as_well() -> None:
+    assert len(flown(range(10), real=True)) > 3
 
 
 def test_a_loop_that_should_have_been_refused_would_be_seen(
@@ -52,7 +53,6 @@ def test_a_loop_that_should_have_been_refused_would_be_seen(
     """Through a modifier, by the number of its calls; and of repeaters alone, that no hook is in."""
     monkeypatch.setattr(statuses, "endless_loops", lambda steps: ())
     for name in ("two repeaters that lead to each other", "a hook between changes nothing"):
-        _, arrows = ENDLESS[name]
-        text = f"{HEAD}{arrows}}}\n"
+        text = f"{HEAD}{given(ENDLESS)[name]}\n}}\n"
         checked, _ = analyse(Source(path="app.pluto", text=text))
         assert End.HANGS in endings(checked, 0)

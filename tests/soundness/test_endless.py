@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from tests.kit.sections import Section, params
 from tests.soundness.app import read
 from tests.soundness.compare import refused
 from tests.soundness.oracle import judge
@@ -22,79 +25,14 @@ app endless {
   watch = TripMonitor
   start -> create -> allocate -> launch
 """
-SPINNING = """
-  launch -> watch
-  again = MissionRepeater
-  more = MissionRepeater
-  [watch, again, more] -> allocate when STANDBY
-  watch -> end when FAILED
-  watch -> again when COMPLETED
-  again -> more when COMPLETED
-  more -> again when COMPLETED
-"""
-ENDLESS = {
-    # Attempts that are used up stay so: the mission goes round where no time passes, and its app
-    # hangs.
-    "exhausted": ("P2010", """
-  launch -> watch
-  retry = PriorityManager
-  watch -> allocate when STANDBY
-  watch -> end when COMPLETED
-  watch -> retry when FAILED
-  retry -> allocate when STANDBY
-  retry -> retry when FAILED
-"""),
-    # Only FAILED passes such a funnel: what takes COMPLETED behind it is no way to an end.
-    "a branch that always fails fails its funnel": ("P2010", """
-  launch -> [mark, watch] -> all_there
-  mark = MissionModifier(hook: give_up)
-  all_there = GateFunnel
-  all_there -> allocate when FAILED
-  all_there -> end
-"""),
-    "what a branch has used up is used up behind its gate": ("P2010", """
-  launch -> watch
-  again = MissionModifier(hook: note)
-  mark = MissionModifier(hook: note)
-  retry = PriorityManager
-  first = GateFIFO
-  watch -> allocate when STANDBY
-  watch -> end when COMPLETED
-  watch -> again when FAILED
-  again -> [retry, mark] -> first
-  first -> allocate when STANDBY
-  first -> again when FAILED
-"""),
-    # Rounds that are flown stay flown, and no time passes between the two.
-    "two repeaters that lead to each other": ("P2025", SPINNING),
-    # Without `emits` it may look at the mission; the repeater has no round left the next time.
-    "a hook between changes nothing": (
-        "P2025",
-        SPINNING.replace("more = MissionRepeater", "more = MissionModifier(hook: note)").replace(
-            "[watch, again, more]", "[watch, again]"
-        ),
-    ),
-    # Nothing was flown since, so that only the hook's own FAILED would end it.
-    "a verdict that is taken back is given once more": ("P2025", """
-  launch -> watch
-  judge = MissionEvaluator(hook: judges)
-  mend = MissionModifier(hook: mends)
-  [watch, judge] -> allocate when STANDBY
-  watch -> end when FAILED
-  watch -> judge when COMPLETED
-  judge -> end when COMPLETED
-  judge -> mend when FAILED
-  mend -> judge when COMPLETED
-  mend -> end when FAILED
-"""),
-}  # fmt: skip
+ENDLESS = Path(__file__).with_name("endless.txt")
 
 
-@pytest.mark.parametrize(("code", "arrows"), ENDLESS.values(), ids=list(ENDLESS))
-def test_what_has_no_way_out_is_found_by_the_oracle_and_refused(code: str, arrows: str) -> None:
-    text = f"{HEAD}{arrows}}}\n"
+@pytest.mark.parametrize("section", params(ENDLESS))
+def test_what_has_no_way_out_is_found_by_the_oracle_and_refused(section: Section) -> None:
+    text = f"{HEAD}{section.given}\n}}\n"
     assert judge(read(text)).runs.keys() == {Verdict.ENDLESS}
-    assert refused(text) == (code,)
+    assert refused(text) == (section.comes.removeprefix("-- "),)
 
 
 def test_each_way_round_is_looked_at_alone() -> None:

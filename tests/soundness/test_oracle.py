@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+from tests.kit.sections import Section, params, sections
 from tests.soundness.app import read
 from tests.soundness.oracle import judge
 from tests.soundness.state import Verdict
@@ -25,55 +28,19 @@ app small {
 """
 HEAD = "start -> create -> allocate -> launch"
 
-WRONG = {
-    "a status that no arrow takes": (Verdict.STUCK, f"""{HEAD} -> watch
-            watch -> end"""),
-    "a funnel that waits for a branch which goes round": (Verdict.DEADLOCKED, f"""{HEAD} -> [watch, mark]
-            mark -> mark
-            watch -> two
-            two -> allocate when STANDBY
-            two -> end"""),
-    "branches at different funnels": (Verdict.DEADLOCKED, f"""{HEAD} -> [watch, timer]
-            watch -> two
-            timer -> other
-            other = GateFunnel
-            [two, other] -> allocate when STANDBY
-            [two, other] -> end"""),
-    "two monitors and no gate": (Verdict.FLOWN_TWICE, f"""{HEAD} -> [watch, timer]
-            [watch, timer] -> allocate when STANDBY
-            [watch, timer] -> end"""),
-    "a branch that ends": (Verdict.LOST, f"""{HEAD} -> [watch, timer]
-            watch -> one
-            timer -> one when STANDBY, FAILED
-            one -> allocate when STANDBY
-            one -> end"""),
-    "a gate without a fork": (Verdict.LOST, f"""{HEAD} -> watch -> one
-            one -> allocate when STANDBY
-            one -> end"""),
-    "a launch without a drone": (Verdict.NO_DRONE, f"""{HEAD} -> watch
-            watch -> launch when STANDBY
-            watch -> end"""),
-    "a monitor without a launch": (Verdict.NO_LAUNCH, """start -> create -> still -> watch
-            watch -> end"""),
-    "no arrow to an end": (Verdict.ENDLESS, f"""{HEAD} -> still -> still"""),
-    "a fork that comes round to itself": (Verdict.BREEDS, f"""{HEAD} -> mark -> [mark, watch]
-            watch -> end"""),
-    "a branch that only the gate calls off": (Verdict.UNCLOSED, f"""{HEAD} -> [watch, mark]
-            mark -> mark
-            watch -> one
-            one -> allocate when STANDBY
-            one -> end"""),
-}  # fmt: skip
+WRONG = Path(__file__).with_name("wrong.txt")
 
 
-@pytest.mark.parametrize("verdict, arrows", WRONG.values(), ids=list(WRONG))
-def test_oracle_sees_what_goes_wrong(verdict: Verdict, arrows: str) -> None:
-    assert verdict in judge(read(f"{BLOCKS}{arrows}\n}}")).runs
+@pytest.mark.parametrize("section", params(WRONG))
+def test_oracle_sees_what_goes_wrong(section: Section) -> None:
+    judged = judge(read(f"{BLOCKS}{section.given.replace('HEAD', HEAD)}\n}}"))
+    assert section.comes.removeprefix("-- ") in judged.runs
 
 
 def test_every_verdict_is_shown_above() -> None:
     """Else it is not known whether it can be given at all."""
-    assert {verdict for verdict, _ in WRONG.values()} == set(Verdict)
+    shown = {section.comes.removeprefix("-- ") for section in sections(WRONG)}
+    assert shown == set(map(str, Verdict))
 
 
 def test_run_tells_step_by_step_how_it_comes_to_that() -> None:

@@ -15,7 +15,6 @@ from pluto_fleet.shared.domain.model import Mission
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
 from plutoc.emit.stubs import EXPORTS
-from plutoc.plan.build import build
 from plutoc.source import Source
 from tests.equivalence.flows import Package, in_memory, packaged
 from tests.kit.apps import EXAMPLES
@@ -33,10 +32,9 @@ def checked(name: str) -> Checked:
     return analyse(Source(path.name, path.read_text(encoding="utf-8")))[0]
 
 
-def example(name: str, overrides: Overrides | None = None, *, plain: bool = False) -> App:
-    """Return an example's app, optimised or as it was built, with functions in place of others."""
-    plan = build(checked(name)) if plain else planned(checked(name))
-    package = packaged(plan, overrides or {})
+def example(name: str, overrides: Overrides | None = None) -> App:
+    """Return an example's app, with functions in place of others."""
+    package = packaged(planned(checked(name)), overrides or {})
     hooks = SimpleNamespace(**vars(_hooks(name, package)))
     return described(package.app(hooks, patient=True))
 

@@ -19,52 +19,25 @@ from pluto_fleet.shared.hooks.context import Verdict
 from plutoc.compile import analyse, planned
 from plutoc.source import Source
 from tests.equivalence.flows import packaged
+from tests.kit.graphs.usual import calm
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
 
-POLICIES = ("nearest", "first", "least_used", "batch_optimal")
 REPEATS = ("", " safe", " once", " ask")
 
 
 def random_source(rng: Random) -> str:
     """Return an app with two categories, each of which can do what the other cannot."""
     own = [f"do{number}" for number in range(rng.choice((1, 1, 2)))]
-    declared = [f"action {name}{rng.choice(REPEATS)}" for name in own]
     seen = rng.choice(("measure", "take_photo", "measure, take_photo"))
     carries = ", pick_item, release_item" if rng.random() < 0.3 else ""
-    declared.append(f"category watcher{_habits(rng)} can {seen}")
-    declared.append(f"category worker{_habits(rng)} can {', '.join(own)}{carries}")
-    blocks = [
-        "create = MissionCreator",
-        f"allocate = DroneAllocator(policy: {rng.choice(POLICIES)})",
-        "launch = TripLauncher",
-    ]
-    again = "allocate"
-    if rng.random() < 0.4:
-        blocks.append("wait = Clock")
-        again = "wait"
-    flows = [f"start -> create -> {again}{' -> allocate' if again == 'wait' else ''} -> launch"]
-    last = _flight(rng, blocks, flows)
-    flows.append(f"{last} -> {again} when STANDBY")
-    if rng.random() < 0.8:
-        blocks.append(f"retry = PriorityManager(max_attempts: {rng.choice((2, 3, 5))})")
-        flows += [f"{last} -> retry when FAILED", f"retry -> {again} when STANDBY"]
-        flows.append("retry -> end otherwise")
-    else:
-        flows.append(f"{last} -> end when FAILED")
-    if rng.random() < 0.3:
-        declared.append("evaluator judge_it")
-        blocks.append("judge = MissionEvaluator(hook: judge_it)")
-        flows += [f"{last} -> judge when COMPLETED", f"judge -> {again} when STANDBY"]
-        flows.append("judge -> end when FAILED")
-        last = "judge"
-    if rng.random() < 0.3:
-        blocks.append("round = MissionRepeater")
-        flows += [f"{last} -> round when COMPLETED", f"round -> {again} when STANDBY"]
-        last = "round"
-    flows.append(f"{last} -> end when COMPLETED")
-    return "\n".join(["pluto 1", "app drawn {", *declared, *blocks, *flows, "}", ""])
+    return calm(
+        rng,
+        *(f"action {name}{rng.choice(REPEATS)}" for name in own),
+        f"category watcher{_habits(rng)} can {seen}",
+        f"category worker{_habits(rng)} can {', '.join(own)}{carries}",
+    )
 
 
 def _habits(rng: Random) -> str:
@@ -76,21 +49,6 @@ def _habits(rng: Random) -> str:
     }
     chosen = [f"{name}: {value}" for name, value in given.items() if rng.random() < 0.4]
     return f"({', '.join(chosen)})" if chosen else ""
-
-
-def _flight(rng: Random, blocks: list[str], flows: list[str]) -> str:
-    """Draw what watches a flight; return the block from which a mission goes on."""
-    blocks.append("watch = TripMonitor")
-    limits = [kind for kind in ("TimerMonitor", "GapMonitor") if rng.random() < 0.35]
-    if not limits:
-        flows.append("launch -> watch")
-        return "watch"
-    for number, kind in enumerate(limits):
-        blocks.append(f"limit{number} = {kind}(default: {rng.choice(('30 s', '2 min', '8 min'))})")
-    blocks.append("first = GateFIFO")
-    branches = ["watch", *(f"limit{number}" for number in range(len(limits)))]
-    flows.append(f"launch -> [{', '.join(branches)}] -> first")
-    return "first"
 
 
 def random_app(rng: Random) -> App:

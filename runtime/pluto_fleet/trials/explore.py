@@ -150,7 +150,7 @@ FORGOTTEN = 100
 
 _MOMENTS = (0.0, 0.0, 0.4, 1.1, 2.2, 7.0)
 """Seconds after a row for strikes, also during an action."""
-_MOST_ROWS = 100
+MOST_ROWS = 100
 _MIDST = 0.6
 """Seconds before the end of an action, for a strike in its midst."""
 _IN_THE_MIDST = (
@@ -224,14 +224,14 @@ def everywhere(app: App, case: Case) -> Iterator[Case]:
         return
     yield case
     trial = tried(app, case)
-    for row in range(1, trial.rows + 1, 1 + trial.rows // _MOST_ROWS):
+    for row in range(1, trial.rows + 1, 1 + trial.rows // MOST_ROWS):
         for kind in (*DEATHS, *STOPS):
             yield replace(case, strikes=(Strike(kind=kind, row=row),))
         for death, stop in product(DEATHS, STOPS):
             for first, second in ((death, stop), (stop, death)):
                 both = Strike(kind=first, row=row), Strike(kind=second, row=row + 1)
                 yield replace(case, strikes=both)
-    for act in trial.acts[:: 1 + len(trial.acts) // _MOST_ROWS]:
+    for act in trial.acts[:: 1 + len(trial.acts) // MOST_ROWS]:
         moment = act.time - _MIDST
         row = bisect_right(trial.times, moment)
         if row:

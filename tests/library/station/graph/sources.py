@@ -10,7 +10,7 @@ from plutoc.check.model import Checked
 from plutoc.compile import analyse
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
-from tests.equivalence.graphs import random_source
+from tests.kit.graphs.graph import random_source
 from tests.paths import ROOT
 
 EXAMPLES = sorted(ROOT.glob("examples/*/app.pluto"))

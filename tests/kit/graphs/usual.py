@@ -1,9 +1,14 @@
-"""Apps grown by chance along the grammar: most of them near enough to a legal one to get far."""
+"""Apps as most people write them, grown by chance along the grammar.
+
+Those of `grown` try every part of the grammar, and odd names, and some are spoilt: most are near enough to a legal
+one to get far. Those of `calm` are legal, and their hooks and limits are such that all their missions come to an end.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from random import Random
+from typing import ClassVar
 
 from tests.fuzz.texts import HOSTILE, legal
 
@@ -68,10 +73,13 @@ BAD_VALUES = ("5 parsec", "-1 s", "[1, [2]]", "nearest", '"x"', "9" * 16, "1 m/h
 STATUSES = ("UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED")
 
 
-@dataclass(slots=True, kw_only=True)
+@dataclass(kw_only=True)
 class Growth:
     """An app on the way: its statements, and what they can name."""
 
+    policies: ClassVar = ("nearest", "first", "least_used", "batch_optimal", "own", "own")
+    bounds: ClassVar = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 5")
+    gates: ClassVar = ("GateFIFO", "GateFIFO", "GateFunnel")
     random: Random
     declared: list[str] = field(default_factory=list)
     blocks: list[str] = field(default_factory=list)
@@ -117,6 +125,62 @@ class Growth:
                 written.append(f"{name}: {kind}")
                 needed.append((name, kind))
         return (f"({', '.join(written)})" if written else ""), needed
+
+    def limit(self) -> str:
+        """Return the time of a monitor as it is given, if it is."""
+        return f"default: {self.value('time')}" if self.chance(0.5) else ""
+
+    def beside(self) -> list[str]:
+        """Return what stands beside the block that watches a flight."""
+        kinds = ("TimerMonitor", "GapMonitor", "TripMonitor", "modifier")
+        return self.random.choices(kinds, k=self.random.choice((0, 1, 1, 2, 8)))
+
+    def before(self) -> list[str]:
+        """Declare what a mission comes to before it is given a drone."""
+        return [
+            _modifier(self, "STANDBY", "UNEXECUTED") for _ in range(self.random.choice((0, 0, 1)))
+        ]
+
+    def text(self, title: str = "drawn") -> str:
+        """Return the source."""
+        return "\n".join(
+            ["pluto 1", f"app {title} {{", *self.declared, *self.blocks, *self.flows, "}", ""]
+        )
+
+
+class Calm(Growth):
+    """One that is well, and whose missions end."""
+
+    policies = Growth.policies[:4]
+    bounds = ("max_attempts: 2", "max_attempts: 3", "max_attempts: 5")
+    gates = ("GateFIFO",)
+
+    def name(self, plain: str) -> str:
+        """Return the name as it is: hooks are found by it."""
+        return plain
+
+    def parameters(self) -> tuple[str, list[tuple[str, str]]]:
+        """Declare none."""
+        return "", []
+
+    def limit(self) -> str:
+        """Return one that some flights keep."""
+        return f"default: {self.random.choice(('30 s', '2 min', '8 min'))}"
+
+    def beside(self) -> list[str]:
+        """Return what limits a flight."""
+        return [kind for kind in ("TimerMonitor", "GapMonitor") if self.chance(0.35)]
+
+    def before(self) -> list[str]:
+        """Declare nothing."""
+        return []
+
+
+def calm(random: Random, *declared: str) -> str:
+    """Return an app that declares this."""
+    app = Calm(random=random, declared=list(declared))
+    _graph(app)
+    return app.text()
 
 
 def text(random: Random) -> str:
@@ -202,7 +266,7 @@ def _categories(app: Growth) -> None:
 
 def _graph(app: Growth) -> None:
     """A mission's way as most apps have it, and now and then something more on it."""
-    policy = app.random.choice(("nearest", "first", "least_used", "batch_optimal", "own", "own"))
+    policy = app.random.choice(app.policies)
     if policy == "own":
         policy = app.name("choose")
         app.declared.append(f"policy {policy}")
@@ -210,13 +274,13 @@ def _graph(app: Growth) -> None:
     allocate = app.block("allocate", "DroneAllocator", f"policy: {policy}")
     launch = app.block("launch", "TripLauncher")
     again = app.block("wait", "Clock") if app.chance(0.4) else allocate
-    before = [_modifier(app, "STANDBY", "UNEXECUTED") for _ in range(app.random.choice((0, 0, 1)))]
+    before = app.before()
     way = [create, *before, *([again] if again != allocate else []), allocate, launch]
     app.flows.append(f"start -> {' -> '.join(way)}")
     last = _flight(app, launch)
     app.flows.append(f"{last} -> {again} when STANDBY")
     if app.chance(0.8):
-        bound = app.random.choice(("", f"max_attempts: {app.random.choice((0, 1, 5))}"))
+        bound = app.random.choice(app.bounds)
         retry = app.block("retry", "PriorityManager", *([bound] if bound else []))
         app.flows += [f"{last} -> {retry} when FAILED", f"{retry} -> {again} when STANDBY"]
         app.flows.append(f"{retry} -> end otherwise")
@@ -228,19 +292,18 @@ def _graph(app: Growth) -> None:
 def _flight(app: Growth, launch: str) -> str:
     """The monitors, and the gate behind them; return the block from which a mission goes on."""
     watch = app.block("watch", "TripMonitor")
-    width = app.random.choice((1, 2, 2, 3, 9))
-    if width == 1:
+    beside = app.beside()
+    if not beside:
         app.flows.append(f"{launch} -> {watch}")
         return watch
     branches = [watch]
-    for i in range(width - 1):
-        kind = app.random.choice(("TimerMonitor", "GapMonitor", "TripMonitor", "modifier"))
+    for i, kind in enumerate(beside):
         if kind == "modifier":
             branches.append(_modifier(app, "STANDBY", "COMPLETED", "FAILED"))
         else:
-            default = (f"default: {app.value('time')}",) if kind != "TripMonitor" else ()
-            branches.append(app.block(f"limit{i}", kind, *default[: app.random.randint(0, 1)]))
-    gate = app.block("first", app.random.choice(("GateFIFO", "GateFIFO", "GateFunnel")))
+            limit = app.limit() if kind != "TripMonitor" else ""
+            branches.append(app.block(f"limit{i}", kind, *([limit] if limit else [])))
+    gate = app.block("first", app.random.choice(app.gates))
     app.flows.append(f"{launch} -> [{', '.join(branches)}] -> {gate}")
     return gate
 
@@ -262,7 +325,7 @@ def _ending(app: Growth, last: str, again: str) -> None:
         app.declared.append(f"evaluator {hook}{parameters}")
         given = [f"{name}: {app.value(kind)}" for name, kind in needed]
         judge = app.block("judge", "MissionEvaluator", f"hook: {hook}", *given)
-        if app.chance(0.2):
+        if app.chance(0.2) and not isinstance(app, Calm):
             app.declared.append(f"evaluator {app.name('other_judge')}{app.parameters()[0]}")
         app.flows += [f"{last} -> {judge} when COMPLETED", f"{judge} -> {again} when STANDBY"]
         app.flows.append(f"{judge} -> end when FAILED")

@@ -57,7 +57,7 @@ def test_the_bar_fills_as_runs_are_done(seeds: int, monkeypatch: pytest.MonkeyPa
             pass
 
     monkeypatch.setattr(command, "trial_progress", lambda *, lines: Waiting())
-    monkeypatch.setattr(explore, "_MOST_ROWS", 7)
+    monkeypatch.setattr(explore, "MOST_ROWS", 7)
     assert command.test(example("drugs_distribution"), ["--seeds", str(seeds), "--json"]) == 0
     assert len(shares) > 50
     assert shares[0] == 0

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tests.equivalence.asides import aside, closed, judged, retried, tangle
-from tests.equivalence.drawing import C, Drawing, Ends, F, R, S, Statuses, ordered
+from tests.kit.graphs.asides import aside, closed, judged, retried, tangle
+from tests.kit.graphs.drawing import C, Drawing, Ends, F, R, S, Statuses, ordered
 
 OUTCOMES = (S, C, F)
 SAID: tuple[Statuses, ...] = (OUTCOMES, OUTCOMES, (F,), (R, F), (), ())

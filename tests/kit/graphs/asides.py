@@ -7,8 +7,10 @@ from itertools import product
 from random import Random
 
 from plutoc_runtime.domain.status import WORST_FIRST
-from tests.equivalence.drawing import C, Drawing, Ends, F, S, Statuses, U, ordered
+from tests.kit.graphs.drawing import C, Drawing, Ends, F, S, Statuses, U, ordered
 
+WIDTHS = (2, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 7)
+"""Of forks."""
 RETRIES = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 2", "max_attempts: 3")
 
 
@@ -21,7 +23,7 @@ def aside(drawing: Drawing, ends: Ends) -> Ends:
     if len(ends) > 1:
         ends = drawing.into(ends, drawing.modifier("meet"))
     branches: list[Ends] = []
-    for _ in range(drawing.rng.choice((2, 2, 3))):
+    for _ in range(drawing.rng.choice(WIDTHS)):
         branch = drawing.into(ends, drawing.modifier("do"))
         if drawing.chance(0.2):
             branch = drawing.into(branch, drawing.modifier("then"))
@@ -98,7 +100,7 @@ def judged(drawing: Drawing, ends: Ends, kinds: Sequence[str] | None = None) -> 
 def _evaluator(drawing: Drawing) -> tuple[str, str]:
     """Declare an evaluator, and return it with what its block gives to it."""
     luck = Random(f"{len(drawing.words)}/{len(drawing.blocks)}")
-    if luck.random() < 0.5:
+    if drawing.plain or luck.random() < 0.5:
         return drawing.hook("evaluator", "judge"), ""
     hook = drawing.hook("evaluator", "judge", "(least: int = 2, share: percent = 20 %)")
     return hook, luck.choice(("", ", least: 3", ", least: 3, share: 40 %"))

@@ -9,13 +9,13 @@ from random import Random
 from plutoc.block import IN_GRAPH, Block
 from plutoc_blocks import BLOCKS
 from plutoc_runtime.domain.status import Status
-from tests.equivalence import strangers
+from tests.kit.graphs import others
 
 U, R, S, C, F = IN_GRAPH
 START, END = "start", "end"
 KINDS: Mapping[str, Block] = {
     **{block.name: block for block in BLOCKS},
-    **{f"{strangers.PACKAGE}.{name}": block for name, block in strangers.BLOCKS.items()},
+    **{f"{others.PACKAGE}.{name}": block for name, block in others.BLOCKS.items()},
 }
 
 Statuses = tuple[Status, ...]
@@ -38,6 +38,8 @@ class Drawing:
     """How many blocks it should have, about."""
     strange: bool = False
     """It uses another author's blocks, too."""
+    plain: bool = False
+    """It has no actions, fields, policies and parameters of its own."""
     words: list[str] = field(default_factory=list)
     """Categories, actions and hooks."""
     blocks: dict[str, str] = field(default_factory=dict)
@@ -71,7 +73,7 @@ class Drawing:
 
     def modifier(self, name: str, emits: Statuses = ()) -> str:
         """Declare a modifier with its hook; the statuses that come in go on if it emits none."""
-        limited = self.chance(0.2)
+        limited = self.chance(0.2) and not self.plain
         takes = "(limit: time = 2 s)" if limited else ""
         said = f" emits {', '.join(status.value for status in emits)}" if emits else ""
         hook = self.hook("modifier", f"do_{name}", takes + said)
@@ -104,7 +106,7 @@ class Drawing:
     def text(self, title: str = "drawn") -> str:
         """Return the source."""
         lines = [*self.words, *self.blocks.values(), *self._flow()]
-        uses = [f"use {strangers.PACKAGE}"] if self.strange else []
+        uses = [f"use {others.PACKAGE}"] if self.strange else []
         inner = [f"  {line}" for line in lines]
         return "\n".join(["pluto 1", *uses, f"app {title} {{", *inner, "}", ""])
 

@@ -27,7 +27,7 @@ from pluto_fleet.trials.report import report
 from pluto_fleet.trials.rules import Say, at
 from pluto_fleet.trials.shrink import MistakeKinds
 from tests.trials.examples import app_of
-from tests.trials.mutants import free_in_flight
+from tests.trials.mutants import a_drone_is_free_in_flight
 from tests.trials.random_apps import random_app
 
 Said = pytest.CaptureFixture[str]
@@ -50,7 +50,7 @@ def test_the_smallest_case_shows_what_was_found_first(
     number: int, capfd: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     """Not that a fleet without the drones for it cannot fly it; and each command shows it again."""
-    free_in_flight(monkeypatch)
+    a_drone_is_free_in_flight(monkeypatch)
     monkeypatch.setattr(invariants, "RULES", (*invariants.RULES, NothingFails))
     app = random_app(Random(f"{number}/app"))
     monkeypatch.chdir(tmp_path)

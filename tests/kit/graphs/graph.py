@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from random import Random
 
-from tests.equivalence.asides import aside, beside, judged, retried, tangle
-from tests.equivalence.drawing import END, START, Drawing, Ends, F, R, S, Statuses, U
-from tests.equivalence.flights import flight
-from tests.soundness.randoms import random_app
+from tests.kit.graphs.asides import aside, beside, judged, retried, tangle
+from tests.kit.graphs.drawing import END, START, Drawing, Ends, F, R, S, Statuses, U
+from tests.kit.graphs.flights import flight
 
 BOTH = (U, S)
 POLICIES = ("", "", "nearest", "first", "least_used", "batch_optimal", "own", "own")
@@ -34,19 +34,27 @@ FIELDS = (
 RESULTS = ("", "", " -> int", " -> float", " -> text")
 
 
-def random_source(rng: Random) -> str:
-    """Return an app, sound or not."""
-    if rng.random() < 0.1:
-        return random_app(rng).text
-    return _Graph(rng).text()
+def random_source(
+    rng: Random,
+    most: Sequence[int] = (6, 9, 12, 16, 20),
+    *,
+    strange: float = 0.15,
+    plain: bool = False,
+) -> str:
+    """Return an app, sound or not, of about so many blocks.
+
+    Some use another author's blocks, too; a plain one has nothing of its own but modifiers and evaluators.
+    """
+    most_blocks = rng.choice(most)
+    drawing = Drawing(rng=rng, most=most_blocks, strange=rng.random() < strange, plain=plain)
+    return _Graph(drawing).text()
 
 
 class _Graph:
     """An app: a way to a drone, a flight, and what becomes of the mission then."""
 
-    def __init__(self, rng: Random) -> None:
-        most = rng.choice((6, 9, 12, 16, 20))
-        self.drawing = Drawing(rng=rng, most=most, strange=rng.random() < 0.15)
+    def __init__(self, drawing: Drawing) -> None:
+        self.drawing = drawing
         self.policies: list[str] = []
         self.heads: list[str] = []
         """Where a mission can go on with its next trip."""
@@ -54,7 +62,8 @@ class _Graph:
 
     def text(self) -> str:
         drawing = self.drawing
-        self._words()
+        if not drawing.plain:
+            self._words()
         create = drawing.block("create", "MissionCreator", (U,))
         drawing.arrows.append((START, create, (U,)))
         ends: Ends = {create: (U,)}
@@ -66,7 +75,8 @@ class _Graph:
             ends[block] = (*ends.get(block, ()), *statuses)
         self._home(ends)
         luck = Random(f"{len(drawing.words)}/{len(drawing.blocks)}")
-        drawing.words += [one for one in FIELDS if luck.random() < 0.4]
+        if not drawing.plain:
+            drawing.words += [one for one in FIELDS if luck.random() < 0.4]
         return drawing.text()
 
     def _words(self) -> None:
@@ -116,7 +126,7 @@ class _Graph:
 
     def _allocator(self) -> str:
         drawing = self.drawing
-        policy = drawing.rng.choice(POLICIES)
+        policy = drawing.rng.choice(POLICIES[: 6 if drawing.plain else None])
         if policy == "own":
             if not self.policies or drawing.chance(0.4):
                 self.policies.append(drawing.hook("policy", "choose"))
