@@ -102,7 +102,7 @@ def a_fused_wait_has_its_limits_the_wrong_way_round(step: Step, _: Step) -> Body
     return (step,)
 
 
-@after_all(0)
+@after_all(4)
 def branches_begin_in_the_wrong_order(step: Step, _: Step) -> Body:
     match step:
         case Join(branches=branches):
@@ -198,7 +198,7 @@ def limit_by_default(
 
 
 MUTANTS["a gate forgets to call the others off"] = (
-    0,
+    4,
     Contender(overrides={"pass_first": leave_the_rest}),
 )
 MUTANTS["a wait that is called off forgets to cancel its limits"] = (
@@ -206,6 +206,6 @@ MUTANTS["a wait that is called off forgets to cancel its limits"] = (
     Contender(overrides={"watch": never_let_go}),
 )
 MUTANTS["a declared default hides the mission's own safe time"] = (
-    0,
+    5,
     Contender(overrides={"timer_limit": limit_by_default}),
 )

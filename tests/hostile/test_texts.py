@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import ast
-import json
-import re
 import tomllib
 from collections.abc import Iterator
 from functools import cache
@@ -14,12 +12,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from plutoc.emit.package import Package
-from plutoc.emit.readme_file import readme
-from plutoc.report.pictures import dot, mermaid
-from plutoc.report.pictures import json as as_json
 from plutoc.syntax.characters import HIDDEN
 from tests.fuzz.texts import HOSTILE
-from tests.hostile.apps import checked, package
+from tests.hostile.apps import package
 
 PLAIN = "plain"
 TEXTS = st.text(
@@ -127,40 +122,3 @@ def test_texts_say_what_was_written() -> None:
     assert constants.count(text) >= 4
     description = tomllib.loads(made.owned["pyproject.toml"])["project"]["description"]
     assert description == " ".join(text.split())
-
-
-def unmarked(line: str) -> str:
-    """Return a line of Markdown without what is escaped."""
-    return re.sub(r"\\[\\`*_\[\]<>#|~&$@!(){}+.-]", "", line)
-
-
-@settings(max_examples=20, deadline=None, derandomize=True)
-@given(TEXTS)
-@example("".join(ALWAYS))
-def test_a_title_is_one_plain_line_of_the_readme(text: str) -> None:
-    """No link, no picture, no HTML, no heading, no code, no formula, no mention of a person."""
-    written = readme(checked(text).graph, "crop.pluto", "flowchart TD\n").splitlines()
-    plain = readme(checked(PLAIN).graph, "crop.pluto", "flowchart TD\n").splitlines()
-    others = [line for line in plain if PLAIN not in line]
-    mine = [line for line in written if line not in others]
-    assert len(mine) <= 1
-    for line in mine:
-        assert not set("`<[]|$@#~&") & set(unmarked(line)), line
-        assert unmarked(line).strip("*") == unmarked(line)[2:-2]
-
-
-@settings(max_examples=20, deadline=None, derandomize=True)
-@given(TEXTS)
-@example("".join(ALWAYS))
-def test_a_title_adds_nothing_to_a_picture(text: str) -> None:
-    """Every line but that of the title is the same; JSON has the same keys."""
-    odd, plain = checked(text), checked(PLAIN)
-    titled = "\n".join(mermaid(odd).split("\n")[:3])
-    assert mermaid(odd).split("\n")[3:] == mermaid(plain).split("\n")[3:]
-    assert re.fullmatch(r'---\ntitle: "(?:[^"\\\n`<>&%#{}]|\\U[0-9a-f]{8})*"\n---', titled)
-    lines = dot(odd).split("\n")
-    assert [*lines[:1], *lines[2:]] == [
-        line for i, line in enumerate(dot(plain).split("\n")) if i != 1
-    ]
-    assert re.fullmatch(r'    graph \[label="(?:[^"\\]|\\\\|\\")*", .*', lines[1])
-    assert list(keys(json.loads(as_json(odd)))) == list(keys(json.loads(as_json(plain))))

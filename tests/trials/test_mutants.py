@@ -1,18 +1,19 @@
-"""What cases by chance find: every mistake that is planted in the runtime."""
+"""What a small case and some by chance find: every mistake that is planted in the runtime."""
 
 from __future__ import annotations
 
 import re
+from itertools import chain
 
 import pytest
 
-from pluto_fleet.trials.explore import random_case
+from pluto_fleet.trials.explore import everywhere, random_case, small_case
 from pluto_fleet.trials.lives import tried
 from tests.trials.examples import example, fleet_of
 from tests.trials.mutants import MUTANTS
 
-ENOUGH = 300
-"""Cases within which each is found; but for a change of the runtime, its own is the first."""
+BY_CHANCE = 30
+"""Cases that are tried first: but for a change of the runtime, the mutant's own is the first of them."""
 
 
 @pytest.mark.parametrize("name", MUTANTS)
@@ -23,8 +24,9 @@ def test_every_mutant_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> No
     fleet = fleet_of(mutant.example, app)
     mutant.plant(monkeypatch)
     said: dict[str, None] = {}
-    for seed in range(mutant.seed, mutant.seed + ENOUGH):
-        sentences = tried(app, random_case(app, fleet, seed)).violations
+    by_chance = (random_case(app, fleet, mutant.seed + number) for number in range(BY_CHANCE))
+    for case in chain(by_chance, everywhere(app, small_case(app, fleet, 0))):
+        sentences = tried(app, case).violations
         said.update(dict.fromkeys(sentences[:1]))
         if any(re.search(mutant.says, sentence) for sentence in sentences):
             return
