@@ -7,7 +7,7 @@ of thing is counted, and what never occurred is a failure of its own.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from plutoc.block import Gate
 from plutoc.graph.model import Node
@@ -90,40 +90,29 @@ def bodies_of(step: Step) -> Iterator[Body]:
             pass
 
 
-EVENTS: Mapping[str, str] = {
-    "trip.delayed": "a delay",
-    "trip.reset": "a trip put back",
-    "mission.extended": "an evaluator asked for more",
-    "mission.judged": "an evaluator rejected a mission",
-    "mission.repeated": "a further round",
-    "mission.modified": "a modifier changed a status",
-    "drone.charging": "a drone charged",
-    "drone.lost": "a drone lost",
-}
-REASONS: Mapping[str, str] = {
-    "missed its deadline": "another mission's limit ran out",
-    "longer than its safe time": "a safe time ran out",
-    "of the previous one": "a gap ran out",
-    "had no drone within": "allocate_within ran out",
-    "crashed at": "a crash",
-    "lost its link": "a lost link",
-    "ran out of battery": "an empty battery",
-    "could not do it": "an action that failed",
-    "slipped": "an action of the app's own failed",
-    "failed the trip": "a modifier failed a trip in flight",
-    "must return": "a hook returned what it must not",
-    "raised": "a hook raised",
-    "no drone of the fleet": "no drone can fly it",
-    "aboard": "a failure with an item aboard",
-}
+REASONS = (
+    *(
+        "missed its deadline",
+        "longer than its safe time",
+        "of the previous one",
+        "had no drone within",
+    ),
+    *("crashed at", "lost its link", "ran out of battery", "could not do it", "slipped"),
+    *("failed the trip", "must return", "raised", "no drone of the fleet", "aboard"),
+)
+"""What a reason says: of limits that ran out, mishaps, and hooks that did wrong."""
+EVENTS = (
+    *("trip.delayed", "trip.reset", "drone.charging", "drone.lost"),
+    *("mission.extended", "mission.judged", "mission.repeated", "mission.modified"),
+)
 
 
 def of_run(world: World, record: Record) -> Iterator[str]:
     """Yield what happened in a run, each thing once."""
-    found = [EVENTS[kind] for kind in map(_kind, record.events) if kind in EVENTS]
+    found = [kind for kind in map(_kind, record.events) if kind in EVENTS]
     for event in record.events:
         reason = str(event.get("reason", ""))
-        found += [what for text, what in REASONS.items() if text in reason]
+        found += [text for text in REASONS if text in reason]
     found += _at_one_instant(record.events)
     if record.coincidences:
         found.append("a trip that ended just in time")
@@ -165,8 +154,8 @@ WANTED = (
     *("modifier with emits", "modifier without emits", "allocate_within"),
     *(f"policy: {name}" for name in ("nearest", "first", "least_used", "batch_optimal", "own")),
     "allocators of different policies",
-    *EVENTS.values(),
-    *REASONS.values(),
+    *EVENTS,
+    *REASONS,
     *("two trips ended at one instant", "a trip that ended just in time", "a hook was called"),
     *("no trip failed", "several missions", "missions that go on", "plain: Arrived"),
     *("an entry by a copy", "an entry by a case"),

@@ -14,17 +14,15 @@ WRITTEN_EVERY = 25
 
 @dataclass(slots=True)
 class Tally:
-    """What became of the inputs so far."""
+    """What became of the inputs so far: by the way in which they were made, and by what was said of them."""
 
     made: Counter[str] = field(default_factory=Counter)
-    """Inputs by the way in which they were made."""
     accepted: Counter[str] = field(default_factory=Counter)
     codes: Counter[str] = field(default_factory=Counter)
-    """How many inputs got a code, at least once."""
     hooks: Counter[str] = field(default_factory=Counter)
 
     def add(self, outcome: Outcome) -> None:
-        """Count one."""
+        """Count one; a code once, however often it was given."""
         self.made[outcome.way] += 1
         self.accepted[outcome.way] += not outcome.codes
         self.codes.update(set(outcome.codes))
@@ -32,11 +30,8 @@ class Tally:
 
     def lines(self) -> Iterator[str]:
         """Say what was counted."""
-        yield f"inputs {self.made.total()}, accepted {self.accepted.total()}"
-        for way in sorted(self.made):
-            yield f"  {way}: {self.made[way]}, accepted {self.accepted[way]}"
-        for title, counts in (("rejected", self.codes), ("hooks rejected", self.hooks)):
-            yield f"{title} by code ({len(counts)} codes):"
-            said = [f"{code} {counts[code]}" for code in sorted(counts)]
-            for i in range(0, len(said), 8):
-                yield "  " + ", ".join(said[i : i + 8])
+        for title in ("made", "accepted", "codes", "hooks"):
+            counts: Counter[str] = getattr(self, title)
+            yield f"{title} ({counts.total()}): " + ", ".join(
+                f"{k} {counts[k]}" for k in sorted(counts)
+            )

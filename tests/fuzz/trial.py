@@ -25,7 +25,7 @@ from plutoc.report.json import render_line
 from plutoc.report.pictures import dot, json, mermaid
 from plutoc.report.text import render
 from plutoc.source import Source
-from tests.fuzz.mutants import mutated, spliced
+from tests.fuzz.mutants import changed, spliced
 from tests.kit.graphs.usual import grown
 
 TOP = frozenset({".gitattributes", "LICENSE", "README.md", "pyproject.toml", LOCK, "src", "tests"})
@@ -50,10 +50,10 @@ class Outcome:
 
 def source_of(random: Random) -> tuple[str, bytes]:
     """Make an input; say how."""
-    way = random.choice(("grown", "grown", "mutated", "spliced"))
+    way = random.choice(("grown", "grown", "changed", "spliced"))
     if way == "grown":
         return way, grown(random).encode()
-    return way, mutated(random) if way == "mutated" else spliced(random)
+    return way, changed(random) if way == "changed" else spliced(random)
 
 
 def trial(random: Random, *, on_disk: bool = False) -> Outcome:

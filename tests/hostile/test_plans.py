@@ -12,75 +12,10 @@ from pluto_fleet.app import App
 from pluto_fleet.cli import main
 from tests.library.files.an_app import APP, OWN
 
-MISSIONS = """
-[[mission]]
-name = "North"
-safe_time = "3 min"
-repeat = 2
-at = "08:00"
-deadline = "20 h"
-evaluator = "find_blooms"
-  [[mission.trip]]
-  name = "A"
-  action = "pollinate"
-  parameters = { dose = "40 mg", gently = true, strokes = 3, note = "n", force = 1.5 }
-  target = [2.0, 1.5]
-  delay = "30 s"
-  priority = 1
-  [[mission.trip]]
-  action = "pick_item"
-  item = { name = "pills", mass = "4 g" }
-  source = [0.5, 0.5]
-  target = [4.0, 3.0]
-  [[mission.trip]]
-  action = "release_item"
-  item = { name = "pills", mass = "4 g" }
-  target = [6.0, 3.0]
-[[mission]]
-name = "South"
-window = ["08:00", "20 h"]
-after = ["North"]
-  [[mission.trip]]
-  action = "take_photo"
-  target = [6.0, 3.0]
-"""
-OWN_MISSIONS = """
-[[mission]]
-name = "North"
-repeat = 1
-patient = "Ada"
-margin = "3 min"
-share = "20 %"
-urgent = true
-  [[mission.trip]]
-  action = "measure"
-  target = [2.0, 1.5]
-  delay = "30 s"
-  fragile = false
-  note = "n"
-  layers = 2
-  height_over_ground = "40 cm"
-  warmth = "21 C"
-"""
-FLEET = """
-[map]
-size = [20.0, 12.0]
-cruise_height = 1.2
-no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
-[fleet]
-after_trip = "home"
-apart = 0.5
-max_airborne = 5
-[[drone]]
-id = "cf1"
-category = "scout"
-home = [0.5, 0.5]
-uri = "radio://0/80/2M/E7E7E7E7E1"
-[[drone]]
-id = "cf2"
-category = "carrier"
-home = [2.5, 0.5]
-"""
+HERE = Path(__file__).with_name("plan")
+MISSIONS = (HERE / "missions.toml").read_text(encoding="utf-8")
+OWN_MISSIONS = (HERE / "own_missions.toml").read_text(encoding="utf-8")
+FLEET = (HERE / "fleet.toml").read_text(encoding="utf-8")
 VALUES = (
     *("1e400", "-1e400", "nan", "-nan", "inf", "-inf", "1e308", "5e-324", "-0.0"),
     *("9223372036854775807", "-1", "0", "9" * 400, "9" * 5000, "0x" + "f" * 300),

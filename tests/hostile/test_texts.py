@@ -6,15 +6,27 @@ import ast
 import tomllib
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from plutoc.compile import analyse, package_of
 from plutoc.emit.package import Package
+from plutoc.source import Source
 from plutoc.syntax.characters import HIDDEN
-from tests.fuzz.texts import HOSTILE
-from tests.hostile.apps import package
+from tests.fuzz.texts import HOSTILE, legal
+
+APP = Path(__file__).with_name("app.pluto").read_text(encoding="utf-8")
+"""`TEXT` stands in all of its strings."""
+
+
+def package(text: str, source_name: str = "crop.pluto") -> Package:
+    """Return the package of a source with a text in all of its strings."""
+    source = Source("crop.pluto", APP.replace("TEXT", legal(text)))
+    return package_of(analyse(source)[0], source_name=source_name)
+
 
 PLAIN = "plain"
 TEXTS = st.text(

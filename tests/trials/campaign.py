@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import attrgetter
@@ -36,6 +36,7 @@ from pluto_fleet.trials.explore import (
 )
 from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.options import Options
+from pluto_fleet.trials.record import TrialResult
 from pluto_fleet.trials.report import smallest_case
 from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.kit.apps import NAMES
@@ -111,16 +112,20 @@ def struck(name: str, seeds: range, own: bool = False) -> Struck:
         _VIOLATIONS,
     )
     findings, tally.findings = tally.findings, []  # they are of classes that no other process has
-    said: list[str] = []
-    if findings:
-        first = findings[0]
-        small = shrunk(first.case, shows_the_same(app, first, _VIOLATIONS))
-        sentences = first_the_same(first, tried(app, small).violations)
-        options = Options(file=Path("examples") / name / "app.pluto")
-        smallest = smallest_case(app, options, Finding(case=small, sentences=sentences))
-        said = [*first.sentences, "The smallest case:", *smallest]
+    file = Path("examples") / name / "app.pluto"
+    said = [line for first in findings[:1] for line in smallest(app, file, first, _VIOLATIONS)]
     seconds = process_time() - began
     return Struck(name=name, tally=tally, found=len(findings), said=tuple(said), seconds=seconds)
+
+
+def smallest(
+    app: App, file: Path, first: Finding, looks: Callable[[TrialResult], tuple[str, ...]]
+) -> Iterator[str]:
+    """Yield what was found, and the smallest case that shows the same."""
+    small = shrunk(first.case, shows_the_same(app, first, looks))
+    finding = Finding(case=small, sentences=first_the_same(first, looks(tried(app, small))))
+    yield from (*first.sentences, "The smallest case:")
+    yield from smallest_case(app, Options(file=file), finding)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -20,10 +20,10 @@ from pluto_fleet.trials.record import TrialResult
 from tests.kit.sections import Section, compare, params
 from tests.trials.examples import app_of
 
-HERE = Path(__file__).with_name("found")
+HERE = Path(__file__).with_name("apps")
 
 
-@pytest.mark.parametrize("section", params(HERE / "cases.txt"))
+@pytest.mark.parametrize("section", params(HERE / "found.txt"))
 def test_what_was_found_is_right_now(section: Section, update: bool) -> None:
     """What strikes does strike; all that happens to missions is as it is kept."""
     given = tomllib.loads(section.given)
