@@ -94,7 +94,7 @@ def a_fused_wait_has_no_limits(step: Step, _: Step) -> Body:
     return (step,)
 
 
-@after_all(0)
+@after_all(31)
 def a_fused_wait_has_its_limits_the_wrong_way_round(step: Step, _: Step) -> Body:
     match step:
         case Watch(watchers=watchers):
@@ -123,7 +123,7 @@ def a_way_out_of_a_loop_leads_round(step: Step, _: Step) -> Body:
     return (Continue(),) if isinstance(step, Break) else (step,)
 
 
-@after_all(0)
+@after_all(8)
 def two_cases_are_exchanged(step: Step, _: Step) -> Body:
     match step:
         case Dispatch(cases=(first, second, *rest)):
@@ -132,7 +132,7 @@ def two_cases_are_exchanged(step: Step, _: Step) -> Body:
     return (step,)
 
 
-@instead_of(watch, 0)
+@instead_of(watch, 61)
 def a_bare_arrow_to_the_gate_of_the_first_is_forgotten(plan: Plan) -> Plan:
     def without(step: Step, _: Step) -> Body:
         match step:
@@ -144,7 +144,7 @@ def a_bare_arrow_to_the_gate_of_the_first_is_forgotten(plan: Plan) -> Plan:
     return watch(rewritten(plan, without))
 
 
-@instead_of(clones, 0)
+@instead_of(clones, 18)
 def no_arrow_to_a_gate_of_all_gets_a_clone(plan: Plan) -> Plan:
     """No matter what the others bring."""
 
@@ -202,7 +202,7 @@ MUTANTS["a gate forgets to call the others off"] = (
     Contender(overrides={"pass_first": leave_the_rest}),
 )
 MUTANTS["a wait that is called off forgets to cancel its limits"] = (
-    0,
+    8,
     Contender(overrides={"watch": never_let_go}),
 )
 MUTANTS["a declared default hides the mission's own safe time"] = (
