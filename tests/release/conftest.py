@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.release.environments import ROOT, succeed
+from tests.paths import ROOT
+from tests.release.environments import succeed
 
 
 @pytest.fixture(scope="session")

@@ -13,7 +13,8 @@ from pathlib import Path
 import pytest
 
 from tests.compiler.emit.texts import APPS, modules_of
-from tests.release.environments import ROOT, succeed
+from tests.paths import ROOT
+from tests.release.environments import succeed
 
 RELEASES = ("24.1.0", "")
 """The last: the newest."""

@@ -8,7 +8,8 @@ from pathlib import Path
 from zipfile import ZipFile
 
 from tests.kit.apps import EXAMPLES, NAMES
-from tests.release.environments import ROOT, run, succeed
+from tests.paths import ROOT
+from tests.release.environments import run, succeed
 
 
 def test_an_installed_compiler_brings_the_examples(tmp_path: Path) -> None:

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.release.environments import ROOT, compile_app, fresh, run, succeed
+from tests.paths import ROOT
+from tests.release.environments import compile_app, fresh, run, succeed
 
 EXAMPLE = ROOT / "examples/drugs_distribution"
 MISSIONS, FLEET = EXAMPLE / "missions.toml", EXAMPLE / "fleet.toml"

@@ -6,7 +6,8 @@ import re
 import shutil
 from pathlib import Path
 
-from tests.release.environments import ROOT, succeed
+from tests.paths import ROOT
+from tests.release.environments import succeed
 
 NOT_SOURCES = shutil.ignore_patterns(".*_cache", ".git", ".hypothesis", ".venv", "__pycache__")
 

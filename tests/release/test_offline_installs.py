@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet import __version__
-from tests.release.environments import ROOT, compile_app, fresh, run, succeed
+from tests.paths import ROOT
+from tests.release.environments import compile_app, fresh, run, succeed
 
 LIBRARY = ROOT / "runtime"
 EXAMPLE = ROOT / "examples/drugs_distribution"

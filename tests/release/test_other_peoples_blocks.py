@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.release.environments import ROOT, fresh, succeed
+from tests.paths import ROOT
+from tests.release.environments import fresh, succeed
 
 SOURCE = """\
 pluto 1

@@ -15,7 +15,8 @@ import pytest
 
 from pluto_fleet import __version__
 from pluto_fleet.shared.domain.app import SEAM
-from tests.release.environments import ROOT, Finished, compile_app, fresh, run, succeed
+from tests.paths import ROOT
+from tests.release.environments import Finished, compile_app, fresh, run, succeed
 
 WITH_PROMISES = ROOT / "examples/night_round"
 """Its plan says what only the library reads."""

@@ -1,6 +1,14 @@
-"""Blocks of other packages are as good as ours: what is said comes from their properties."""
+"""Blocks of other packages are as good as ours: what is said comes from their properties.
+
+`strangers.txt` has edits of the app below, each a text and what stands in its place, and all that is said of them.
+"""
 
 from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
 
 from plutoc.block import Block, Choice, HookKind, HookParam, Param, emits, same
 from plutoc.check.run import check
@@ -13,6 +21,8 @@ from plutoc.syntax.parse import parse
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 from tests.compiler.diff.pairs import edited
+from tests.kit.sections import Section, params
+from tests.kit.sections import compare as compare_case
 
 
 def step() -> None:
@@ -101,86 +111,12 @@ def version(text: str) -> Version:
     return Version(checked=checked, warnings=warnings + found)
 
 
-def said(*edits: tuple[str, str]) -> list[str]:
-    """Return what is said of the app and of an edited one."""
-    changes = compare(version(APP), version(edited(APP, *edits))).changes
-    return [change.sentence for change in changes if not change.kind.startswith("warning")]
-
-
-def test_nothing_is_said_where_nothing_changed() -> None:
-    """Other names of packages are none of the mission's."""
-    assert said() == []
-    assert said(("use mine\n", "use mine as ours\n"), ("= mine.", "= ours.")) == []
-
-
-def test_a_parameter_is_told_with_what_it_is() -> None:
-    """By the first sentence of its documentation."""
-    assert said(("mine.Nap", "mine.Nap(depth: 30 cm)")) == [
-        "`depth` of `rest` is now 30 cm; before, it was 1 m (how deep)"
-    ]
-    assert said(("mine.Patience", "mine.Patience(loud: yes)")) == [
-        "`loud` of `calm` is now yes; before, it was no (with a noise)"
-    ]
-
-
-def test_a_limit_without_a_field_is_called_by_its_kind() -> None:
-    """It has no other name."""
-    alone = (("  calm = mine.Patience\n", ""), ("[watch, calm]", "[watch]"), (" -> first\n", "\n"))
-    gate = (("  first = GateFIFO\n", ""), ("first ->", "watch ->"))
-    assert "a trip's time (`Patience`) is no longer watched" in said(*alone, *gate)
-
-
-def test_a_retry_that_has_no_bound_is_one_without_a_bound() -> None:
-    """And where a failed mission ended it is told what it does now."""
-    gone = (("  mend = mine.Mend\n", ""), ("  first -> mend -> allocate\n", ""))
-    ends = ("  first -> judge -> end\n", "  first -> judge -> end\n  first -> end when FAILED\n")
-    assert "a FAILED mission is no longer retried: it ends" in said(*gone, ends)
-    changes = compare(version(edited(APP, *gone, ends)), version(APP)).changes
-    assert "a FAILED mission is now retried without a bound; before, it ended" in [
-        change.sentence for change in changes
-    ]
-
-
-def test_a_wait_that_no_field_describes_is_called_by_its_block() -> None:
-    """So is a drone that is held meanwhile."""
-    changes = compare(
-        version(APP),
-        version(
-            edited(
-                APP,
-                ("rest -> other", "other"),
-                ("allocate -> launch", "allocate -> rest -> launch"),
-            )
-        ),
-    ).changes
-    sentences = [change.sentence for change in changes]
-    assert (
-        "a drone is held during the wait at `rest`: missions come to `rest` with one allocated,"
-        " which no other mission can use"
-    ) in sentences
-    assert "a new mission no longer waits at `rest`: it waits at `other`" in sentences
-
-
-def test_a_choice_is_told_by_its_name() -> None:
-    """And a hook that is optional may come and go."""
-    assert said(("mine.Turn", "mine.Turn(way: right)")) == [
-        "`way` of `turn` is now `right`; before, `left` (where to)"
-    ]
-    assert said(("mine.Turn", "mine.Turn(hook: look)")) == [
-        "`turn` now calls `look`; before, it called none"
-    ]
-
-
-def test_a_block_of_another_package_is_another_block() -> None:
-    """Though its kind has the same name."""
-    assert said(("rest = mine.Nap", "rest = yours.Nap")) == [
-        "`rest` is now a `yours.Nap`; before, a `mine.Nap`"
-    ]
-
-
-def test_one_that_judges_by_itself_judges() -> None:
-    """No hook is named."""
-    assert said(("first -> judge -> end", "first -> end"), ("  judge = mine.Judge\n", "")) == [
-        "a COMPLETED mission is no longer judged: it ends",
-        "block `judge` is gone, a `Judge`",
-    ]
+@pytest.mark.parametrize("case", params(Path(__file__).with_name("strangers.txt")))
+def test_what_is_said_comes_from_properties(case: Section, update: bool) -> None:
+    """There, and on the way back."""
+    edits = [(old, new) for old, new in map(json.loads, case.given.splitlines())]
+    old, new = version(APP), version(edited(APP, *edits))
+    there, back = compare(old, new).changes, compare(new, old).changes
+    lines = ["-- there", *(change.sentence for change in there)]
+    lines += ["-- back", *(change.sentence for change in back)]
+    compare_case(case, "\n".join(lines), update)

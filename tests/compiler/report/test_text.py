@@ -92,14 +92,6 @@ def test_of_a_span_over_several_lines_the_first_and_the_last_are_shown() -> None
     assert window(many) == ["1 | a [b,", "  |   ^^^", "...", "4 | c]", "  | ^^"]
 
 
-def test_a_span_that_ends_with_its_line_is_of_one_line() -> None:
-    """The line end itself is nothing to mark."""
-    assert window(render([diagnostic("a bad\r\nb\n", "bad\r\n")], colour=False)) == [
-        "1 | a bad",
-        "  |   ^^^",
-    ]
-
-
 def with_related(text: str, marked: str, *others: str) -> Diagnostic:
     """A finding about the marked part of a text, with other parts that have to do with it."""
     found = diagnostic(text, marked, label="main")
@@ -189,12 +181,6 @@ def test_place_at_the_end_of_the_file() -> None:
     assert "1 | pluto 1\n  |        ^\n" in render([at_end], colour=False)
 
 
-def test_source_cannot_write_to_the_terminal() -> None:
-    """Escape sequences and overrides of the source are shown as signs."""
-    shown = render([diagnostic("a \x1b[31m \u202e bad", "bad")], colour=False)
-    assert "\x1b" not in shown and "\u202e" not in shown
-
-
 def test_long_line_is_cut_around_the_place() -> None:
     """And the marks still stand under it."""
     lines = render([diagnostic("x" * 500 + " bad " + "y" * 500, "bad")], colour=False).split("\n")
@@ -218,11 +204,6 @@ def test_no_warning_takes_an_errors_place() -> None:
     assert shown.count("warning[") == 19
     assert shown.count("error[") == 1
     assert "… and 11 more\n" in shown and shown.endswith("1 error, 30 warnings\n")
-
-
-def test_nothing_to_say() -> None:
-    """No diagnostic, no text."""
-    assert render([], colour=True) == ""
 
 
 def test_colour_only_where_wanted() -> None:
