@@ -15,7 +15,7 @@ from tests.paths import ROOT
 REWRITES = {
     "pytest tests/test_cases.py --update": "what must come out of tests/cases",
     "pytest tests/compiler/emit --update": "the generated package that tests compare",
-    "pytest tests/compiler/plan --update": "the plans before and after each pass",
+    "pytest tests/compiler/plan --update": "the plans before and after each pass; so in all rooms with cases in text files",
     "pytest tests/compiler/cli/test_blocks.py --update": "the pages of the blocks",
     "pytest tests/compiler/explain --update": "the list of diagnostics",
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial, and the page on sizes, show of commands' output",
