@@ -12,7 +12,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import mkdtemp
 
@@ -31,7 +31,7 @@ from tests.flights_crazyflie.plans import (
     write,
 )
 from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
-from tests.kill.lives import eventually
+from tests.kill.lives import PATIENCE, eventually
 from tests.kill.trial import gateway_of
 from tests.kit.campaign import Campaign
 
@@ -47,19 +47,29 @@ def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[st
     if scenario.speed is not None:
         source = quick_package(folder / "package", scenario.speed)
     flight = Flight(app=RETRY, source=source, folder=folder, world=world)
+    scenario.begin(flight)
+
+    def judged(code: int) -> Iterator[str]:
+        return (_unrefused if scenario.refused else _wrong)(scenario, flight, code)
+
+    return flight, seen_through(flight, judged, scenario.go_on)
+
+
+def seen_through(
+    flight: Flight,
+    judged: Callable[[int], Iterator[str]],
+    during: Callable[[Flight], None] = lambda _: None,
+    limit: float = PATIENCE,
+) -> list[str]:
+    """Fly to the end, and return what is wrong with it and with the gateway."""
     try:
-        if scenario.before is not None:
-            scenario.before(flight)
         flight.start()
-        if scenario.during is not None:
-            scenario.during(flight)
-        code = flight.see_through()
-        if scenario.refused:
-            return flight, list(_unrefused(scenario, flight, code))
+        during(flight)
+        code = flight.see_through(limit)
         left = list(gateway_left(flight))
-        return flight, [*_wrong(scenario, flight, code), *left]
+        return [*judged(code), *left]
     except AssertionError as error:
-        return flight, [str(error)]
+        return [str(error)]
     finally:
         flight.end()
 
@@ -96,7 +106,7 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
         yield f"no trip has failed with {scenario.fails!r}"
     if not scenario.fails and reasons:
         yield "a trip has failed"
-    yield from unmeant(flight.commands, flight.trace, SIZE, scenario.falls)
+    yield from unmeant(flight.commands, flight.trace, SIZE, tuple(scenario.falls))
     if "Traceback" in flight.told:
         yield "a traceback was printed"
 

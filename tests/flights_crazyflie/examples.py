@@ -11,10 +11,10 @@ minutes in all, three flights at a time. Each has a folder of its own, which is 
 from __future__ import annotations
 
 import sys
-import time
 import tomllib
 from collections import Counter
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
@@ -22,7 +22,7 @@ from typing import Any
 from pluto_fleet.crtp.flight_log import Point
 from pluto_fleet.shared.hooks.plain_data import point_of
 from tests.apart import apart
-from tests.flights_crazyflie.campaign import gateway_left
+from tests.flights_crazyflie.campaign import seen_through
 from tests.flights_crazyflie.flight import Event, Flight
 from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
 from tests.flights_crazyflie.plans import quick_package, write
@@ -64,21 +64,6 @@ def prepared(app: str, source: Path, folder: Path, *, as_written: bool) -> Fligh
     write(folder, missions + BY_HAND.get(app, ""), fleet)
     drones = len(tomllib.loads(fleet)["drone"])
     return Flight(app=app, source=source, folder=folder, drones=drones)
-
-
-def wrong_with(flight: Flight) -> list[str]:
-    """Fly to the end; return what was wrong with it."""
-    began = time.monotonic()
-    try:
-        flight.start()
-        code = flight.see_through(_PATIENCE)
-        flight.notes.append(f"{time.monotonic() - began:.0f} s")
-        left = list(gateway_left(flight))
-        return [*_wrong(flight, code), *left]
-    except AssertionError as error:
-        return [str(error)]
-    finally:
-        flight.end()
 
 
 _FILES = ("missions", "fleet")
@@ -168,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         name, number = case
         place = folder / name / str(number)
         flight = prepared(name, sources[name], place, as_written=options.as_written)
-        return flight, wrong_with(flight)
+        return flight, seen_through(flight, partial(_wrong, flight), limit=_PATIENCE)
 
     cases = [(name, number) for name in names for number in range(1, options.times + 1)]
     for (name, number), (flight, wrong) in campaign.each(flown, cases, threads=True):

@@ -55,8 +55,8 @@ class Flight(Lives):
     def tell(self, *words: str) -> str:
         """Give a command to the app that flies; return what it says."""
         done = self.run("tell", str(self.journal), *words)
-        assert done.returncode == 0, done.stderr
-        return done.stdout
+        assert done.code == 0, done.err
+        return done.out
 
     def kill_gateway(self) -> None:
         """Kill the gateway that commands the drones."""

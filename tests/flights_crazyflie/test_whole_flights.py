@@ -59,8 +59,8 @@ def test_a_dry_run_says_what_a_drone_is_told(flight: Flight) -> None:
     write(flight.folder, missions(ONE), fleet(1))
     flight.drones = 1
     dry = flight.run("fly", *flight.files, "--dry-run", "--crtp-sim", "1")
-    assert (dry.returncode, dry.stderr) == (0, "")
-    meant = [line for line in map(COMMAND.match, dry.stdout.splitlines()) if line is not None]
+    assert (dry.code, dry.err) == (0, "")
+    meant = [line for line in map(COMMAND.match, dry.out.splitlines()) if line is not None]
     flight.start()
     assert flight.see_through() == 0, flight.told
     told = [command for command in flight.commands if command.what in CALLED]

@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -41,8 +40,8 @@ def folded(rows: Sequence[str]) -> Records:
     return records
 
 
-def phase(journal: Path, rows: Sequence[str]) -> str:
-    """Say in a word what went on: after these rows, and as the gateway's ledger has it."""
+def phase(rows: Sequence[str]) -> str:
+    """Say in a word what went on after these rows."""
     missions = folded(rows).missions.values()
     if not missions:
         return "setting out"
@@ -50,21 +49,9 @@ def phase(journal: Path, rows: Sequence[str]) -> str:
         return "all missions ended"
     flights = [record["flight"] for record in missions if record["flight"] is not None]
     flying = [flight for flight in flights if flight["outcome"] is None]
-    if "begun" in _states_of_jobs(journal).values() or any(one["begun"] for one in flying):
+    if any(one["begun"] for one in flying):
         return "during an action"
-    if flying:
-        return "in flight"
-    return "between trips"
-
-
-def _states_of_jobs(journal: Path) -> dict[str, str]:
-    states: dict[str, str] = {}
-    with suppress(FileNotFoundError):
-        for line in (gateway_folder(journal) / "ledger").read_bytes().splitlines():
-            with suppress(ValueError, KeyError):  # the last one may be half there
-                entry = json.loads(line.partition(b" ")[2])
-                states[entry["id"]] = entry["state"]
-    return states
+    return "in flight" if flying else "between trips"
 
 
 def lost(before: Sequence[str], after: Sequence[str]) -> Iterator[str]:

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from pluto_fleet.drones.recovery import RECONNECT_LIMIT
 from pluto_fleet.journal.place import commands_note
+from tests.kit.command import Ran, environment, python
 
 PATIENCE = RECONNECT_LIMIT + 60.0
 """Seconds until a life that does not end is called a failure: a lost link is waited for."""
@@ -61,10 +62,9 @@ class Lives:
 
     def begin(self, *words: str) -> None:
         """Let a life begin with a command of the app."""
+        command, env = [sys.executable, "-m", self.app, *words], environment(**self._own)
         with self._file.open("wb") as out:
-            self.life = subprocess.Popen(
-                self.command(*words), env=self._environment, stdout=out, stderr=subprocess.STDOUT
-            )
+            self.life = subprocess.Popen(command, env=env, stdout=out, stderr=subprocess.STDOUT)
 
     def kill(self) -> bool:
         """Kill the life as nothing can be kept from; False: it had ended by itself."""
@@ -93,20 +93,9 @@ class Lives:
             raise AssertionError(f"it does not end: {self.folder}\n{self.told}")
         return code
 
-    def run(self, *words: str) -> subprocess.CompletedProcess[str]:
+    def run(self, *words: str) -> Ran:
         """Give another command of the app."""
-        return subprocess.run(
-            self.command(*words),
-            env=self._environment,
-            text=True,
-            capture_output=True,
-            check=False,
-            timeout=PATIENCE,
-        )
-
-    def command(self, *words: str) -> list[str]:
-        """Return what starts a command of the app."""
-        return [sys.executable, "-m", self.app, *words]
+        return python("-m", self.app, *words, **self._own)
 
     def end(self) -> None:
         """Leave no life behind."""
@@ -114,13 +103,10 @@ class Lives:
             self.kill()
 
     @property
-    def _environment(self) -> dict[str, str]:
-        return {
-            **os.environ,
-            "PYTHONPATH": str(self.source),
-            "XDG_STATE_HOME": str(self.folder / "state"),
-            "FLIGHT": str(self.folder),
-        }
+    def _own(self) -> dict[str, str]:
+        """Return what its processes have of the environment that others have not."""
+        state = str(self.folder / "state")
+        return {"PYTHONPATH": str(self.source), "XDG_STATE_HOME": state, "FLIGHT": str(self.folder)}
 
     @property
     def _file(self) -> Path:

@@ -54,6 +54,6 @@ def test_a_hook_that_ends_the_process_ends_no_flight_as_if_it_were_over(
         end_gateway(flight.journal)
     (tmp_path / "leaves0.done").unlink()
     simulated = flight.run("simulate", str(files["missions"]), "--fleet", str(files["fleet"]))
-    assert simulated.returncode == 1
-    assert "hook act raised SystemExit: os._exit(0)" in simulated.stdout
-    assert "1 of 2 missions completed, 1 failed" in simulated.stdout
+    assert simulated.code == 1
+    assert "hook act raised SystemExit: os._exit(0)" in simulated.out
+    assert "1 of 2 missions completed, 1 failed" in simulated.out

@@ -67,7 +67,7 @@ class Trial:
         """Return what went on; nothing that was on record may have gone."""
         before, self._seen = self._seen, self._rows()
         self._wrong += lost(before, self._seen)
-        return phase(self.flight.journal, self._seen)
+        return phase(self._seen)
 
     def _end(self, code: int) -> None:
         tally, journal = self.tally, self.flight.journal
@@ -99,8 +99,8 @@ class Trial:
                 answer = "done" if key in known else "not-done"
                 said = self.flight.run("decide", str(self.flight.journal), name, answer)
                 self.tally.decided += 1
-                if said.returncode != 0:
-                    self._wrong.append(f"decide: {said.stderr}")
+                if said.code != 0:
+                    self._wrong.append(f"decide: {said.err}")
                     return code
             self.flight.start()
             code = self.flight.see_through()

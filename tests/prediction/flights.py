@@ -70,9 +70,9 @@ def prepared(plan: Plan, source: Path, folder: Path) -> Flight:
 def _said(flight: Flight, command: str, *flags: str) -> str:
     """Return what a command says about the plan, of which a mission may fail."""
     done = flight.run(command, *flight.files, *flags)
-    if done.returncode not in (0, 1):
-        raise AssertionError(f"{command} ended with {done.returncode}:\n{done.stderr}")
-    return done.stdout
+    if done.code not in (0, 1):
+        raise AssertionError(f"{command} ended with {done.code}:\n{done.err}")
+    return done.out
 
 
 def _outcome(said: str) -> str:

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crazyflie.state import State
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
 from pluto_fleet.crtp.server import Server
@@ -88,6 +89,28 @@ class Hangar:
         async for event in self.navigation.events():
             self.events.append(event)
             self.heard.set()
+
+
+def state(
+    time: float,
+    *,
+    volts: float = 4.0,
+    bits: int = 0,
+    power: int = 0,
+    x: float = 0.0,
+    at: Point | None = None,
+    sent: float | None = None,
+) -> State:
+    """Return what a drone tells at one moment."""
+    return State(
+        time=time,
+        sent=time if sent is None else sent,
+        position=at or (x, 0.0, 1.0),
+        yaw=0.0,
+        volts=volts,
+        power=power,
+        bits=bits,
+    )
 
 
 def navigation(

@@ -56,11 +56,6 @@ async def test_what_it_has_not_it_says_before_it_flies(one: Hangar) -> None:
         await cf.act("take_photo", {}, None)
 
 
-async def test_without_a_grip_it_does_not_pretend(cf: Crazyflie) -> None:
-    reason = cf.why_not("pick_item", {})
-    assert reason is not None and "name the parameter of its gripper" in reason
-
-
 async def test_its_camera_s_picture_is_kept_and_covers_ground(folder: Path) -> None:
     streaming = await camera()
     options = {"camera": f"127.0.0.1:{port_of(streaming)}", "camera_view": [90, 60]}

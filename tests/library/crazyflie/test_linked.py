@@ -106,12 +106,6 @@ async def test_the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(
     assert one.drone.supervisor.locked
 
 
-async def test_a_folder_that_takes_no_files_keeps_no_one_from_flying(folder: Path) -> None:
-    async with hangar(folder / "not there") as one:
-        cf = await one.connected()
-        assert await cf.preflight() == []
-
-
 @drone(options={"starts_at_home": True}, build=Build(id="cf1", home=(0.1, 0.0, 0.0)))
 async def test_one_that_was_just_switched_on_is_told_where_it_begins(
     one: Hangar, cf: Crazyflie

@@ -73,14 +73,6 @@ async def test_one_with_more_cells_than_the_fleet_file_says_does_not_fly(
         await cf.takeoff(0.5, FAST)
 
 
-@drone(options={"cells": 2}, build=Build(id="cf1", home=(1.0, 2.0, 0.0), cells=3))
-async def test_how_many_cells_it_may_have_is_said_from_its_volts(cf: Crazyflie) -> None:
-    (reason,) = await cf.preflight()
-    assert (
-        f"has {3 * FULL:.2f} V, more than 2 cells have" in reason and "such as cells = 3" in reason
-    )
-
-
 @drone(options={"cells": 2, "least_voltage": 3.0}, build=TWO_CELLS)
 async def test_one_with_two_cells_is_as_full_as_each_of_them(one: Hangar, cf: Crazyflie) -> None:
     assert cf.telemetry.voltage == pytest.approx(2 * FULL, abs=0.01)

@@ -34,13 +34,6 @@ async def test_one_whose_controller_was_set_to_follow_faster_is_ready(cf: Crazyf
     assert await cf.preflight() == []
 
 
-@drone(speed=0.5)
-async def test_one_whose_controller_was_set_to_follow_slower_is_not_ready(cf: Crazyflie) -> None:
-    await cf.write("posCtlPid.zVelMax", 0.3)
-    (reason,) = await cf.preflight()
-    assert "at up to 0.5 m/s" in reason and "than 0.3 m/s (posCtlPid.zVelMax)" in reason
-
-
 @drone(speed=0.8)
 async def test_one_that_is_still_telling_its_parameters_is_waited_for(one: Hangar) -> None:
     """Over a busy radio they take longer than it takes to be sure where it is."""

@@ -7,12 +7,11 @@ import asyncio
 import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
-from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
 from pluto_fleet.drones.errors import NotReady, Rejected
 from tests.kit.unthreaded import the_air
-from tests.library.crazyflie.hangar import FAST, Hangar, drone
+from tests.library.crazyflie.hangar import FAST, Hangar
 
 
 async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: Crazyflie) -> None:
@@ -23,12 +22,6 @@ async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: C
     told = [command.what for command in one.commands if command.what != "setpoints end"]
     assert told[:4] == ["arm", "takeoff", "land", "down"]
     assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
-
-
-@drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=True))
-async def test_one_that_arms_itself_is_waited_for_until_it_has(one: Hangar, up: Crazyflie) -> None:
-    assert one.flies and not one.did("arm")
-    await up.land(FAST)
 
 
 class OnRequest(Supervisor):
@@ -109,13 +102,6 @@ async def test_nothing_is_above_its_commander_when_it_takes_off(one: Hangar, up:
     assert "setpoints end" in before and "setpoints end" not in after
 
 
-async def test_one_that_another_program_has_steered_takes_off(one: Hangar, cf: Crazyflie) -> None:
-    await one.let("setpoint")
-    await cf.takeoff(0.5, FAST)
-    assert one.position[2] > 0.4
-    await cf.land(FAST)
-
-
 async def test_one_that_another_program_steers_while_it_is_armed_takes_off(
     one: Hangar, cf: Crazyflie
 ) -> None:
@@ -126,18 +112,6 @@ async def test_one_that_another_program_steers_while_it_is_armed_takes_off(
     await one.let("setpoint")
     await taking_off
     assert one.position[2] > 0.4
-    await cf.land(FAST)
-
-
-async def test_one_that_disarms_itself_just_now_is_waited_for(one: Hangar, cf: Crazyflie) -> None:
-    """Some three seconds after a landing it is neither armed nor can be, for a tenth of a second."""
-    await cf.takeoff(0.4, FAST)
-    await cf.land(FAST)
-    while one.drone.supervisor.armed:
-        await asyncio.sleep(0.005)
-    assert await cf.preflight() == []
-    await cf.takeoff(0.4, FAST)
-    assert one.flies
     await cf.land(FAST)
 
 

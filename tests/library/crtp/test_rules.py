@@ -9,7 +9,6 @@ import pytest
 from pluto_fleet.crtp.battery import CHARGE
 from pluto_fleet.crtp.packets import Port
 from pluto_fleet.crtp.server import collide
-from pluto_fleet.lithium import volts_at
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, charged
 from tests.library.crtp.bench import CF1, Bench, hovering
 
@@ -203,65 +202,8 @@ def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
     assert bench.drone.on is not shuts_down
 
 
-def test_a_battery_of_two_cells_has_twice_the_volts_and_is_low_at_twice_as_many() -> None:
-    bench = Bench(replace(CF1, cells=2))
-    assert bench.drone.battery.volts == pytest.approx(2 * volts_at(1.0))
-    bench.up()
-    bench.let("volts", 6.5)
-    bench.passes(6.0)
-    assert bench.drone.battery.state == 0
-    bench.let("volts", 6.3)
-    bench.passes(6.0)
-    assert bench.drone.battery.state == 3
-    assert bench.drone.parameters["pm.lowVoltage"] == pytest.approx(6.4)
-
-
-def test_a_deck_with_a_fault_says_so_and_lets_it_not_be_armed() -> None:
-    bench = Bench()
-    bench.let("deck")
-    assert bench.drone.info() == 0xA00 and not bench.arm()
-    bench.let("deck", False)
-    assert bench.arm()
-    bench.let("deck")
-    bench.passes(0.5)
-    assert bench.drone.info() == 0xA00
-
-
-def test_a_deck_that_has_a_fault_in_the_air_locks_it() -> None:
-    bench = hovering()
-    bench.let("deck")
-    bench.passes(2.0)
-    assert bench.has(LOCKED) and bench.has(11) and bench.z == 0.0
-
-
-@pytest.mark.parametrize(
-    ("protocol", "release"), [(8, b"2024.10"), (9, b"2025.02"), (10, b"2025.12"), (12, b"2026.08")]
-)
-def test_a_firmware_speaks_the_protocol_of_its_release(protocol: int, release: bytes) -> None:
-    bench = Bench(replace(CF1, protocol=protocol))
-    assert bench.told(Port.PLATFORM, 1, b"\0") == bytes([0, protocol, 0, 0, 0])
-    assert bench.told(Port.PLATFORM, 1, b"\1") == b"\1" + release + b" simulated"
-
-
 def test_a_pad_charges_what_stands_on_it() -> None:
     bench = Bench(replace(CF1, level=0.5))
     bench.passes(60.0)
     assert bench.drone.battery.level == pytest.approx(charged(0.5, 60.0, CHARGE, CRAZYFLIE.taper))
     assert bench.drone.battery.state == 1
-
-
-def test_a_restart_in_the_air_lets_it_fall_and_say_nothing_for_a_while() -> None:
-    bench = hovering()
-    bench.let("restart")
-    assert bench.told(15, 0, b"hello") is None
-    bench.passes(1.1)
-    assert bench.z == 0.0 and bench.told(15, 0, b"hello") == b"hello"
-
-
-def test_a_drone_that_does_not_know_where_it_is_knows_while_it_is_told() -> None:
-    bench = Bench(replace(CF1, knows_where=False))
-    assert bench.drone.variance > 0.1
-    bench.told(Port.LOCALIZATION, 0, bytes(12))
-    assert bench.drone.variance < 0.001
-    bench.passes(3.0)
-    assert bench.drone.variance > 0.1

@@ -23,18 +23,6 @@ def test_it_has_a_camera_a_gripper_and_a_sensor_for_any_quantity() -> None:
     assert options.variable_of("drawn in flight") == "sim.measured"
 
 
-def test_what_the_file_names_and_it_has_is_used() -> None:
-    """So a fleet file can be tried before there is a drone."""
-    grip = {"parameter": "gripper.force", "pick": 0.4, "release": 0.0}
-    measured = {"temperature": "baro.temp", "height": "baro.asl"}
-    given = {"measure": measured, "grip": grip, "measure_seconds": 2, "camera_view": [90, 60]}
-    options = options_of(fitted(given, CAMERA))
-    assert options.variable_of("temperature") == "baro.temp"
-    assert options.variable_of("height") == "baro.asl"
-    assert options.grip is not None and options.grip.parameter == "gripper.force"
-    assert (options.measure_seconds, options.camera_view) == (2.0, (90.0, 60.0))
-
-
 def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
     """A deck of one's own is no reason not to take off."""
     options = options_of(
@@ -44,7 +32,8 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
                 "cells": 2,
                 "decks": ["bcFlow2", "myDeck"],
                 "grip": {"parameter": "magnet.on", "pick": 1, "release": 0, "seconds": 3},
-                "measure": {"pm10": "sps.pm10", "temperature": "my.temp"},
+                "measure": {"pm10": "sps.pm10", "temperature": "my.temp", "height": "baro.asl"},
+                "measure_seconds": 2,
             },
             CAMERA,
         )
@@ -56,6 +45,7 @@ def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
     assert (options.grip.parameter, options.grip.seconds) == ("gripper.closed", 3.0)
     assert options.variable_of("pm10") == "sim.measured"
     assert options.variable_of("temperature") == "bme.temp"
+    assert (options.variable_of("height"), options.measure_seconds) == ("baro.asl", 2.0)
 
 
 def test_they_stay_while_a_gateway_runs_that_has_nothing_to_tell_them(tmp_path: Path) -> None:
