@@ -1,7 +1,7 @@
 """The unmodified cflib in one thread, on a loop whose clock jumps: a flight of a minute takes a moment.
 
-What its threads run is run in turns, where it would wait for a packet it stops, and its timers are the
-loop's. Packets go through the air of this process and not through a socket: each arrives at its instant.
+What its threads do is done in turns: where one would wait, its turn is over. Its timers are the loop's, and
+packets go through the air of this process and not through a socket, so that each arrives at its instant.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
 from importlib import import_module
+from queue import Empty
 from threading import Thread
 from types import ModuleType
 from typing import Any, TypeVar
@@ -41,7 +42,7 @@ class Requests:
     def get(self, block: bool = True) -> object:
         """Return the next request."""
         if not self._waiting:
-            raise Waits if block else import_module("queue").Empty
+            raise Waits if block else Empty
         self._taken = self._waiting.popleft()
         return self._taken
 
@@ -73,15 +74,19 @@ class Turn:
         self._held = False
 
 
-class Never:
-    """An event that ends a thread, which no one waits for here."""
+class Stop:
+    """An event that ends a thread; to wait for it ends its turn."""
 
     def __init__(self) -> None:
-        self.is_set = lambda: False
+        self._stopped = False
+
+    def is_set(self) -> bool:
+        """Return whether the thread is to end."""
+        return self._stopped
 
     def set(self) -> None:
         """End the thread."""
-        self.is_set = lambda: True
+        self._stopped = True
 
     def wait(self, _: float) -> None:
         """Wait for it."""
@@ -274,7 +279,7 @@ def one_thread() -> Iterator[None]:
         for thread in _threads(param):
             patch.setattr(thread, "start", lambda one: the_air().threads.append(one))
         patch.setattr(cflib, "Timer", LoopTimer)
-        patch.setattr(cflib, "Event", Never)
+        patch.setattr(cflib, "Event", Stop)
         patch.setattr(param, "Queue", Requests)
         patch.setattr(param, "Lock", Turn)
         patch.setattr(statistics.Latency, "start", lambda _: None)
