@@ -20,17 +20,8 @@ from pluto_fleet.crtp import process
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import unmeant
-from tests.flights_crazyflie.plans import (
-    RETRY,
-    SIZE,
-    fleet,
-    homes,
-    missions,
-    quick_package,
-    tours,
-    write,
-)
-from tests.flights_crazyflie.scenarios import ALL, SCENARIOS, Scenario
+from tests.flights_crazyflie.plans import RETRY, SIZE, homes, plan, quick_package, write
+from tests.flights_crazyflie.scenarios import SCENARIOS, Scenario
 from tests.kill.lives import PATIENCE, eventually
 from tests.kill.trial import gateway_of
 from tests.kit.campaign import Campaign
@@ -42,8 +33,10 @@ _LEAVES = 180.0
 def fly(scenario: Scenario, source: Path, folder: Path) -> tuple[Flight, list[str]]:
     """Fly a scenario to its end; return the flight, and what was wrong with it."""
     world = folder / "drones"
-    uris = process.start(world, homes(len(ALL)))
-    write(folder, missions(tours(3)), fleet(len(ALL), uris))
+    missions, fleet = plan("three_tours")
+    for drone, uri in process.start(world, homes(fleet)).items():
+        fleet = fleet.replace(f"URI {drone}", uri)
+    write(folder, missions, fleet)
     if scenario.speed is not None:
         source = quick_package(folder / "package", scenario.speed)
     flight = Flight(app=RETRY, source=source, folder=folder, world=world)

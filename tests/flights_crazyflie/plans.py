@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from shutil import copytree
 
-from tests.kill.plans import TRIP
 from tests.kit.apps import EXAMPLES, compiled_file
 
 Target = tuple[float, float, float]
-Plan = Mapping[tuple[str, str], tuple[str, tuple[float, float], str]]
-"""What each trip of each mission does, where, and what else is said of it."""
 
 CRUISE = 0.5
 SIZE = (6.0, 6.0)
@@ -39,68 +37,28 @@ def _as_fast(speed: str, category: re.Match[str]) -> str:
     return f"  category {category[1]}({', '.join([f'speed: {speed}', *others])}) can"
 
 
-def homes(drones: int) -> dict[str, Target]:
-    """Return where drones stand: a metre apart, in rows of five."""
+def plan(name: str) -> tuple[str, str]:
+    """Return the missions file and the fleet file of a plan."""
+    folder = Path(__file__).parent / "plans" / name
+    return (folder / "missions.toml").read_text(), (folder / "fleet.toml").read_text()
+
+
+def homes(fleet: str) -> dict[str, Target]:
+    """Return where the drones of a fleet file stand."""
+    return {one["id"]: (*one["home"], 0.0) for one in tomllib.loads(fleet)["drone"]}
+
+
+def targets(missions: str) -> Mapping[tuple[str, str], Target]:
+    """Return where each trip of a missions file leads."""
     return {
-        f"cf{place + 1}": (0.5 + place % 5, 0.5 + 2.5 * (place // 5), 0.0)
-        for place in range(drones)
+        (mission["name"], trip["name"]): (*trip["target"], CRUISE)
+        for mission in tomllib.loads(missions)["mission"]
+        for trip in mission["trip"]
     }
 
 
-def fleet(drones: int, uris: Mapping[str, str] | None = None) -> str:
-    """Return a fleet file; with `uris`, of drones that can measure, where they can be reached."""
-    written = f"[map]\nsize = {[*SIZE]}\nceiling = 2.5\n"
-    written += f'cruise_height = {CRUISE}\n[fleet]\nafter_trip = "home"\n'
-    if uris is not None:
-        written += '[navigation.crazyflie]\nmeasure = { temperature = "bme.temp" }\n'
-    for id, (x, y, _) in homes(drones).items():
-        written += f'[[drone]]\nid = "{id}"\nhome = [{x}, {y}]\n'
-        written += "" if uris is None else f'uri = "{uris[id]}"\n'
-    return written
-
-
-PILLS = 'item = { name = "pills", mass = "8 g" }'
-
-WARD: Plan = {
-    ("Ward", "look"): ("take_photo", (0.5, 1.2), ""),
-    ("Ward", "warm"): ("measure", (0.5, 1.3), ""),
-    ("Pills", "fetch"): ("pick_item", (1.5, 1.2), PILLS),
-    ("Pills", "bring"): ("release_item", (1.5, 1.8), PILLS),
-    ("Air", "here"): ("measure", (2.5, 1.2), 'parameters = { quantity = "pm10" }'),
-    ("Door", "open"): ("take_photo", (3.5, 1.3), ""),
-    ("Window", "shut"): ("take_photo", (4.5, 1.3), ""),
-}
-"""Five missions with all that a Crazyflie can do."""
-
-
-def tours(drones: int, far: float = 1.0) -> Plan:
-    """Return a mission a drone: it measures so many metres in front of a home."""
-    return {
-        (f"M{place + 1}", "t"): ("measure", (x, y + far), "")
-        for place, (x, y, _) in enumerate(homes(drones).values())
-    }
-
-
-def missions(plan: Plan) -> str:
-    """Return the missions file of a plan."""
-    written, last = "", ""
-    for (mission, name), (action, (x, y), more) in plan.items():
-        if mission != last:
-            written += f'[[mission]]\nname = "{mission}"\n'
-            last = mission
-        written += TRIP.format(name=name, action=action, x=x, y=y, more=more)
-    return written
-
-
-def targets(
-    plan: Plan,
-) -> dict[tuple[str, str], Target]:
-    """Return where each trip leads."""
-    return {trip: (x, y, CRUISE) for trip, (_, (x, y), _) in plan.items()}
-
-
-def write(folder: Path, plan: str, drones: str) -> None:
+def write(folder: Path, missions: str, fleet: str) -> None:
     """Write both files."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "missions.toml").write_text(plan)
-    (folder / "fleet.toml").write_text(drones)
+    (folder / "missions.toml").write_text(missions)
+    (folder / "fleet.toml").write_text(fleet)

@@ -11,16 +11,7 @@ import pytest
 from tests.flights_crazyflie.campaign import fly
 from tests.flights_crazyflie.flight import Flight
 from tests.flights_crazyflie.judge import beside_its_target, unmeant
-from tests.flights_crazyflie.plans import (
-    DISTRIBUTION,
-    SIZE,
-    WARD,
-    fleet,
-    missions,
-    quick_package,
-    targets,
-    write,
-)
+from tests.flights_crazyflie.plans import DISTRIBUTION, SIZE, plan, quick_package, targets, write
 from tests.flights_crazyflie.scenarios import SCENARIOS
 from tests.kill.trial import gateway_of
 from tests.kit.apps import compiled
@@ -30,7 +21,6 @@ pytestmark = pytest.mark.long  # a minute each in real time
 
 COMMAND = re.compile(r" *[\d.]+ s +cf1 +(take off|go to|land) +\((.*?)\)")
 CALLED = {"takeoff": "take off", "go_to": "go to", "land": "land"}
-ONE = {("Ward", "look"): ("take_photo", (0.8, 0.6), "")}
 
 
 @pytest.fixture
@@ -44,19 +34,20 @@ def flight(tmp_path: Path) -> Iterator[Flight]:
 def test_all_trips_are_completed_at_their_targets_and_every_drone_lands_before_its_link_closes(
     flight: Flight,
 ) -> None:
-    write(flight.folder, missions(WARD), fleet(5))
+    missions, fleet = plan("ward")
+    write(flight.folder, missions, fleet)
     flight.drones = 5
     flight.start()
     assert flight.see_through() == 0, flight.told
     assert set(flight.ends().values()) == {"COMPLETED"}, flight.told
     flight.until(lambda: gateway_of(flight.journal) is None)  # all links are closed
-    assert list(beside_its_target(flight.events, flight.trace, targets(WARD))) == []
+    assert list(beside_its_target(flight.events, flight.trace, targets(missions))) == []
     assert list(unmeant(flight.commands, flight.trace, SIZE)) == []
 
 
 def test_a_dry_run_says_what_a_drone_is_told(flight: Flight) -> None:
     """The same commands, in the same order, to the same places."""
-    write(flight.folder, missions(ONE), fleet(1))
+    write(flight.folder, *plan("one_photo"))
     flight.drones = 1
     dry = flight.run("fly", *flight.files, "--dry-run", "--crtp-sim", "1")
     assert (dry.code, dry.err) == (0, "")

@@ -40,12 +40,6 @@ async def test_a_course_that_is_broken_off_ends_in_a_hover_nearby(
     assert hypot(*one.drone.body.velocity) < 0.25
 
 
-async def test_hold_and_land_do_nothing_on_the_ground(one: Hangar, cf: Crazyflie) -> None:
-    await cf.hold()
-    await cf.land(FAST)
-    assert one.commands == []
-
-
 async def test_what_cannot_be_flown_is_refused_before_anything_moves(
     one: Hangar, cf: Crazyflie
 ) -> None:

@@ -7,7 +7,7 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs, temperature
+from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs
 from pluto_fleet.crtp.packets import Errno, Port, packed
 from pluto_fleet.crtp.params import parameters
 from tests.library.crtp.bench import Bench
@@ -27,23 +27,6 @@ def created(bench: Bench, number: int, *wanted: str) -> int:
     return answer[2]
 
 
-def test_a_block_sends_its_values_at_its_period() -> None:
-    bench = Bench()
-    assert created(bench, 1, "stateEstimate.x", "bme.temp") == Errno.OK
-    bench.told(Port.LOG, 1, bytes([START, 1, 10]))
-    bench.sent.clear()
-    bench.passes(1.0)
-    assert 9 <= len(bench.sent) <= 11
-    port, channel, data = bench.sent[0]
-    assert (port, channel, data[0]) == (Port.LOG, 2, 1)
-    x, warm = struct.unpack("<ff", data[4:])
-    assert x == 1.0 and warm == temperature((1.0, 2.0, 0.0))
-    bench.told(Port.LOG, 1, bytes([STOP, 1]))
-    bench.sent.clear()
-    bench.passes(1.0)
-    assert bench.sent == []
-
-
 def test_a_block_holds_26_bytes_and_there_are_16_of_them() -> None:
     bench = Bench()
     six = ("stateEstimate.x",) * 6
@@ -57,11 +40,6 @@ def test_a_block_holds_26_bytes_and_there_are_16_of_them() -> None:
     assert created(bench, 99, "stateEstimate.x") == Errno.OK
 
 
-def test_a_block_that_is_not_there_is_said_to_be_so() -> None:
-    answer = Bench().told(Port.LOG, 1, bytes([START, 7, 10]))
-    assert answer == bytes([START, 7, Errno.ENOENT])
-
-
 def test_numbers_that_a_type_cannot_say_are_its_last() -> None:
     logs = Logs({"a.b": ("B", lambda: 300.0)})
     logs.take(1, bytes([CREATE, 1, 1, 0, 0]), 0.0)
@@ -71,12 +49,6 @@ def test_numbers_that_a_type_cannot_say_are_its_last() -> None:
 
 def number_of(name: str) -> bytes:
     return struct.pack("<H", [one.name for one in parameters()].index(name))
-
-
-def test_what_is_read_only_keeps_its_value_and_what_is_not_there_is_said_to_be_so() -> None:
-    bench, deck = Bench(), number_of("deck.bcLighthouse4")
-    assert bench.told(Port.PARAMETERS, 2, deck + b"\0") == deck + b"\1"
-    assert bench.told(Port.PARAMETERS, 1, b"\xff\xff") == b"\xff\xff" + bytes([Errno.ENOENT])
 
 
 def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:

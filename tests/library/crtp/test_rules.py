@@ -56,28 +56,6 @@ def test_a_takeoff_just_before_the_disarming_is_accepted_and_then_cancelled() ->
     assert bench.drone.info() == 0x201 and bench.z == 0.0
 
 
-def test_one_that_arms_by_itself_is_disarmed_for_a_moment_likewise() -> None:
-    bench = Bench(replace(CF1, auto_arm=True))
-    bench.passes(0.1)
-    assert bench.drone.info() == 0x20E
-    assert bench.takeoff() == 0
-    bench.passes(3.0)
-    bench.land()
-    bench.passes(2.1 + 5.0)
-    assert bench.drone.info() == 0x204 and bench.takeoff() == BUSY
-    bench.passes(0.2)
-    assert bench.drone.info() == 0x20E and bench.takeoff() == 0
-
-
-def test_one_that_was_disarmed_can_be_armed_a_moment_later() -> None:
-    bench = Bench()
-    bench.arm()
-    assert bench.told(Port.SUPERVISOR, 1, b"\1\0") == b"\x81\1\0"
-    assert not bench.arm()
-    bench.passes(0.2)
-    assert bench.arm()
-
-
 def test_what_makes_no_sense_now_is_answered_so_and_changes_nothing() -> None:
     bench = Bench()
     bench.arm()

@@ -64,14 +64,3 @@ def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint()
     assert bench.x == pytest.approx(1.0, abs=0.05)
     bench.passes(2.0)
     assert bench.has(LOCKED) and bench.z == 0.0
-
-
-def test_a_command_after_the_release_takes_over_in_the_air() -> None:
-    bench = hovering()
-    bench.let("setpoint", 1.0)
-    bench.passes(0.3)
-    bench.told(*RELEASE)
-    assert bench.go_to(2.0, 2.0, 1.0, 5.0) == 0
-    bench.passes(8.0)
-    assert not bench.has(LOCKED)
-    assert bench.x == pytest.approx(2.0, abs=0.05)
