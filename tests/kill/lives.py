@@ -95,7 +95,7 @@ class Lives:
 
     def run(self, *words: str) -> Ran:
         """Give another command of the app."""
-        return python("-m", self.app, *words, **self._own)
+        return python("-m", self.app, *words, cwd=None, **self._own)
 
     def end(self) -> None:
         """Leave no life behind."""
