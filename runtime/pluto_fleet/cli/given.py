@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping
+from datetime import time
 from pathlib import Path
 
 from ..files.errors import listed
@@ -30,15 +31,12 @@ def drone_in(file: Path, id: str) -> Mapping[str, object]:
 
 
 def _table(file: Path, what: str, key: str, name: str) -> Mapping[str, object]:
-    """Return the table with this name; raise `BadInput` if there is none, or it is no plain data."""
+    """Return the table with this name, as a command carries it; raise `BadInput` if there is none."""
     tables = list(_tables(read(file).data.get(what)))
     for table in tables:
         if table.get(key) == name:
-            try:
-                json.dumps(table)
-            except TypeError as error:
-                raise BadInput(f"{file}: {what} {quoted(name)}: {error}") from None
-            return table
+            carried: Mapping[str, object] = json.loads(json.dumps(table, default=_written))
+            return carried
     names = listed(quoted(str(one[key])) for one in tables if key in one)
     raise BadInput(f"{file}: there is no {what} {quoted(name)}; there are: {names}")
 
@@ -47,3 +45,8 @@ def _tables(given: object) -> Iterator[Mapping[str, object]]:
     for one in given if isinstance(given, list) else ():
         if isinstance(one, dict):
             yield one
+
+
+def _written(value: object) -> str:
+    """Write TOML's times and dates as the texts that may stand for them in a file."""
+    return f"{value:%H:%M:%S}" if isinstance(value, time) else str(value)

@@ -124,6 +124,25 @@ def test_trips_and_drones_are_taken_from_a_file(
     assert unknown[2] == f'{fleet}: there is no drone "cf8"; there are: "cf9"\n'
 
 
+def test_times_of_day_arrive_as_texts(journal: Path, tmp_path: Path, command: Command) -> None:
+    """A file may have TOML's own, which no command can carry; a date is refused by the app, as a text."""
+    file = tmp_path / "m.toml"
+    file.write_text(
+        '[[mission]]\nname = "North"\ndeadline = 09:00:00\n'
+        "[[mission.trip]]\nat = 08:30:00\n[[mission.trip]]\nat = 2026-01-02\n"
+    )
+    heard: list[object] = []
+
+    def answer(request: Mapping[str, object]) -> str:
+        heard.append(request["trips"])
+        return "so be it"
+
+    with running(commands_note(journal), answer):
+        said = command("tell", journal, "change-trips", "North", "--from", file)
+    assert said == (0, "so be it\n", "")
+    assert heard == [[{"at": "08:30:00"}, {"at": "2026-01-02"}]]
+
+
 def test_trips_that_are_too_many_are_refused(tmp_path: Path, command: Command) -> None:
     """Nor is more than fits into a command."""
     file = tmp_path / "m.toml"
