@@ -54,7 +54,7 @@ def checked(folder: Path) -> int:
     black = ("black", "--check", "--quiet", "--line-length=100", "--extend-exclude=/_runtime/", ".")
     mypy = ("mypy", "--strict", "--no-error-summary", f"--cache-dir={os.devnull}", "src")
     ruff = ("ruff", "check", "--no-cache", "--quiet", "--extend-exclude=_runtime")
-    found = tool(folder, *black)
+    found = int(tool(folder, *black))
     for name in sources():
         # where a package lies alone, its own modules are known for its own
         found += tool(folder / name, *ruff, "--isolated", ".")

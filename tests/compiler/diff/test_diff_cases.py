@@ -12,7 +12,8 @@ import pytest
 
 from plutoc.diff.model import Change, Difference, Importance
 from plutoc.report.change_reports import markdown, text
-from tests.compiler.diff.pairs import ROOT, difference
+from tests.compiler.diff.pairs import difference
+from tests.paths import ROOT
 
 CASES = Path(__file__).parent / "cases"
 WHICH = "|".join(importance.value for importance in Importance)

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from ruamel.yaml import YAML
 
-from tests.compiler.diff.pairs import EXAMPLES, ROOT, edited
+from tests.compiler.diff.pairs import EXAMPLES, edited
+from tests.paths import ROOT
 
 pytestmark = pytest.mark.long  # real repositories, and the shell of the workflow
 

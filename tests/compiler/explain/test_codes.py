@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from plutoc.explain.pages import GROUPS, codes, page
-from tests.compiler.explain.examples import CODE, ROOT, WITHOUT_EXAMPLES, example, headings
+from tests.compiler.explain.examples import CODE, WITHOUT_EXAMPLES, example, headings
+from tests.paths import ROOT
 
 CASES = sorted(path.parent.name for path in (ROOT / "tests" / "cases").glob("*/app.pluto"))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from plutoc.explain.pages import GROUPS, codes, page
-from tests.compiler.explain.examples import ROOT
+from tests.paths import ROOT
 
 INDEX = ROOT / "docs" / "diagnostics.md"
 HEAD = """# What the compiler says
