@@ -162,25 +162,6 @@ def test_each_mishap_happens_and_is_recovered_from(
         assert apps.times(outcome, "trip.failed")[0] + least <= max(ends)
 
 
-def test_what_was_picked_is_carried_and_grips_can_fail() -> None:
-    """A drone carries one item, of no more than its payload, and releases what it carries."""
-    tested = apps.app(apps.flow())
-    well = apps.mission("a", apps.pick("1", 2.0), apps.release("2", 4.0))
-    assert fly(tested, [well], apps.fleet()).completed
-    item = {"name": "pills", "mass": 0.02}
-    for action, aboard, why in (
-        ("release_item", None, "release_item failed: cf1 carries nothing at (1, 1)"),
-        (
-            "pick_item",
-            item,
-            "pick_item failed: pills weighs 20 g, cf1 carries at most 10 g at (1, 1)",
-        ),
-    ):
-        sky = Sky()
-        sky.fly(action=action, item=aboard)
-        assert sky.told()["reason"] == why
-
-
 def test_a_drone_that_is_told_to_break_off_hovers_and_reports_nothing() -> None:
     """Its flight says nothing more, and the next order is carried out from there."""
     sky = Sky(seed=0)

@@ -8,6 +8,9 @@ import pytest
 
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status
+from pluto_fleet.shared.flow.run import Run
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_modifier.step import modify_mission
 from tests.kit import apps
 
 
@@ -68,3 +71,21 @@ def test_of_a_deadline_and_a_limit_the_first_counts(
     missions[1].promises = {"deadline": 20.0}
     outcome = apps.flown(*missions, within=within, fail_late=fail_late)
     assert apps.moments(outcome, "mission.ended")["b"] == (first if fail_late else within)
+
+
+def test_a_drone_that_was_allocated_and_never_flew_is_there_for_others() -> None:
+    """What stands between the allocator and the launcher has failed."""
+
+    def fails(mission: apps.Mission, context: object) -> None:
+        if mission.name == "a":
+            raise ValueError("no")
+
+    async def flow(run: Run[apps.Mission]) -> Status:
+        status = await apps.allocated(run, create_mission(run, Status.UNEXECUTED))
+        status = await modify_mission(run, status, hook=fails)
+        return await apps.watched(run, apps.launched(run, status))
+
+    missions = [apps.mission(name, apps.trip("1", 3.0)) for name in "ab"]
+    outcome = apps.fly(apps.app(flow), *missions)
+    assert [mission.status.value for mission in outcome.missions] == ["FAILED", "COMPLETED"]
+    assert apps.moments(outcome, "trip.launched") == {"b": 0.0}

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, tidy
+from pluto_fleet.shared.domain.airspace import MARGIN, Airspace, enters, permitted_way, tidy
+from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Point
 
 Polygon = tuple[tuple[float, float], ...]
@@ -122,6 +123,15 @@ def test_there_may_be_no_way() -> None:
     assert Airspace(no_fly=(lower, upper)).route((1, 1, 1), (15, 1, 1)) is None
 
 
+def test_a_drone_for_which_there_is_no_way_is_told_so() -> None:
+    cut_in_two = Airspace(no_fly=(((8, 0), (9, 0), (9, 20), (8, 20)),))
+    with pytest.raises(
+        FlightFailed, match=r"there is no permitted way from cf1 to \(15, 1\)"
+    ) as no:
+        permitted_way(cut_in_two, "cf1", (1, 1, 1), (15, 1, 1))
+    assert no.value.failure is Failure.REFUSED
+
+
 def test_no_way_leads_to_where_no_drone_may_be() -> None:
     """The inside of an area, and what is off the map, cannot be reached or left."""
     airspace = Airspace(no_fly=(WALL,))
@@ -147,7 +157,7 @@ def test_areas_without_an_inside_forbid_nothing() -> None:
     """A point, a line and a repeated corner are not in the way."""
     odd = (((5.0, 5.0),), ((5.0, 0.0), (5.0, 20.0)), ((6.0, 0.0), (6.0, 9.0), (6.0, 3.0)), ())
     assert Airspace(no_fly=odd).route((1, 5, 1), (15, 5, 1)) == ((15, 5, 1),)
-    closed = (*WALL, WALL[0])
+    closed = (WALL[0], *WALL, WALL[0])
     assert Airspace(no_fly=(closed,)).route((6, 3, 1), (11, 3, 2)) == Airspace(
         no_fly=(WALL,)
     ).route((6, 3, 1), (11, 3, 2))

@@ -95,6 +95,13 @@ def test_an_interrupt_that_a_hook_raises_is_not_a_persons() -> None:
             reason_of(a_person)
 
 
+class Unreadable(list[int]):
+    """A list that does not say how long it is."""
+
+    def __len__(self) -> int:
+        raise ValueError("no")
+
+
 @pytest.mark.parametrize(
     ("hook", "says"),
     [
@@ -111,6 +118,13 @@ def test_an_interrupt_that_a_hook_raises_is_not_a_persons() -> None:
             lambda mission, _: setattr(mission.current, "target", (nan, 1.0)),
             "its target must be (x, y) or (x, y, z) in metres",
         ),
+        (lambda mission, _: setattr(mission, "name", "x"), "changed the mission's name or index"),
+        (lambda mission, _: setattr(mission, "index", 7), "changed the mission's name or index"),
+        (
+            lambda mission, _: setattr(mission.current, "target", Unreadable([1, 2])),
+            "cannot be read",
+        ),
+        (lambda mission, _: Status.FAILED, "declares no `emits` and so must return nothing"),
         (lambda _, context: context.sleep(inf), "inf seconds is no time to wait for"),
         (lambda _, context: context.sleep(nan), "nan seconds is no time to wait for"),
     ],
@@ -165,6 +179,37 @@ def test_a_hook_that_is_called_off_cannot_hold_on_or_go_on() -> None:
         assert outcome.completed
         apps.fly(tested, apps.mission("m", apps.trip("A", 3.0)), until=5.0)
     assert went_on == []
+
+
+@pytest.mark.parametrize("fact", ["name", "action", "item", "index", "attempt", "status"])
+def test_an_action_that_changes_what_its_trip_is_known_by_fails_its_mission(fact: str) -> None:
+    act = OwnAction(name="act", hook=lambda drone, trip, context: setattr(trip, fact, "x"))
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 2.0, action="act")), actions=[act])
+    (mission,) = outcome.missions
+    assert mission.reason == f"hook <lambda> changed the trip's {fact}, by which it is known"
+    assert mission.trips[0].name == "A"
+
+
+def test_an_error_is_logged_with_its_place_whatever_it_was_made_of() -> None:
+    def fails(mission: Any, context: Context) -> None:
+        raise ValueError([1])
+
+    outcome = apps.flown(apps.mission("m", apps.trip("A", 2.0)), prepare=fails)
+    assert outcome.missions[0].reason == "hook fails raised ValueError: [1]"
+    assert outcome.log[0].startswith("Traceback") and "ValueError: [1]" in outcome.log[0]
+    assert "raise ValueError([1])" in outcome.log[0]
+
+
+def test_a_hook_sees_what_all_actions_gave_and_that_a_trip_has_ended() -> None:
+    seen: list[object] = []
+
+    async def looks(mission: Any, context: Context) -> None:
+        ended = [await context.trip_ended(trip) for trip in mission.completed_trips]
+        seen.append((len(context.results), ended, await context.trip_ended(mission.current)))
+
+    mission = apps.mission("m", apps.trip("A", 2.0), apps.trip("B", 3.0))
+    assert apps.flown(mission, prepare=looks).completed
+    assert seen == [(0, [], False), (1, [True], False)]
 
 
 class Thing:

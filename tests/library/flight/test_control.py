@@ -92,6 +92,19 @@ def test_a_mission_with_an_item_aboard_can_be_cancelled() -> None:
     assert living.navigation.carrying("cf1") is None
 
 
+@pytest.mark.parametrize("when", [3.0, 14.0, 20.0])
+def test_a_paused_mission_goes_on_with_the_drone_that_has_its_item(when: float) -> None:
+    """Before it has picked it, while it carries it, and in flight with it."""
+    homes = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
+    delivery = apps.mission("a", apps.pick("p", 3), apps.release("r", 15))
+    living = Living(enterable(), delivery, on=apps.fleet(*homes))
+    living.at(when, lambda: living.life.control.pause("a"))
+    living.at(90.0, lambda: living.life.control.go_on("a"))
+    assert living.run() == ["COMPLETED"]
+    assert len(set(names(living.named("trip.completed"), "drone"))) == 1
+    assert violations(living.events, {}) == []
+
+
 def test_what_does_not_fit_is_told_to_no_mission() -> None:
     living = Living(enterable(), two_trips())
     living.run(1.0)

@@ -178,3 +178,24 @@ def test_a_mission_that_comes_after_an_uncertain_one_does_not_keep_the_run_alive
     assert living.run() == ["UNCERTAIN", "UNEXECUTED", "UNEXECUTED"]
     living.decide_at_rest("a", answer)
     assert living.run()[1:] == [then, then]
+
+
+def test_a_probe_that_fails_leaves_it_to_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(drone: Drone, trip: Trip) -> bool:
+        raise OSError("no camera")
+
+    monkeypatch.setattr(sys.modules[__name__], "spray_done", broken, raising=False)
+    app = enterable(actions=(OwnAction(name="spray", hook=_spray),))
+    living = Living(app, apps.mission("a", apps.trip("1", 3, action="spray")))
+    living.crash(10.0)
+    assert living.run() == ["UNCERTAIN"]
+    assert "OSError: no camera" in str(living.named("log")[-1]["text"])
+
+
+def test_a_flight_goes_on_though_its_mission_can_only_go_on_at_its_clock() -> None:
+    """What it waited for is over, and its trip is in the air."""
+    app = apps.changed(enterable(clock=True), resumes=("wait",))
+    living = Living(app, apps.mission("a", apps.trip("1", 9, delay=2.0)))
+    living.crash(8.0)
+    assert living.run() == ["COMPLETED"]
+    assert living.times("trip.launched") == [2.0]

@@ -24,7 +24,6 @@ from pluto_fleet.process.ipc import (
     ask,
     listening,
     publish,
-    withdraw,
 )
 from pluto_fleet.shared.domain.errors import BadInput
 
@@ -241,11 +240,3 @@ def test_a_folder_that_others_may_enter_is_not_trusted(note: Path, tmp_path: Pat
     (tmp_path / "open").chmod(0o755)
     publish(note, tmp_path / "open" / "s")
     assert address_in(note) is None
-
-
-def test_a_note_cannot_make_anything_else_go(note: Path, tmp_path: Path) -> None:
-    (tmp_path / "dear").mkdir(mode=0o700)
-    publish(note, tmp_path / "dear" / "s")
-    withdraw(note)
-    assert (tmp_path / "dear").exists()
-    assert not note.exists()
