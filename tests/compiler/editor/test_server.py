@@ -96,13 +96,7 @@ async def test_strangers_get_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "attack",
-    [
-        {"origin": Origin("http://evil.example")},
-        {"origin": Origin("null")},
-        {"origin": Origin("http://127.0.0.1:1")},
-        {"headers": {"Sec-Fetch-Site": "cross-site"}},
-        {"headers": {"Host": "evil.example"}},
-    ],
+    [{"origin": Origin("http://evil.example")}, {"headers": {"Host": "evil.example"}}],
 )
 async def test_a_page_of_another_site_is_not_talked_to(
     tmp_path: Path, attack: dict[str, Any]

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.compiler.editor.browser.conftest import Edit, Visit
-from tests.compiler.editor.browser.hand import Hand, block, edge, names, port, statuses
+from tests.compiler.editor.browser.hand import Hand, block, edge, port, statuses
 from tests.compiler.editor.browser.texts import text_of, type_below
 from tests.kit.station import until
 
@@ -71,25 +71,6 @@ def test_a_wire_that_is_not_legal_says_why(edit: Edit, visit: Visit) -> None:
     expect(page.get_by_role("alert")).to_contain_text("only start leads there")
     page.keyboard.press("Escape")
     assert edge(page, "watch", "create").count() == 0
-
-
-@pytest.mark.long
-def test_paste_keeps_the_wires(edit: Edit, visit: Visit) -> None:
-    editor = edit("drugs_distribution_retry")
-    page = visit(editor)
-    before = set(names(page))
-    block(page, "watch").locator(".face").click()
-    page.keyboard.down("Shift")
-    block(page, "retry").locator(".face").click()
-    page.keyboard.up("Shift")
-    page.keyboard.press("Control+c")
-    text = page.evaluate("navigator.clipboard.readText()")
-    assert "watch = TripMonitor" in text and "watch -> retry when FAILED" in text
-    page.keyboard.press("Control+v")
-    expect(page.locator(".block")).to_have_count(len(before) + 2)
-    new = sorted(set(names(page)) - before)
-    expect(edge(page, new[1], new[0])).to_be_visible()
-    until(lambda: f"{new[1]} -> {new[0]} when FAILED" in editor.text, lambda: editor.text)
 
 
 def test_the_text_leads_and_keeps_its_comments(edit: Edit, visit: Visit) -> None:

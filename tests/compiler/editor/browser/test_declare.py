@@ -57,23 +57,3 @@ def test_fields_of_missions_and_trips(edit: Edit, visit: Visit) -> None:
         page.get_by_role("button", name=f"Remove {name}", exact=True).click()
         expect(line_of(page, name)).to_have_count(0)
     until(lambda: editor.text.split() == before.split(), lambda: editor.text)
-
-
-def test_an_action_says_what_it_gives(edit: Edit, visit: Visit) -> None:
-    """And the code that is begun for it is typed so."""
-    editor = edit("drugs_distribution")
-    page = visit(editor)
-    declare(page, "an action")
-    expect(line_of(page, "my_action")).to_be_focused()
-    write(line_of(page, "my_action"), "action listen(seconds: time = 6 s) -> float safe")
-    until(
-        lambda: "action listen(seconds: time = 6 s) -> float safe" in editor.text,
-        lambda: editor.text,
-    )
-    page.get_by_role("button", name="Write the code of listen").click()
-    code = page.get_by_role("textbox", name="hooks.py: your own code")
-    expect(code).to_contain_text("def listen(")
-    until(
-        lambda: "seconds: float" in editor.hooks and "-> float:" in editor.hooks,
-        lambda: editor.hooks,
-    )

@@ -139,21 +139,3 @@ def test_what_is_typed_ahead_counts(edit: Edit, visit: Visit) -> None:
         keys.press("Enter")
     expect(page.locator('.chip[data-edge="create>allocate?"]')).to_be_visible()
     expect(page.get_by_role("combobox", name="Connect create to")).to_be_hidden()
-
-
-@pytest.mark.long
-def test_the_arrow_keys_lead_along_edges(edit: Edit, visit: Visit) -> None:
-    page = visit(edit("drugs_distribution"))
-    keys = page.keyboard
-    keys.press("F6")
-    for name in ("create", "allocate", "launch", "watch", "end"):
-        keys.press("ArrowDown")
-        expect(block(page, name)).to_be_focused()
-    keys.press("ArrowUp")
-    expect(block(page, "watch")).to_be_focused()
-    keys.press("e")
-    expect(page.get_by_role("button", name="Edge from watch to allocate")).to_be_focused()
-    keys.press("ArrowRight")
-    expect(page.get_by_role("button", name="Edge from watch to end")).to_be_focused()
-    keys.press("Enter")
-    expect(page.get_by_role("radio", name="otherwise")).to_be_checked()

@@ -75,27 +75,6 @@ def test_three_missions_are_drawn_by_drag_and_drop_and_flown_to_their_end(
     expect(row_of(page, "Mission 3")).to_contain_text("4 of 4")
 
 
-def test_drones_that_are_called_home_in_mid_flight_go_on_where_they_were(
-    serve: Serve, visit: Visit
-) -> None:
-    station = put_in(serve("drugs_distribution"))
-    page = visit(station)
-    start(page)
-    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
-    page.get_by_role("button", name="Stop: fly home").click()
-    until(lambda: station.phase == "stopped", "all are down")
-    drones = station.now()["drones"]
-    assert {drone["z"] for drone in drones} == {0.0}
-    homes = {drone["id"]: drone["home"] for drone in station.get("/api/app")["drones"]}
-    for drone in drones:
-        assert [drone["x"], drone["y"]] == pytest.approx(homes[drone["id"]][:2], abs=NEAR)
-    page.get_by_role("button", name="Resume").click()
-    open_page(page, "Monitor")
-    sees_all(page, "Completed")
-    assert station.statuses() == COMPLETED
-    assert station.done() == DONE
-
-
 @pytest.mark.long
 def test_a_mission_that_is_drawn_while_others_fly_is_started_beside_them(
     serve: Serve, visit: Visit

@@ -47,21 +47,6 @@ def test_the_example_plan_of_an_app_is_sound_and_flies_to_its_end(
     until(lambda: station.phase == "over", "all have ended")
 
 
-def test_going_to_the_trips_first_is_answered_by_select_a_mission(
-    serve: Serve, visit: Visit
-) -> None:
-    """The thesis's testers got lost just here."""
-    page = visit(serve("drugs_distribution"))
-    open_page(page, "Trips")
-    trips = page.get_by_role("tabpanel", name="Trips")
-    first = trips.get_by_role("region", name="What to do first")
-    expect(first).to_contain_text("mission")
-    first.get_by_role("button", name="New mission").click()
-    expect(first).to_be_hidden()
-    open_page(page, "Monitor")
-    expect(page.get_by_role("tabpanel", name="Monitor")).to_contain_text("mission")
-
-
 def fields(page: Page) -> tuple[set[str], set[str]]:
     """Draw a mission with one trip; return what can be filled in of both."""
     add_mission(page, "Look")

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import pytest
-from playwright.sync_api import FloatRect, Locator, Page, ViewportSize, expect
+from playwright.sync_api import FloatRect, Locator, Page, ViewportSize
 
 from tests.kit.browser import PHONE
 from tests.kit.layout import sideways, wider_than_the_screen
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import DONE, PLAN, targets
+from tests.library.station.browser.exercise import targets
 from tests.library.station.browser.steps import (
     action_called,
     add_mission,
-    card_of,
     missions_listed,
-    new_mission,
     on_the_screen,
     open_page,
-    pin_of,
     sees_all,
     settled,
 )
@@ -101,24 +98,15 @@ def hold(page: Page, what: Locator) -> None:
     finger.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
 
 
-def test_the_exercise_is_drawn_and_flown_by_fingers_on_a_phone(serve: Serve, visit: Visit) -> None:
+def test_a_trip_is_drawn_moved_and_flown_by_a_finger(serve: Serve, visit: Visit) -> None:
     station = serve("drugs_distribution", "--speed", "60")
     page = visit(station, size=PHONE, touch=True)
-    for number, (mission, trips) in enumerate(PLAN.items()):
-        if number:
-            new_mission(page, mission)
-        else:
-            add_mission(page, mission)
-        for count, trip in enumerate(trips, start=1):
-            box = action_called(page, trip.action).bounding_box()
-            assert box is not None
-            slide(page, middle(box), on_the_screen(page, trip.at))
-            expect(pin_of(page, count)).to_be_visible()
-            if trip.action == "pick_item":
-                card_of(page, count).get_by_label("Mass").fill("8 g")
-    wanted = [[pytest.approx(trip.at, abs=0.3) for trip in trips] for trips in PLAN.values()]
-    until(lambda: targets(station) == wanted, lambda: f"the plan is whole: {targets(station)}")
-    until(lambda: station.get("/api/plan")["problems"] == [], "it is sound")
-    hold(page, page.get_by_role("button", name="Start 3 missions"))
-    sees_all(page, "Completed")
-    assert station.done() == DONE
+    add_mission(page, "By hand")
+    box = action_called(page, "take_photo").bounding_box()
+    assert box is not None
+    slide(page, middle(box), on_the_screen(page, (3.0, 7.5)))
+    until(lambda: targets(station) == [[pytest.approx((3.0, 7.5), abs=0.3)]], "it is there")
+    slide(page, on_the_screen(page, (3.0, 7.5)), on_the_screen(page, (9.0, 2.5)))
+    until(lambda: targets(station) == [[pytest.approx((9.0, 2.5), abs=0.3)]], "it has moved")
+    hold(page, page.get_by_role("button", name="Start 1 mission"))
+    sees_all(page, "Completed", ("By hand",))
