@@ -13,7 +13,7 @@ from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.kit.drones import JumpingLoop
+from tests.kit.drones import TURN, JumpingLoop
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
@@ -46,6 +46,8 @@ class _ToTheLastBit(JumpingLoop):
         return super().call_at(when, callback, *args, context=context)
 
     def advance(self, seconds: float) -> None:
+        if seconds <= TURN:
+            return
         while self.whens and self.whens[0] <= self.now:
             heappop(self.whens)
         if self.whens:

@@ -8,7 +8,7 @@ from dataclasses import replace
 from functools import reduce
 from typing import TYPE_CHECKING, Any
 
-from pluto_fleet.shared.flow.run import watch as wait
+from pluto_fleet.shared.flow.run import watch
 from pluto_fleet.shared.time.future import Future
 from plutoc.block import Gate, Param
 from plutoc.check.model import Checked
@@ -20,7 +20,6 @@ from plutoc.plan.model import (
     Break,
     Call,
     Continue,
-    Dispatch,
     End,
     Join,
     Plan,
@@ -31,7 +30,6 @@ from plutoc.plan.model import (
 from plutoc.plan.optimise import PASSES
 from plutoc.plan.passes.clones import clones
 from plutoc.plan.passes.constants import constants
-from plutoc.plan.passes.watch import watch
 from plutoc.plan.rewrite import Replace, rewritten
 from plutoc_blocks.timer_monitor.step import timer_limit
 from tests.equivalence.campaign import Contender
@@ -94,14 +92,6 @@ def a_fused_wait_has_no_limits(step: Step, _: Step) -> Body:
     return (step,)
 
 
-@after_all(31)
-def a_fused_wait_has_its_limits_the_wrong_way_round(step: Step, _: Step) -> Body:
-    match step:
-        case Watch(watchers=watchers):
-            return (replace(step, watchers=watchers[::-1]),)
-    return (step,)
-
-
 @after_all(4)
 def branches_begin_in_the_wrong_order(step: Step, _: Step) -> Body:
     match step:
@@ -121,27 +111,6 @@ def hooks_that_leave_the_status_alone_are_dropped(step: Step, _: Step) -> Body:
 @after_all(0)
 def a_way_out_of_a_loop_leads_round(step: Step, _: Step) -> Body:
     return (Continue(),) if isinstance(step, Break) else (step,)
-
-
-@after_all(8)
-def two_cases_are_exchanged(step: Step, _: Step) -> Body:
-    match step:
-        case Dispatch(cases=(first, second, *rest)):
-            exchanged = replace(first, body=second.body), replace(second, body=first.body)
-            return (replace(step, cases=(*exchanged, *rest)),)
-    return (step,)
-
-
-@instead_of(watch, 61)
-def a_bare_arrow_to_the_gate_of_the_first_is_forgotten(plan: Plan) -> Plan:
-    def without(step: Step, _: Step) -> Body:
-        match step:
-            case Join(gate=gate, branches=branches) if gate.block.gate is Gate.FIRST:
-                busy = tuple(branch for branch in branches if branch.body != (End(),))
-                return (replace(step, branches=busy),) if busy else (step,)
-        return (step,)
-
-    return watch(rewritten(plan, without))
 
 
 @instead_of(clones, 18)
@@ -187,7 +156,7 @@ def never_let_go(run: Run[Any], *limits: Limit | None) -> Flight:
     """Wait with limits that go on when the wait is called off."""
     taskless = copy(run)
     taskless.task = None
-    return wait(taskless, *limits)
+    return watch(taskless, *limits)
 
 
 def limit_by_default(

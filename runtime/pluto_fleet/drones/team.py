@@ -213,9 +213,7 @@ class Team:
 
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
-        return bool(
-            await self._kernel.call_hook(recover, self.vehicles[drone], self._links[drone])
-        )
+        return bool(await self._kernel.call_hook(recover, self.vehicles[drone], self._links[drone]))
 
     async def fetched(self, drone: str) -> bool:
         """Wait until a person has put a drone back into its dock, well; False: not in time."""

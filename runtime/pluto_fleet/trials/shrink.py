@@ -32,7 +32,7 @@ class MistakeKinds:
     def __init__(self, case: Case) -> None:
         names = sorted(set(_names(case)), key=len, reverse=True)
         self._names = re.compile(
-            rf"(?<!\w)(?<!\d\.)(?:{'|'.join(map(re.escape, names))})(?!\w|\.\d)"
+            rf"(?<!\w)(?<!-)(?<!\d\.)(?:{'|'.join(map(re.escape, names))})(?!\w|\.\d)"
         )
 
     def kind(self, sentence: str) -> str:

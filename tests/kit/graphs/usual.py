@@ -11,6 +11,7 @@ from random import Random
 from typing import ClassVar
 
 from tests.fuzz.texts import HOSTILE, legal
+from tests.mutations import mutated
 
 VERSIONS = ("1.2.0", "0.1.0", "2!1.0rc1+here", "1.2.0-beta", "1.x", "", "1" * 5000)
 REQUIREMENTS = (
@@ -26,31 +27,9 @@ NAMES = (
 )
 GOOD_NAMES = NAMES[:28]
 FIELD_NAMES = (
-    *(
-        "patient",
-        "margin",
-        "note",
-        "float",
-        "str",
-        "builtins",
-        "dataclass",
-        "model",
-        "has",
-        "type_",
-    ),
-    *(
-        "delay",
-        "priority",
-        "status",
-        "name",
-        "trip",
-        "mission",
-        "Note",
-        "class",
-        "x",
-        "é",
-        "deadline",
-    ),
+    *("patient", "margin", "note", "float", "str", "builtins", "dataclass", "model", "has"),
+    *("type_", "delay", "priority", "status", "name", "trip", "mission", "Note", "class", "x"),
+    *("é", "deadline"),
 )
 RESULTS = ("", "", " -> float", " -> photo", " -> mass", " -> text", " -> bool", " -> nothing")
 TYPES = (
@@ -70,7 +49,13 @@ GOOD_VALUES = {
     "temperature": ("20 C", "-273.15 C", "300 K"),
 }
 BAD_VALUES = ("5 parsec", "-1 s", "[1, [2]]", "nearest", '"x"', "9" * 16, "1 m/h", "[]", "when")
-STATUSES = ("UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED")
+SPOILS = (
+    "delete a token",
+    "duplicate a token",
+    "swap two tokens",
+    "insert a token",
+    "duplicate a line",
+)
 
 
 @dataclass(kw_only=True)
@@ -204,7 +189,8 @@ def grown(random: Random) -> str:
         parts.reverse()
     statements = [statement for part in parts for statement in part]
     for _ in range(random.choice((0, 0, 0, 0, 1, 1, 2, 4))):
-        _spoil(random, statements)
+        at = random.randrange(len(statements))
+        statements[at] = mutated(statements[at], random.choice(SPOILS), random)
     title = f" {text(random)}" if app.chance(0.5) else ""
     name = random.choice(NAMES) if app.chance(0.2) else "grown"
     lines = [f"  {one}{_comment(app)}" for one in statements]
@@ -335,37 +321,3 @@ def _ending(app: Growth, last: str, again: str) -> None:
         app.flows += [f"{last} -> {repeat} when COMPLETED", f"{repeat} -> {again} when STANDBY"]
         last = repeat
     app.flows.append(f"{last} -> end when COMPLETED")
-
-
-def _spoil(random: Random, statements: list[str]) -> None:
-    """Make one mistake, or what looks like one."""
-    i = random.randrange(len(statements))
-    flows = [number for number, one in enumerate(statements) if " -> " in one]
-    if flows and random.random() < 0.7:
-        i = random.choice(flows)  # most mistakes of the grammar and of names look alike
-    words = statements[i].split(" ")
-    match random.randrange(9):
-        case 0 if len(statements) > 1:
-            del statements[i]
-        case 1:
-            statements.insert(random.randrange(len(statements)), statements[i])
-        case 2:
-            words[random.randrange(len(words))] = random.choice(
-                random.choice(statements).split(" ")
-            )
-            statements[i] = " ".join(words)
-        case 3:
-            statements[i] = statements[i].partition(" when ")[0].removesuffix(" otherwise")
-        case 4:
-            statements[i] += f" when {', '.join(random.sample(STATUSES, random.randint(1, 3)))}"
-        case 5 | 6:
-            old = random.choice(STATUSES)
-            statements[i] = statements[i].replace(old, random.choice(STATUSES))
-        case 7:
-            one = random.randrange(len(statements))
-            old, new = (statements[n].partition(" = ")[2].partition("(")[0] for n in (i, one))
-            if old and new:
-                statements[i] = statements[i].replace(old, new)
-        case _:
-            del words[random.randrange(len(words))]
-            statements[i] = " ".join(words)

@@ -72,9 +72,7 @@ class Flight:
     ) -> Step:
         """Run a command with a time-out, and record how it ended."""
         self.during = name
-        step = Step(
-            name=name, began=now(), ended=0.0, before=(first := self.look()), after=first
-        )
+        step = Step(name=name, began=now(), ended=0.0, before=(first := self.look()), after=first)
         try:
             async with asyncio.timeout(limit) as timer:
                 step.value = await command()
