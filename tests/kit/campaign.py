@@ -27,7 +27,7 @@ from typing import Any, TypeVar
 
 Case = TypeVar("Case")
 Came = TypeVar("Came")
-Tried = tuple[Case, Came | None, str | None]
+Tried = tuple[Case, Any, str | None]
 """A case, what came of it, and what it has raised."""
 
 TELLS_EVERY = 10.0
@@ -130,8 +130,8 @@ class Campaign:
                 print(self._so_far(), file=sys.stderr, flush=True)
 
     def _all(
-        self, one: Callable[[Case], Tried[Any, Any]], cases: Iterator[Case], threads: bool
-    ) -> Iterator[Tried[Any, Any]]:
+        self, one: Callable[[Case], Tried[Case]], cases: Iterator[Case], threads: bool
+    ) -> Iterator[Tried[Case]]:
         at_once = getattr(self.options, "at_once", 1)
         if at_once == 1:
             yield from map(one, cases)
@@ -160,7 +160,7 @@ class Campaign:
         return f"{self._tried} {self.unit}s in {seconds:.0f} s, {self.findings} findings"
 
 
-def _tried(one: Callable[[Case], Came], case: Case) -> Tried[Case, Came]:
+def _tried(one: Callable[[Case], Came], case: Case) -> Tried[Case]:
     try:
         return case, one(case), None
     except Exception:  # noqa: BLE001 - whatever it is, it is a finding

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from random import Random
 
-from plutoc_runtime.domain.status import WORST_FIRST
-from tests.kit.graphs.drawing import END, KINDS, START, C, Drawing, F, R, S, Status, Statuses, U
+from plutoc_runtime.domain.status import WORST_FIRST, Status
+from tests.kit.graphs.drawing import END, KINDS, START, C, Drawing, F, R, S, Statuses, U
 
 BEHIND = 9
 """Blocks behind the flight, at most."""

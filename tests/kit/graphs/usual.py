@@ -6,6 +6,7 @@ one to get far. Those of `calm` are legal, and their hooks and limits are such t
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from random import Random
 from typing import ClassVar
@@ -62,9 +63,16 @@ SPOILS = (
 class Growth:
     """An app on the way: its statements, and what they can name."""
 
-    policies: ClassVar = ("nearest", "first", "least_used", "batch_optimal", "own", "own")
-    bounds: ClassVar = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 5")
-    gates: ClassVar = ("GateFIFO", "GateFIFO", "GateFunnel")
+    policies: ClassVar[Sequence[str]] = (
+        "nearest",
+        "first",
+        "least_used",
+        "batch_optimal",
+        "own",
+        "own",
+    )
+    bounds: ClassVar[Sequence[str]] = ("", "max_attempts: 0", "max_attempts: 1", "max_attempts: 5")
+    gates: ClassVar[Sequence[str]] = ("GateFIFO", "GateFIFO", "GateFunnel")
     random: Random
     declared: list[str] = field(default_factory=list)
     blocks: list[str] = field(default_factory=list)
