@@ -27,7 +27,7 @@ from tests.equivalence.fly import Record, difference, record
 from tests.equivalence.worlds import TIMES, World, random_world
 from tests.kit.graphs import others
 from tests.kit.graphs.graph import random_source
-from tests.kit.shrink import shrunk, simpler, smaller_sources
+from tests.kit.shrink import TRIES, shrunk, simpler, smaller_sources
 
 WORLDS = 3
 """For each graph. What is learnt in one about how long trips take is used in the next."""
@@ -202,7 +202,7 @@ def differs(text: str, world: World, contender: Contender = OURS) -> str | None:
     return difference(plain, record(other, world))
 
 
-def smallest(finding: Finding, contender: Contender = OURS) -> Finding:
+def smallest(finding: Finding, contender: Contender = OURS, tries: int = TRIES) -> Finding:
     """Return a smaller source and world that leave two traces all the same."""
     if finding.world is None:
         return finding
@@ -222,7 +222,7 @@ def smallest(finding: Finding, contender: Contender = OURS) -> Finding:
             said.append(found)
         return found is not None
 
-    text, world = shrunk((finding.text, finding.world), smaller, shows)
+    text, world = shrunk((finding.text, finding.world), smaller, shows, tries)
     return replace(finding, text=text, world=world, said=said[-1])
 
 

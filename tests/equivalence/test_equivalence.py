@@ -39,7 +39,7 @@ def test_what_is_found_is_made_smaller() -> None:
     first, mutant = MUTANTS["a fused wait has no limits"]
     finding = first_finding(mutant, first, ENOUGH)
     assert finding is not None and finding.world is not None
-    small = smallest(finding, mutant)
+    small = smallest(finding, mutant, tries=60)
     assert len(small.text) < len(finding.text)
     assert small.world is not None
     assert len(small.world.missions) <= len(finding.world.missions)

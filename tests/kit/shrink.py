@@ -13,9 +13,14 @@ T = TypeVar("T")
 TRIES = 600
 
 
-def shrunk(case: T, smaller: Callable[[T], Iterator[T]], shows: Callable[[T], bool]) -> T:
+def shrunk(
+    case: T,
+    smaller: Callable[[T], Iterator[T]],
+    shows: Callable[[T], bool],
+    tries: int = TRIES,
+) -> T:
     """Return the smallest case that is come to, by taking the first smaller one each time."""
-    tries, again = TRIES, True
+    again = True
     while again:
         again = False
         for each in smaller(case):

@@ -35,6 +35,8 @@ class Mutant:
     """What the sentence that finds it must match."""
     seed: int
     """Of the case by chance that is the first to show it."""
+    strikes: str
+    """What has to strike a small case that shows it, if none by chance does."""
     example: str
 
 
@@ -43,13 +45,13 @@ MUTANTS: dict[str, Mutant] = {}
 
 
 def mutant(
-    says: str, seed: int = 0, example: str = "drugs_distribution_retry"
+    says: str, seed: int = 0, strikes: str = "", example: str = "drugs_distribution_retry"
 ) -> Callable[[Plant], Plant]:
     """Say how a mistake shows."""
 
     def known(plant: Plant) -> Plant:
         name = plant.__name__.replace("_", " ")
-        MUTANTS[name] = Mutant(plant=plant, says=says, seed=seed, example=example)
+        MUTANTS[name] = Mutant(plant=plant, says=says, seed=seed, strikes=strikes, example=example)
         return plant
 
     return known
@@ -68,7 +70,7 @@ def a_drone_is_free_in_flight(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(Fleet, "dismiss", freed(Fleet.dismiss))
 
 
-@mutant("says that the action of .* was done: it was not")
+@mutant("says that the action of .* was done: it was not", strikes="gateway@3+21.651")
 def done_is_written_before_the_action(patch: pytest.MonkeyPatch) -> None:
     really = Jobs.write
 

@@ -74,6 +74,7 @@ def test_no_rule_is_broken_however_late_its_answers_are(seed: int) -> None:
     assert trial.wrong == ()
 
 
+@pytest.mark.process
 def test_a_trial_does_not_depend_on_hashes() -> None:
     """With a journal, faults, a crash and all that comes of it."""
     one, two, three = hashes(missions=60, trips=2, drones=20)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from itertools import chain
 
 import pytest
 
+from pluto_fleet.trials.case import strikes_of
 from pluto_fleet.trials.explore import everywhere, random_case, small_case
 from pluto_fleet.trials.lives import tried
 from tests.trials.examples import example, fleet_of
@@ -24,8 +26,10 @@ def test_every_mutant_is_found(name: str, monkeypatch: pytest.MonkeyPatch) -> No
     fleet = fleet_of(mutant.example, app)
     mutant.plant(monkeypatch)
     said: dict[str, None] = {}
+    small = small_case(app, fleet, 0)
+    struck = [replace(small, strikes=strikes_of(mutant.strikes))] if mutant.strikes else []
     by_chance = (random_case(app, fleet, mutant.seed + number) for number in range(BY_CHANCE))
-    for case in chain(by_chance, everywhere(app, small_case(app, fleet, 0))):
+    for case in chain(struck, by_chance, everywhere(app, small)):
         sentences = tried(app, case).violations
         said.update(dict.fromkeys(sentences[:1]))
         if any(re.search(mutant.says, sentence) for sentence in sentences):
