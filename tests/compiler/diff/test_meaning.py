@@ -93,18 +93,6 @@ def test_other_names_are_recognised_and_nothing_else_is_said(name: str, seed: in
     assert all("nothing else about it changes" in change.sentence for change in found)
 
 
-def test_everything_may_have_another_name_at_once() -> None:
-    """Blocks, hooks, actions and categories."""
-    text = EXAMPLES["alfalfa"]
-    names = re.findall(
-        r"^  (?:(?:category|action|evaluator) )?(\w+)(?= = [A-Z]|\(| can|\n)", text, re.MULTILINE
-    )
-    assert len(names) == 14
-    other = re.sub(r"\b(" + "|".join(names) + r")\b(?! crop)", r"\1_too", text)
-    kinds = [change.kind for change in difference(text, other).changes]
-    assert kinds == ["hook_renamed"] * 2 + ["category_renamed"] * 2 + ["block_renamed"] * 10
-
-
 def renamed(app: App, names: dict[str, str]) -> App:
     """Call some blocks otherwise."""
 
@@ -186,16 +174,3 @@ def test_any_two_apps_can_be_compared(one: int, other: int) -> None:
         assert all(change.sentence.split("`")[0].strip() in report for change in found.changes)
         assert "~" not in report and not re.search(r"`-\w", report)
     assert (seen(old) != seen(new)) <= bool(found.changes)
-
-
-@settings(max_examples=12)
-@given(st.sampled_from(sorted(EXAMPLES)), st.sampled_from(sorted(EXAMPLES)))
-def test_what_is_added_one_way_is_removed_the_other_way(one: str, other: str) -> None:
-    """There and back, there is as much to say."""
-    there, back = (
-        difference(*pair).changes
-        for pair in ((EXAMPLES[one], EXAMPLES[other]), (EXAMPLES[other], EXAMPLES[one]))
-    )
-    for added, removed in (("block_added", "block_removed"), ("limit_added", "limit_removed")):
-        assert sum(c.kind == added for c in there) == sum(c.kind == removed for c in back)
-    assert bool(there) == bool(back) == (one != other)

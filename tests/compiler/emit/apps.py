@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-_FOLDER = Path(__file__).with_name("apps")
+_FOLDER = Path(__file__).with_name("sources")
 
 PLAIN = (_FOLDER / "plain.pluto").read_text(encoding="utf-8")
 """Without a title, a hook, a category or a field."""

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import replace
 from typing import Any
 
-import hypothesis.strategies as st
-from hypothesis import given
 from packaging.requirements import Requirement
 
 from plutoc.emit.project_files import project_file
-from plutoc.graph.model import Graph, Library
-from plutoc.source import Span
+from plutoc.graph.model import Graph
 from tests.compiler.emit.apps import PLAIN
 from tests.compiler.emit.plans import plan_of
 
@@ -61,17 +57,3 @@ def test_a_library_leaves_all_other_files_as_they_are() -> None:
     other = package_of(PLAIN.replace("{\n", '{\n  version "2"\n  requires "numpy"\n', 1))
     differing = {path for path, text in plain.owned.items() if other.owned[path] != text}
     assert differing == {"pyproject.toml", "pluto.lock"}
-
-
-@given(st.text(st.characters(exclude_categories=["Cs"])))
-def test_no_text_changes_the_shape_of_the_project(text: str) -> None:
-    """Everything that some version of PEP 508's reader lets through."""
-    library = Library(name="a", requirement=text, direct=False, span=Span(0, 0))
-    graph = replace(GRAPH, version=text, libraries=(library, library))
-    project = written(graph)
-    assert list(project) == ["build-system", "project", "tool"]
-    assert project["project"]["dependencies"] == [text, text]
-    assert project["project"]["version"] == text
-
-
-GRAPH = plan_of(PLAIN).checked.graph

@@ -70,7 +70,10 @@ def test_limits() -> None:
     assert in_app("a = K(x: 1234567890123456)") == ["P0012 1"]
 
 
-@pytest.mark.parametrize("char", ["\x00", "\x1b", "\x7f", "\u202e", "\u2066", "\u2028", "\ufeff"])
+@pytest.mark.parametrize(
+    "char",
+    "\x00\x1b\x7f\u00ad\u034f\u061c\u200b\u202e\u2060\u2066\u2028\ufe0f\ufeff\U000e0041",
+)
 def test_hidden_characters_are_refused_everywhere(char: str) -> None:
     """In a text, in a comment, and outside."""
     assert in_app(f'a = K(x: "a{char}b")') == ["P0004 1"]

@@ -127,16 +127,6 @@ def test_any_text_has_a_tree(text: str) -> None:
         assert isinstance(read_text(whole)[0], File)
 
 
-INVISIBLE = "\u00ad\u034f\u061c\u200b\u200e\u2060\u2064\u3164\ufe0f\U000e0041"
-
-
-@pytest.mark.parametrize("char", INVISIBLE, ids=lambda char: f"{ord(char):04x}")
-def test_invisible_characters_are_refused(char: str) -> None:
-    """In a text and in a comment."""
-    assert read_text(f'pluto 1\napp a "b{char}c" {{\n}}\n')[1] == ["P0004"]
-    assert read_text(f"pluto 1  # b{char}c\napp a {{\n}}\n")[1] == ["P0004"]
-
-
 @pytest.mark.parametrize("before", ["", "ж"])
 def test_every_control_character_is_refused(before: str) -> None:
     """Beside plain letters as beside others; but tabs and what ends a line."""
