@@ -130,9 +130,8 @@ class Server:
     @property
     def quiet(self) -> float:
         """Seconds since the last packet to any of them."""
-        return asyncio.get_running_loop().time() - max(
-            one.talked for one in self.endpoints.values()
-        )
+        last = max(one.talked for one in self.endpoints.values())
+        return asyncio.get_running_loop().time() - last
 
     async def let(self, id: str, name: str, value: Value = True) -> None:
         """Set a fault of a drone; `gone` closes its port, or opens it again."""

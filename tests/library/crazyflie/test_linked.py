@@ -120,6 +120,17 @@ async def test_one_that_was_just_switched_on_is_told_where_it_begins(
     assert await cf.preflight() == []
 
 
+@drone(options={"starts_at_home": True}, build=Build(id="cf1", home=(0.1, 0.0, 0.0)))
+async def test_one_that_is_found_again_in_the_air_keeps_its_place(
+    one: Hangar, up: Crazyflie
+) -> None:
+    await one.let("silent")
+    await one.hears(LINK_LOST)
+    await one.let("silent", False)
+    await up.connect()
+    assert one.flies and len(one.did("set kalman.initialX")) == 1
+
+
 @drone(options={"starts_at_home": True})
 async def test_one_that_has_flown_already_keeps_its_place(one: Hangar, cf: Crazyflie) -> None:
     assert one.commands == []

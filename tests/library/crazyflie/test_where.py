@@ -40,7 +40,10 @@ async def test_how_sure_it_must_be_is_said_by_the_fleet_file(one: Hangar, cf: Cr
     assert await cf.preflight() == []
 
 
-@drone(options={"measure": {"temperature": "bme.temp"}})
+GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0}
+
+
+@drone(options={"measure": {"temperature": "bme.temp"}, "grip": GRIP})
 async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_nothing_there(
     one: Hangar, up: Crazyflie
 ) -> None:
@@ -48,8 +51,10 @@ async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_noth
     with pytest.raises(PositionLost, match=r"cf1 does not know where it is: it may be 0\.71 m"):
         await up.go_to((1.3, 2.0, 0.5), FAST)
     assert (await one.hears(POSITION_LOST)).reason.startswith("it may be 0.71 m from where")
-    with pytest.raises(PositionLost):
-        await up.act("measure", {}, None)
+    for action in ("measure", "pick_item"):
+        with pytest.raises(PositionLost):
+            await up.act(action, {}, None)
+    assert not one.did("set gripper.closed")
     await up.hold()  # as well as it can
     await up.land(FAST)
     assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
