@@ -32,7 +32,8 @@ def fly(station: Station) -> None:
 
 def flown(serve: Serve, visit: Visit, app: str) -> tuple[Page, list[dict[str, Any]]]:
     """Fly an example's own missions, and look at what they brought."""
-    station = serve(app, "--missions", str(EXAMPLES / app / "missions.toml"), own=True)
+    missions = ("--missions", str(EXAMPLES / app / "missions.toml"))
+    station = serve(app, *missions, "--speed", "60")
     fly(station)
     page = visit(station)
     open_page(page, "Results")
