@@ -1,4 +1,4 @@
-"""A hand at the mouse that counts its gestures: a click, a double click, a drag are one each."""
+"""A hand at the mouse that counts its gestures: a click, a drag are one each."""
 
 from __future__ import annotations
 
@@ -31,11 +31,6 @@ class Hand:
         """Press and let go."""
         self.gestures += 1
         self.page.mouse.click(*middle(target))
-
-    def double_click(self, target: Target) -> None:
-        """Press twice."""
-        self.gestures += 1
-        self.page.mouse.dblclick(*middle(target))
 
     def drag(self, start: Target, end: Target) -> None:
         """Press, move as a hand does, let go."""
