@@ -110,13 +110,6 @@ class Shy(Good):
         return []
 
 
-class Choosy(Good):
-    """It cannot be made of these options."""
-
-    def __init__(self, setup: DroneSetup) -> None:
-        raise ValueError("radio = 3: there is no such radio")
-
-
 class Cameras:
     """A localization that sees the drones."""
 

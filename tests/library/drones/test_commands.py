@@ -123,19 +123,6 @@ async def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
         assert drone.place == pytest.approx((2, 1, 0), abs=0.2)
 
 
-async def test_a_command_that_is_not_wanted_any_more_ends_in_a_hover(tmp_path: Path) -> None:
-    """As when the kernel cancels it."""
-    async with flying(tmp_path) as flown:
-        drone = await flown.up()
-        flies = flown.begin(flown.team.go_to("cf1", (5.0, 1.0, 1.0)))
-        await flown.until(lambda: drone.place[0] > 2)
-        flown.kernel.post(flies.cancel)
-        await flown.until(lambda: drone.told[-1] == "hold", 1)
-        hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: flown.team.vehicles["cf1"].commands.doing == "hover", 1)
-        flown.kernel.post(hovers.cancel)
-
-
 async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_is_no_landing(
     tmp_path: Path,
 ) -> None:
@@ -180,17 +167,6 @@ async def test_what_is_aboard_outlives_the_gateway(tmp_path: Path) -> None:
         await flown.up()
         await flown.do(flown.team.act("cf1", "release_item", {}, PILLS, "k"))
         assert (await flown.do(flown.team.drone_report("cf1"))).carrying is None
-
-
-async def test_an_action_of_the_apps_own_reads_and_writes(tmp_path: Path) -> None:
-    """A name that the drone does not have is refused in its own words."""
-    async with flying(tmp_path) as flown:
-        await flown.up()
-        assert await flown.do(flown.team.read("cf1", "range.front")) == 0.5
-        await flown.do(flown.team.write("cf1", "gripper.closed", 1.0))
-        assert flown.drones["cf1"].told[-1] == "gripper.closed = 1"
-        failed = await flown.failure(flown.team.read("cf1", "bme.temp"))
-        assert str(failed) == "cf1 has no log variable bme.temp"
 
 
 @pytest.mark.parametrize("hangs", [False, True])

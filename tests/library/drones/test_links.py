@@ -115,29 +115,6 @@ async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
         assert await flown.until(lambda: seen.landed) > 400
 
 
-async def test_a_drone_on_the_ground_is_linked_again_quietly(tmp_path: Path) -> None:
-    """It was not waited for, and nothing has failed."""
-    async with flying(tmp_path) as flown:
-        drone, team = flown.drones["cf1"], flown.team
-        await flown.do(team.drone_report("cf1"))
-        drone.goes_silent()
-        await flown.until(lambda: not team.vehicles["cf1"].linked)
-        drone.answers = True
-        await flown.until(lambda: team.vehicles["cf1"].linked)
-        await flown.do(team.takeoff("cf1", 1.0))
-
-
-async def test_who_takes_long_to_connect_is_connected_all_the_same(tmp_path: Path) -> None:
-    """The report does not wait for it; a radio that many share is slow."""
-    drone = FakeDrone()
-    drone.slow = {"connect": 25.0}
-    async with flying(tmp_path, drone) as flown:
-        report = await flown.do(flown.team.drone_report("cf1"))
-        assert (report.reached, report.problems) == (False, ("cf1 did not answer in 15 s",))
-        assert await flown.do(flown.team.reach("cf1"))
-        assert the_loop().now < 1000 + 27
-
-
 async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
     """Others need the radio; but as soon as it is asked for, it is tried."""
     drone = FakeDrone()

@@ -138,8 +138,6 @@ def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
     [
         ("import no_such_library", 'needs "no_such_library": install it with pip'),
         ("1 / 0", "cannot be imported: ZeroDivisionError"),
-        ("import sys; sys.exit(3)", "cannot be imported: SystemExit: 3"),
-        ("raise BaseException('no')", "cannot be imported: BaseException: no"),
         ("import asyncio; raise asyncio.CancelledError", "cannot be imported: CancelledError"),
     ],
 )
@@ -185,17 +183,6 @@ def test_a_module_that_hangs_is_not_waited_for(
     assert late in refused(f"{installed.author}:Eyes", load_localization)
 
 
-@pytest.mark.parametrize("error", [SystemExit(3), BaseException("no")])
-def test_a_class_whose_making_ends_all_ends_nothing(error: BaseException) -> None:
-    def end(_: object) -> None:
-        raise error
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(classes.Good, "__init__", lambda self, setup: end(setup))
-        with pytest.raises(BadInput, match="could not be made for cf1"):
-            make_navigation(f"{HERE}:Good", SETUP)
-
-
 @pytest.mark.parametrize(
     ("name", "why"),
     [
@@ -238,20 +225,16 @@ def test_a_localization_is_looked_at_too() -> None:
     assert isinstance(made, classes.Cameras) and made.options == {"port": 5000}
 
 
-def test_what_cannot_be_made_says_whose_it_is() -> None:
-    with pytest.raises(BadInput, match="could not be made for cf1: ValueError: radio = 3"):
-        make_navigation(f"{HERE}:Choosy", SETUP)
+@pytest.mark.parametrize("error", [ValueError("radio = 3"), SystemExit(3), BaseException("no")])
+def test_what_cannot_be_made_says_whose_it_is_and_ends_nothing(
+    error: BaseException, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def end(*_: object) -> None:
+        raise error
 
-
-def test_nothing_is_called_of_what_is_only_looked_at() -> None:
-    """A class that cannot be made can still be looked at."""
-    assert load_navigation(f"{HERE}:Choosy") == classes.Choosy
-
-
-def test_what_is_made_is_made_of_the_setup() -> None:
-    made = make_navigation(f"{HERE}:Good", SETUP)
-    assert isinstance(made, classes.Good)
-    assert (made.id, made.home) == (SETUP.id, SETUP.home)
+    monkeypatch.setattr(classes.Good, "__init__", end)
+    with pytest.raises(BadInput, match=f"not be made for cf1: {type(error).__name__}: {error}"):
+        make_navigation(f"{HERE}:Good", SETUP)
 
 
 @pytest.mark.usefixtures("quick")
@@ -271,17 +254,14 @@ GOOD = f"from {HERE} import Good"
 @pytest.mark.parametrize(
     ("text", "named", "why"),
     [
-        ("", "Drone", 'no class "Drone"'),
         ("class Drones: ...", "Drone", 'did you mean "Drones"?'),
         ("def Drone(setup): ...", "Drone", "is no class"),
         ("class Drone: ...", "Drone", "it has no method connect; it has no method preflight"),
         ("class Drone: ...", "Drone.Inner", 'no class "Inner"'),
-        ("def make():\n    class Drone: ...", "Drone", 'no class "Drone"'),
         ("from os import path as Drone", "Drone", '"os" is a module of Python\'s own'),
         ("from elsewhere import Drone", "Drone", 'no class "Drone"'),
         ("from elsewhere import *", "Drone", 'no class "Drone"'),
         ("from gone import Drone", "Drone", 'needs "gone"'),
-        ("from author import Drone", "Drone", 'no class "Drone"'),
         ("from ... import Drone", "Drone", 'no class "Drone"'),
         ("def __getattr__(name): return OTHERS[name]", "Drone", 'no class "Drone"'),
         ("1 +", "Drone", "cannot be imported: SyntaxError"),
@@ -304,7 +284,6 @@ def test_a_module_without_the_class_is_not_run(
         ("antigravity:Drone", '"antigravity" is a module of Python\'s own'),
         ("idlelib.pyshell:PyShell", '"idlelib.pyshell" is a module of Python\'s own'),
         ("author.gone:Drone", 'there is no "author.gone"'),
-        ("author.gone.far:Drone", 'there is no "author.gone"'),
         ("author.inner:Drone", 'no class "Drone"'),
         ("author.inner.far:Drone", 'there is no "author.inner.far"'),
     ],
@@ -320,8 +299,6 @@ def test_nor_is_what_a_module_stands_in(installed: Installed, name: str, why: st
 @pytest.mark.parametrize(
     ("modules", "name"),
     [
-        ({"author": GOOD}, "author:Good"),
-        ({"author": f"{GOOD} as Drone"}, "author:Drone"),
         ({"author": f"{GOOD}\nclass Drone(Good): ..."}, "author:Drone"),
         ({"author": f"{GOOD}\nDrone = Good"}, "author:Drone"),
         ({"author": f"try:\n    {GOOD}\nexcept ImportError:\n    pass"}, "author:Good"),

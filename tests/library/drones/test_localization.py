@@ -90,13 +90,6 @@ class Scene:
             await asyncio.sleep(0)
 
 
-async def test_each_drone_hears_where_it_is() -> None:
-    async with Scene() as scene:
-        await scene.sees(("cf1", (1.0, 2.0, 0.5)), ("cf2", (3, 4, 1)))
-        assert (scene.cf1.heard, scene.cf2.heard) == ([(1.0, 2.0, 0.5)], [(3.0, 4.0, 1.0)])
-        assert scene.said == []
-
-
 async def test_who_is_not_seen_for_a_second_is_told_so() -> None:
     async with Scene() as scene:
         assert scene.feeding.silent("cf1") is None  # it has just begun

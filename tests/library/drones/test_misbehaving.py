@@ -73,27 +73,6 @@ async def test_a_navigation_that_hangs_hangs_nothing(
     assert the_loop().now - before < 60
 
 
-@pytest.mark.parametrize("clings", [set[str](), {"go_to", "land"}, {"connect", *METHODS}])
-@pytest.mark.parametrize("silent", [False, True])
-async def test_a_navigation_that_hangs_in_every_method_hangs_nothing(
-    tmp_path: Path, clings: set[str], silent: bool
-) -> None:
-    """Not even the end, for which all have one limit; who does not hang has landed."""
-    drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, 5)]
-    async with flying(tmp_path, *drones) as flown:
-        for drone in drones:
-            await flown.up(drone.id)
-        for drone in drones[1:]:
-            drone.hangs, drone.clings = {"connect", *METHODS}, set(clings)
-        if silent:
-            drones[1].goes_silent()
-        await everything(flown, "cf2")
-        before = the_loop().now
-    assert the_loop().now - before < 60
-    assert not drones[0].motors
-    assert any("cf2 could not be landed" in line for line in flown.log)
-
-
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     "error", [TypeError("what?"), SystemExit(3), asyncio.CancelledError(), NavigationError("no")]

@@ -20,7 +20,6 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Drone, Point
-from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.hooks.plain_data import trip_data
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
@@ -122,34 +121,16 @@ def test_leaving_out_a_whole_category_is_told() -> None:
     )
 
 
-class Unready:
-    """Drones that answer, and may not fly until they have been mended."""
-
-    def __init__(self, monkeypatch: pytest.MonkeyPatch, *drones: str) -> None:
-        self.unready = {*drones}
-        monkeypatch.setattr(SimulatedNavigation, "drone_report", self.answer)
-
-    async def answer(self, drone: str) -> DroneReport:
-        """Answer the roll call."""
-        problems = ("its battery is too low: 3.5 V",) if drone in self.unready else ()
-        return DroneReport(
-            drone=drone,
-            reached=True,
-            location=(0.5, 0.5, 0.0),
-            landed=True,
-            battery_level=1.0,
-            boot=0,
-            carrying=None,
-            done={},
-            problems=problems,
-        )
-
-
 def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """The reasons of all are told, and the journal stays as it was."""
-    Unready(monkeypatch, "cf1")
+    report = SimulatedNavigation.drone_report
+
+    async def unready(self: SimulatedNavigation, drone: str) -> DroneReport:
+        return replace(await report(self, drone), problems=("its battery is too low: 3.5 V",))
+
+    monkeypatch.setattr(SimulatedNavigation, "drone_report", unready)
     living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)))
     whole = living.life.control.whole
     assert whole is not None
@@ -157,19 +138,6 @@ def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
     with pytest.raises(BadInput, match=r"no drone is ready to fly\ncf1: its battery is too low"):
         whole.result()
     assert living.events == []
-
-
-def test_the_others_fly_without_a_drone_that_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It is looked after meanwhile, and handed out when it is well."""
-    Unready(monkeypatch, "cf1")
-    on = apps.fleet((0.5, 0.5, 0.0), (3.0, 0.5, 0.0))
-    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)), on=on)
-    living.kernel.run(living.done)
-    first, second = [event for event in living.events if "drone" in event][:2]
-    assert (first["event"], first["drone"]) == ("drone.not_ready", "cf1")
-    assert (second["event"], second["drone"]) == ("drone.recovering", "cf1")
-    assert living.life.missions[0].status is Status.COMPLETED
-    assert {drone.status for drone in living.life.drones} == {DroneStatus.FREE}
 
 
 @dataclass(frozen=True)

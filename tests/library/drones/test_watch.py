@@ -191,19 +191,6 @@ async def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> No
         await flown.do(team.takeoff("cf1", 1.0))
 
 
-async def test_a_drone_that_is_waited_for_hears_that_it_was_looked_after(tmp_path: Path) -> None:
-    """It may have crashed before anything of this began."""
-    drone = Mended()
-    drone.reasons = ("it has crashed",)
-    async with flying(tmp_path, drone) as flown:
-        await flown.do(flown.team.drone_report("cf1"))
-        assert await flown.do(flown.team.reach("cf1"))
-        fetched = flown.begin(flown.team.fetched("cf1"))
-        the_loop().call_later(50, flown.team.mended, "cf1")
-        assert await flown.until(lambda: fetched.is_set) == pytest.approx(50, abs=5)
-        assert fetched.result()
-
-
 async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_again(
     tmp_path: Path,
 ) -> None:
@@ -308,13 +295,3 @@ async def test_a_landing_that_does_not_succeed_is_tried_again(tmp_path: Path) ->
         await flown.until(lambda: any("was to land" in line for line in flown.log))
         drone.raises = {}
         await flown.until(lambda: not drone.motors, 10)
-
-
-async def test_the_log_says_when_it_was_not_watched(tmp_path: Path) -> None:
-    """And a drone that told all the time has not lost its link for that."""
-    async with flying(tmp_path) as flown:
-        await flown.up()
-        the_loop().call_later(1, the_loop().advance, 2.5)
-        hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: "kept from watching" in " ".join(flown.log), 10)
-        assert not hovers.is_set

@@ -37,13 +37,6 @@ def test_what_was_not_done_at_its_limit_fails() -> None:
     assert names(living.named("trip.launched"), "attempt") == [1, 2, 3]
 
 
-def test_a_photo_is_simply_taken_again() -> None:
-    mission = apps.mission("a", apps.trip("1", 3), safe_time=8.0)
-    living = Living(enterable(watch=apps.timed, attempts=2), mission)
-    assert living.run() == ["FAILED"]
-    assert len(living.named("trip.launched")) == 2
-
-
 def test_a_modifier_that_fails_what_was_done_fails_nothing() -> None:
     moment = when_picked()
 

@@ -54,13 +54,6 @@ def test_a_delay_does_not_pass_while_its_mission_is_paused(stopped: bool) -> Non
     assert living.times("trip.launched") == [65.0]
 
 
-def test_a_trip_to_come_can_be_skipped_by_its_name() -> None:
-    living = Living(enterable(), two_trips())
-    living.at(3.0, lambda: living.life.control.skip("a", "2"))
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.completed"), "trip") == ["1"]
-
-
 def test_what_a_person_says_before_the_first_drone_is_remembered_by_a_later_life() -> None:
     alone = replace(apps.fleet(), drones=apps.fleet().drones[:1])
     others = apps.mission("a", apps.trip("1", 3))
@@ -132,13 +125,6 @@ def spraying(repeat: str, *others: apps.Mission) -> Living:
     return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))
 
 
-def test_a_once_action_that_was_under_way_when_the_app_died_is_a_persons_to_judge() -> None:
-    living = spraying("once")
-    living.crash(10.0)
-    assert living.run() == ["UNCERTAIN"]
-    assert "was spray of trip 1 done by cf2?" in living.life.missions[0].reason
-
-
 ANSWERS = [("done", ["1", "2"]), ("not-done", ["1", "1", "2"])]
 
 
@@ -151,20 +137,6 @@ def test_a_person_decides_and_the_mission_goes_on(answer: str, flights: list[str
     assert [
         trip for trip in names(living.named("trip.launched"), "trip") if trip != "long"
     ] == flights
-
-
-def test_where_a_person_watches_the_app_lives_until_they_have_decided() -> None:
-    living = spraying("once")
-
-    def watched_life() -> None:
-        living.live_on()
-        living.life.patient = True
-
-    living.at(10.0, living.die)
-    living.at(11.0, watched_life)
-    living.at(300.0, lambda: living.life.control.decide("a", "done"))
-    assert living.run(299.0) == ["UNCERTAIN"]
-    assert living.run() == ["COMPLETED"]
 
 
 def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:

@@ -29,16 +29,6 @@ def join(living: Living, entry: dict[str, Any] = NEW) -> str:
     return life.control.join(entry)
 
 
-def test_a_drone_that_joins_flies_what_waits() -> None:
-    living = Living(enterable(), long("a"), long("b"))
-    living.at(3.0, lambda: join(living))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    assert {one["drone"] for one in living.named("trip.launched")} == {"cf1", "cf9"}
-    assert names(living.named("drone.joined"), "drone") == ["cf9"]
-    assert [drone.id for drone in living.life.drones] == ["cf1", "cf9"]
-    assert violations(living.events, {}) == []
-
-
 def test_a_drone_that_has_joined_is_there_in_every_later_life() -> None:
     living = Living(enterable(), long("a"), long("b"))
     living.at(3.0, lambda: join(living))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 from typing import Any
@@ -21,12 +21,10 @@ from pluto_fleet.journal import header
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.store import Store
-from pluto_fleet.process.ipc import NotRunning, ask
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
@@ -130,13 +128,6 @@ def tried(tmp_path: Path) -> Tried:
     return Tried(tmp_path)
 
 
-def test_a_life_ends_when_all_missions_have(tried: Tried) -> None:
-    lived = asyncio.run(tried.live())
-    assert lived.end is End.OVER
-    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
-    assert tried.kinds.count("trip.completed") == 2
-
-
 @pytest.fixture
 def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The kinds of the events that are on record, as soon as they are."""
@@ -188,40 +179,6 @@ def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
     first, second = asyncio.run(lives())
     assert (first.end, second.end) == (End.LOST, End.OVER)
     assert tried.kinds.count("trip.completed") == 2
-
-
-def test_commands_reach_a_living_app(tried: Tried) -> None:
-    """And what they do is on record."""
-    said: list[object] = []
-
-    async def client() -> None:
-        note = commands_note(tried.path)
-        for request in (
-            {"command": "pause", "mission": "m"},
-            {"command": "decide", "mission": "m", "answer": "done"},
-            {"command": "go-on", "mission": "m"},
-        ):
-            try:
-                said.append(await asyncio.to_thread(ask, note, request, 5.0))
-            except BadInput as error:
-                said.append(str(error))
-
-    async def whole() -> FlightResult:
-        talks: list[Awaitable[None]] = []
-        tried.on("trip.completed", lambda: talks.append(asyncio.ensure_future(client())))
-        lived = await tried.live()
-        await talks[0]
-        return lived
-
-    assert asyncio.run(whole()).end is End.OVER
-    assert said == [
-        'mission "m": paused',
-        'mission "m" is PAUSED: it asks nothing',
-        'mission "m": going on',
-    ]
-    assert tried.kinds.count("mission.paused") == tried.kinds.count("mission.resumed") == 1
-    with pytest.raises(NotRunning):
-        ask(commands_note(tried.path), {"command": "pause", "mission": None}, 5.0)
 
 
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(

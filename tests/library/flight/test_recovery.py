@@ -41,21 +41,19 @@ def delivering() -> Living:
 MOMENTS = [moment / 2 for moment in range(1, 180, 9)]
 
 
-@pytest.mark.parametrize("moment", MOMENTS)
-def test_the_app_may_die_at_any_moment(moment: float) -> None:
+@pytest.mark.parametrize(
+    ("moment", "how"),
+    [(moment, None) for moment in MOMENTS]
+    + [(moment, how) for moment in MOMENTS[::3] for how in Down],
+)
+def test_the_app_may_die_and_everything_may_be_stopped_at_any_moment(
+    moment: float, how: Down | None
+) -> None:
     living = delivering()
-    living.crash(moment)
-    assert set(living.run()) == {"COMPLETED"}
-    done = [act for act in living.done_by_drones if act[1]]
-    assert sorted(done) == [("pick_item", "pills")] * 2 + [("release_item", "pills")] * 2
-    assert set(names(living.named("trip.launched"), "attempt")) == {1}
-
-
-@pytest.mark.parametrize("how", list(Down))
-@pytest.mark.parametrize("moment", MOMENTS[::3])
-def test_everything_may_be_stopped_at_any_moment(moment: float, how: Down) -> None:
-    living = delivering()
-    living.stop(moment, how, rest=1000.0)
+    if how is None:
+        living.crash(moment)
+    else:
+        living.stop(moment, how, rest=1000.0)
     assert set(living.run()) == {"COMPLETED"}
     done = [act for act in living.done_by_drones if act[1]]
     assert sorted(done) == [("pick_item", "pills")] * 2 + [("release_item", "pills")] * 2

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
-from pluto_fleet.gateway.executor import Leaving
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.shared.alone.faults import Faults
@@ -13,7 +13,7 @@ from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.actions import BUILT_IN, Plain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Item, Point
-from pluto_fleet.shared.time.kernel import FLEET, Kernel
+from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
@@ -52,19 +52,18 @@ class Field:
 
     def __init__(
         self,
-        kernel: Kernel | None = None,
         *,
         airspace: Airspace | None = None,
         faults: Faults | None = None,
-        homes: tuple[tuple[float, float], ...] = ((1, 1), (2, 1), (3, 1)),
-        patience: float | None = None,
+        homes: Sequence[tuple[float, float]] = ((1, 1), (2, 1), (3, 1)),
+        category: Category = SCOUT,
         ledger: Ledger | None = None,
-        measures: bool = False,
+        **options: Any,
     ) -> None:
         self.airspace = airspace or Airspace()
-        self.kernel = kernel or VirtualTime()
+        self.kernel = VirtualTime()
         self.drones = [
-            SimulatedDrone(id=f"cf{i + 1}", category=SCOUT, home=(x, y, 0.0), index=i)
+            SimulatedDrone(id=f"cf{i + 1}", category=category, home=(x, y, 0.0), index=i)
             for i, (x, y) in enumerate(homes)
         ]
         world = World(1, self.airspace)
@@ -72,8 +71,8 @@ class Field:
             self.kernel, self.drones, world, faults or Faults(), 1, self.airspace
         )
         self.ledger = ledger or Ledger()
-        self.patience, self.measures = patience, measures
-        self.leaving: Leaving | None = None
+        self.options = options
+        """What each gateway is given besides."""
         self.gateway = self.another()
 
     def another(self) -> Gateway:
@@ -84,18 +83,10 @@ class Field:
             self.drones,
             self.airspace,
             ledger=self.ledger,
-            patience=self.patience,
-            leaving=self.leaving,
-            measures=self.measures,
+            **self.options,
         )
         return self.gateway
 
-    @property
-    def virtual(self) -> VirtualTime:
-        """The kernel, in simulations."""
-        assert isinstance(self.kernel, VirtualTime)
-        return self.kernel
-
     def advance(self, seconds: float) -> None:
         """Let virtual time pass."""
-        self.virtual.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))
+        self.kernel.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))

@@ -19,7 +19,7 @@ from tests.library.simulation.flights import failure, fly
 
 def cut(field: Field, drone: str = "cf1") -> str:
     """Cut a drone's motors, and return why that could not be done."""
-    return fly(field.virtual, field.gateway.cut_motors(drone))
+    return fly(field.kernel, field.gateway.cut_motors(drone))
 
 
 def test_a_drone_whose_motors_are_cut_falls_and_its_flight_fails() -> None:
@@ -41,20 +41,6 @@ def test_a_drone_whose_motors_are_cut_falls_and_its_flight_fails() -> None:
     assert isinstance(other[0], float)
 
 
-def test_what_hovers_for_an_action_fails_as_well() -> None:
-    """The brain hears it from the command that is under way."""
-    field = Field()
-    link = field.gateway.link(1)
-    link.fly(Task(action=None), lambda _: None)
-    field.advance(100)
-    hover = field.kernel.spawn(link.hold("cf1"), FLEET, "an action")
-    hover.watch(lambda _: None)
-    field.advance(1)
-    cut(field)
-    field.advance(0)
-    assert str(hover.error) == "cf1's motors were cut"
-
-
 def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> None:
     """Neither a flight nor a command, nor a Stop that brings all home; then it flies again."""
     field, heard = Field(), list[object]()
@@ -65,13 +51,13 @@ def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> No
     assert isinstance(heard[0], FlightFailed)
     assert str(heard[0]) == "cf1's motors were cut"
     for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE), link.land("cf1")):
-        assert failure(field.virtual, command).failure is Failure.CRASH
-    assert fly(field.virtual, link.recover("cf1")) is False
-    fly(field.virtual, link.bring_down(Down.HOME))
+        assert failure(field.kernel, command).failure is Failure.CRASH
+    assert fly(field.kernel, link.recover("cf1")) is False
+    fly(field.kernel, link.bring_down(Down.HOME))
     assert field.navigation.flown("cf1") == 0.0
     link = field.gateway.link(2)
     link.mended("cf1")
-    assert fly(field.virtual, link.recover("cf1")) is True
+    assert fly(field.kernel, link.recover("cf1")) is True
     link.fly(Task(id="North field/A/0/2"), heard.append)
     field.advance(100)
     assert heard[1] is None
@@ -109,7 +95,7 @@ class Kept(Field):
 
     def problems(self, epoch: int) -> tuple[str, ...]:
         """Query the drones, and return why cf1 may not fly."""
-        return fly(self.virtual, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
+        return fly(self.kernel, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
 
 
 def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
@@ -119,18 +105,18 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
     field.is_killed()
     assert field.problems(1) == ("cf1's motors were cut",)
     link = field.gateway.link(2)
-    fly(field.virtual, link.fleet_report())
+    fly(field.kernel, link.fleet_report())
     for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
-        assert failure(field.virtual, command).failure is Failure.CRASH
-    assert fly(field.virtual, link.recover("cf1")) is False
-    assert fly(field.virtual, link.recover("cf2")) is True
+        assert failure(field.kernel, command).failure is Failure.CRASH
+    assert fly(field.kernel, link.recover("cf1")) is False
+    assert fly(field.kernel, link.recover("cf2")) is True
     link.mended("cf1")
     field.is_killed()
     assert field.problems(3) == ()
     field.gateway.link(4).fly(Task(), heard.append)
     field.advance(100)
     assert field.navigation.flown("cf1") > 0
-    field.virtual.close()
+    field.kernel.close()
 
 
 def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -144,7 +130,7 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
         on_record.append(list(there.cut))
 
     link = field.gateway.link(1)
-    fly(field.virtual, link.takeoff("cf1", 1.2))
+    fly(field.kernel, link.takeoff("cf1", 1.2))
     with monkeypatch.context() as patch:
         patch.setattr(type(field.navigation), "cut", killed)
         cut(field)
@@ -152,10 +138,10 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
     field.is_killed()
     assert field.problems(2) == ()
     link = field.gateway.link(3)
-    fly(field.virtual, link.bring_down(Down.LAND))
+    fly(field.kernel, link.bring_down(Down.LAND))
     assert field.navigation.bodies["cf1"].landed
     assert field.problems(4) == ("cf1's motors were cut",)
-    field.virtual.close()
+    field.kernel.close()
 
 
 def test_who_could_not_be_told_is_as_before(
@@ -174,10 +160,10 @@ def test_who_could_not_be_told_is_as_before(
     for epoch in (1, 2):
         assert field.problems(epoch) == ("cf1's motors were cut",)
         link = field.gateway.link(epoch)
-        fly(field.virtual, link.fleet_report())
-        assert fly(field.virtual, link.recover("cf2")) is True
+        fly(field.kernel, link.fleet_report())
+        assert fly(field.kernel, link.recover("cf2")) is True
         field.is_killed()
-    field.virtual.close()
+    field.kernel.close()
 
 
 def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_again(
@@ -192,7 +178,7 @@ def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_
         raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
 
     field = Kept(tmp_path)
-    fly(field.virtual, field.gateway.link(1).takeoff("cf1", 1.2))
+    fly(field.kernel, field.gateway.link(1).takeoff("cf1", 1.2))
     with monkeypatch.context() as patch:
         patch.setattr(type(field.navigation), "cut", killed)
         cut(field)
@@ -200,9 +186,9 @@ def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_
         patch.setattr(type(field.navigation), "cut", unreachable)
         assert cut(field) == "cf1 cannot be reached"
     assert field.problems(2) == ()
-    fly(field.virtual, field.gateway.link(3).bring_down(Down.LAND))
+    fly(field.kernel, field.gateway.link(3).bring_down(Down.LAND))
     assert field.navigation.bodies["cf1"].landed
-    field.virtual.close()
+    field.kernel.close()
 
 
 def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -216,22 +202,9 @@ def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(type(field.ledger), "make_sure", full)
     assert cut(field) == ""
     link = field.gateway.link(1)
-    assert str(failure(field.virtual, link.takeoff("cf1", 1.2))) == "cf1's motors were cut"
+    assert str(failure(field.kernel, link.takeoff("cf1", 1.2))) == "cf1's motors were cut"
     link.mended("cf1")
-    assert fly(field.virtual, link.recover("cf1")) is True
-
-
-def test_a_simulated_drone_that_has_lost_its_link_cannot_be_told() -> None:
-    """It lands by itself, as it was about to."""
-    field = Field()
-    link = field.gateway.link(1)
-    fly(field.virtual, link.takeoff("cf1", 1.2))
-    field.navigation.strike("cf1", Failure.LINK)
-    assert cut(field) == "cf1 lost its link at (1, 1)"
-    field.advance(60)
-    assert fly(field.virtual, link.recover("cf1")) is True
-    assert cut(field) == ""
-    assert cut(field) == ""
+    assert fly(field.kernel, link.recover("cf1")) is True
 
 
 async def cuts(brain: InsideBrain, **which: object) -> str:

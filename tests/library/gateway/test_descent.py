@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from itertools import combinations
 from math import dist, hypot
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.shared.alone.faults import Faults
@@ -17,13 +14,12 @@ from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.gateway.flights import Field, Task
 from tests.library.simulation.flights import fly
 
-NO_FLY = (((8.0, 2.0), (12.0, 2.0), (12.0, 18.0), (8.0, 18.0)),)
 APART = 0.5
 
 
 def brought_down(field: Field, how: Down) -> None:
     """Ask the brain's own link to bring everything down, and wait until it is."""
-    fly(field.virtual, field.gateway.link(9).bring_down(how))
+    fly(field.kernel, field.gateway.link(9).bring_down(how))
 
 
 def all_landed(field: Field) -> bool:
@@ -41,7 +37,7 @@ def test_landing_breaks_off_every_flight() -> None:
     brought_down(field, Down.LAND)
     assert (all_landed(field), heard) == (True, [])
     assert field.kernel.now == pytest.approx(6)  # up for three seconds, and down
-    fleet_report = fly(field.virtual, field.gateway.link(10).fleet_report())
+    fleet_report = fly(field.kernel, field.gateway.link(10).fleet_report())
     assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
 
 
@@ -56,23 +52,10 @@ def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
     link.fly(Task(id="other", drone="cf2"), heard.append)
     field.advance(60)
     assert (all_landed(field), field.navigation.flown("cf2")) == (True, 0)
-    fly(field.virtual, link.fleet_report())
+    fly(field.kernel, link.fleet_report())
     link.fly(Task(id="other", drone="cf2"), heard.append)
     field.advance(60)
     assert heard == [None]
-
-
-def test_who_goes_home_lands_in_the_dock() -> None:
-    """Also around no-fly areas; the docks charge them."""
-    field = Field(airspace=Airspace(no_fly=NO_FLY))
-    link = field.gateway.link(1)
-    link.fly(Task(stops=((15, 10, 1.2),)), lambda _: None)
-    link.fly(Task(id="other", drone="cf2", stops=((16, 12, 1.2),)), lambda _: None)
-    field.advance(60)
-    brought_down(field, Down.HOME)
-    for drone in field.drones:
-        assert field.navigation.telemetry[drone.id].location == pytest.approx(drone.home)
-    assert all_landed(field)
 
 
 def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
@@ -83,7 +66,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
         stops = ((4.0 + place, 5.0, 1.2),)
         link.fly(Task(id=drone.id, drone=drone.id, stops=stops), lambda _: None)
         field.advance(20)
-        fly(field.virtual, link.land(drone.id))
+        fly(field.kernel, link.land(drone.id))
     low = field.navigation.bodies["cf2"]
     low.restore({**low.data, "charge": [0.03, field.kernel.now, 0.0]})
     field.navigation.strike("cf3", Failure.CRASH)
@@ -119,7 +102,7 @@ def test_it_goes_on_without_the_brain() -> None:
     field.advance(1)
     new = field.gateway.link(2)
     new.fly(Task(id="too early", drone="cf2"), lambda _: None)
-    fleet_report = fly(field.virtual, new.fleet_report())
+    fleet_report = fly(field.kernel, new.fleet_report())
     assert all(report.landed for report in fleet_report.drones.values())
     assert list(fleet_report.jobs) == [Task().id]
 
@@ -184,34 +167,3 @@ def test_a_gateway_that_no_brain_ever_finds_lands_everything_too() -> None:
     field.another()
     field.advance(10)
     assert all_landed(field)
-
-
-places = st.tuples(st.integers(1, 10), st.integers(1, 10)).map(
-    lambda place: (place[0] * 1.5, place[1] * 1.5)
-)
-
-
-@settings(max_examples=15)
-@given(
-    st.lists(places, min_size=2, max_size=6, unique=True),
-    st.lists(places, min_size=6, max_size=6, unique=True),
-    st.sampled_from([10.0, 1.8]),
-)
-def test_who_flies_home_keeps_apart_from_all_others(
-    homes: list[tuple[float, float]], targets: list[tuple[float, float]], ceiling: float
-) -> None:
-    """At every moment, be there room for all heights at once or only for two."""
-    field = Field(homes=tuple(homes), airspace=Airspace(ceiling=ceiling))
-    link = field.gateway.link(1)
-    for drone, (x, y) in zip(field.drones, targets, strict=False):
-        stops = ((x, y, 1.2),)
-        link.fly(Task(id=drone.id, drone=drone.id, stops=stops, action=None), lambda _: None)
-    field.advance(80)
-    down = field.kernel.spawn(field.gateway.link(9).bring_down(Down.HOME), FLEET, "down")
-    while not down.is_set:
-        field.advance(0.5)
-        at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
-        for a, b in combinations(at, 2):
-            assert dist(a, b) >= APART - 1e-6
-    for drone in field.drones:
-        assert field.navigation.telemetry[drone.id].location == pytest.approx(drone.home)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import pytest
-
 from pluto_fleet.gateway.lossy_line import LOST, LossyLine
 from pluto_fleet.jobs.reports import Down, JobState
-from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.radio import ANSWER, COMMAND, Radio
 from tests.library.gateway.flights import Field, Task
-from tests.library.simulation.flights import failure, fly
+from tests.library.simulation.flights import fly
 
 SLOW = {COMMAND: 2.0, ANSWER: 3.0}
 
@@ -48,7 +46,7 @@ def test_what_is_on_its_way_can_be_broken_off() -> None:
     link.break_off("cf1")
     field.advance(50)
     assert heard == []
-    fleet_report = fly(field.virtual, link.fleet_report())
+    fleet_report = fly(field.kernel, link.fleet_report())
     assert fleet_report.jobs[Task().id].state is JobState.DONE
 
 
@@ -63,9 +61,9 @@ def test_single_commands_are_late_too_and_can_be_broken_off() -> None:
     field.advance(10)
     assert isinstance(rising.error, FlightFailed)
     assert field.navigation.telemetry["cf1"].landed
-    fly(field.virtual, radio.takeoff("cf1", 1.2))
+    fly(field.kernel, radio.takeoff("cf1", 1.2))
     assert field.kernel.now == 11 + 2 + 4 + 3
-    fly(field.virtual, field.gateway.link(1).bring_down(Down.LAND))
+    fly(field.kernel, field.gateway.link(1).bring_down(Down.LAND))
     assert field.navigation.telemetry["cf1"].landed
 
 
@@ -93,33 +91,3 @@ def test_a_late_report_is_not_told_to_a_brain_that_is_gone() -> None:
     field.gateway.link(2)
     field.advance(100)
     assert heard == []
-
-
-@pytest.mark.parametrize("what", [Failure.CRASH, Failure.LINK, Failure.BATTERY])
-def test_a_mishap_can_be_had_at_any_moment(what: Failure) -> None:
-    """It ends the job at once; one that is down already is struck no more."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(9)
-    assert field.navigation.strike("cf1", what)
-    assert not field.navigation.strike("cf1", what)
-    field.advance(0)
-    (error,) = heard
-    assert isinstance(error, FlightFailed)
-    assert error.failure is what
-    field.advance(10)
-    assert field.navigation.telemetry["cf1"].landed
-    assert failure(field.virtual, field.navigation.takeoff("cf1", 1.2)).failure is what
-
-
-def test_a_drone_that_is_switched_off_in_the_air_comes_down() -> None:
-    """It answers again once it was fetched, and has forgotten."""
-    field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
-    link.fly(Task(), heard.append)
-    field.advance(20)
-    field.navigation.reboot("cf1")
-    report = fly(field.virtual, link.drone_report("cf1"))
-    assert (report.reached, report.boot, report.done) == (False, 1, {})
-    assert fly(field.virtual, link.recover("cf1"))
-    assert fly(field.virtual, link.drone_report("cf1")).reached

@@ -15,23 +15,12 @@ from tests.library.simulation.flights import failure, fly
 
 def called(field: Field) -> FleetReport:
     """Query all drones through a new link."""
-    return fly(field.virtual, field.gateway.link(99).fleet_report())
+    return fly(field.kernel, field.gateway.link(99).fleet_report())
 
 
 def states(fleet_report: FleetReport) -> dict[str, JobState]:
     """Return how far each job is."""
     return {id: entry.state for id, entry in fleet_report.jobs.items()}
-
-
-def test_a_job_is_flown_and_reported_once() -> None:
-    """In simulations, the gateway is as good as the drones themselves."""
-    field, heard, job = Field(), list[object](), Task()
-    field.gateway.link(1).fly(job, heard.append)
-    assert heard == []
-    field.advance(100)
-    assert (heard, job.begun) == ([None], 1)
-    assert field.navigation.carrying("cf1") is PILLS
-    assert states(called(field)) == {job.id: JobState.DONE}
 
 
 def test_what_was_done_is_not_done_again_but_reported_again() -> None:
@@ -54,7 +43,7 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     field.gateway.link(1).fly(Task(), old.append)
     field.advance(10)
     link = field.gateway.link(2)
-    fleet_report = fly(field.virtual, link.fleet_report())
+    fleet_report = fly(field.kernel, link.fleet_report())
     assert states(fleet_report) == {Task().id: JobState.FLYING}
     assert not fleet_report.drones["cf1"].landed
     link.attach(Task().id, new.append)
@@ -113,7 +102,7 @@ def test_what_a_drone_did_for_an_older_brain_is_broken_off() -> None:
     errand = field.kernel.spawn(return_home(), FLEET, "an errand")
     field.advance(9)
     new = field.gateway.link(2)
-    fly(field.virtual, new.land("cf1"))
+    fly(field.kernel, new.land("cf1"))
     telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.landed
     assert telemetry.location == pytest.approx((2.5, 3, 0))
@@ -162,7 +151,7 @@ def test_an_action_that_had_begun_is_settled_by_its_drone(rebooted: bool, state:
         assert job.begun == 0
         link = field.gateway.link(99)
         link.forget(job.id)  # a person has decided
-        assert fly(field.virtual, link.recover("cf1"))
+        assert fly(field.kernel, link.recover("cf1"))
         link.fly(job, heard.append)
         field.advance(100)
         assert job.begun == 1
@@ -222,8 +211,8 @@ def test_no_drone_is_sent_where_it_may_not_be(
     assert isinstance(error, FlightFailed)
     assert (error.failure, str(error)) == (Failure.REFUSED, reason)
     assert field.navigation.flown("cf1") == 0
-    assert str(failure(field.virtual, link.go_to("cf1", stop))) == reason
-    assert failure(field.virtual, link.takeoff("cf1", 10.5)).failure is Failure.REFUSED
+    assert str(failure(field.kernel, link.go_to("cf1", stop))) == reason
+    assert failure(field.kernel, link.takeoff("cf1", 10.5)).failure is Failure.REFUSED
 
 
 def test_a_drone_that_flies_gets_no_second_job() -> None:
@@ -246,7 +235,7 @@ def test_without_a_ledger_nothing_is_kept_of_what_is_over() -> None:
     field.advance(14)
     link.break_off("cf2")
     field.advance(100)
-    assert fly(field.virtual, link.fleet_report()).jobs == {}
+    assert fly(field.kernel, link.fleet_report()).jobs == {}
 
 
 def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
@@ -255,7 +244,7 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     link = field.gateway.link(1)
     link.fly(Task(), lambda _: None)
     with pytest.raises(Busy, match="cf1 was told to do something while it does something else"):
-        fly(field.virtual, link.land("cf1"))
+        fly(field.kernel, link.land("cf1"))
     field.kernel.close()
     field = Field()
     link = field.gateway.link(1)
@@ -263,7 +252,7 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     field.advance(1)
     with pytest.raises(Busy, match="cf1 was told to fly while it does something for itself"):
         link.fly(Task(), lambda _: None)
-    assert not fly(field.virtual, link.drone_report("cf1")).landed
+    assert not fly(field.kernel, link.drone_report("cf1")).landed
 
 
 def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None:
@@ -276,10 +265,26 @@ def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None
     holding = field.kernel.spawn(link.hold("cf1"), FLEET, "hold")
     field.advance(1)
     holding.cancel()
-    assert states(fly(field.virtual, link.fleet_report())) == {job.id: JobState.DONE}
-    fly(field.virtual, link.land("cf1"))
-    assert states(fly(field.virtual, link.fleet_report())) == {job.id: JobState.BROKEN_OFF}
+    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.DONE}
+    fly(field.kernel, link.land("cf1"))
+    assert states(fly(field.kernel, link.fleet_report())) == {job.id: JobState.BROKEN_OFF}
     link.fly(job, heard.append)
     field.advance(20)
     assert heard == [None, None]
     assert not field.navigation.telemetry["cf1"].landed
+
+
+def test_a_client_that_is_cut_off_hears_no_answer() -> None:
+    """Neither what it is nor that it failed: silence is all that a lost link gives."""
+    field = Field()
+    old = field.gateway.link(1)
+    old.fly(Task(action=None), lambda _: None)
+    field.advance(100)
+    asked = field.kernel.spawn(old.read("cf1", "range.front"), FLEET, "asked in time")
+    field.advance(0)
+    field.gateway.link(2)
+    late = field.kernel.spawn(old.write("cf1", "range.front", 1.0), FLEET, "asked too late")
+    field.advance(100)
+    assert asked.is_set
+    assert not late.is_set
+    assert field.navigation.bodies["cf1"].settings == {}

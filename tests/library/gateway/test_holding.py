@@ -35,14 +35,6 @@ def test_a_process_that_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
             assert first.wait() == 0
 
 
-@pytest.mark.long
-def test_a_killed_process_holds_nothing_any_more(tmp_path: Path) -> None:
-    """The lock ends with its process: there is nothing to clear away."""
-    with _holder(tmp_path, RADIO) as first:
-        first.kill()
-    _hold(tmp_path, cf1=RADIO)
-
-
 @pytest.mark.parametrize(
     "other",
     [RADIO.lower(), "radio://1/80/2M/E7E7E7E7E7", f"{RADIO}?safelink=0", f" {RADIO}/"],

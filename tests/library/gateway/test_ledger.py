@@ -86,35 +86,29 @@ def flown_and_forgotten() -> tuple[Field, list[object]]:
     return field, heard
 
 
-def test_where_the_ledger_was_damaged_drones_are_believed() -> None:
-    """They remember what they did since they were switched on."""
-    field, heard = flown_and_forgotten()
-    field.ledger.is_whole = False
-    link = field.another().link(2)
-    assert fly(field.virtual, link.fleet_report()).jobs[Task().id].state is JobState.DONE
+@pytest.mark.parametrize(
+    ("damaged", "epoch", "known", "begun"),
+    [
+        pytest.param(True, 2, [Task().id], 0, id="the ledger was damaged"),
+        pytest.param(False, 2, [], 0, id="the ledger was lost"),
+        pytest.param(False, 1, [], 1, id="a first life: it may remember another flight"),
+    ],
+)
+def test_a_drone_that_remembers_what_the_ledger_does_not_have_is_believed(
+    damaged: bool, epoch: int, known: list[str], begun: int
+) -> None:
+    """It is not done again, but in a first life, whose jobs may have the names of another flight's."""
+    field, heard = Field(), list[object]()
+    field.gateway.link(1).fly(Task(), heard.append)
+    field.advance(50)
+    field.gateway.crash()
+    field.ledger.forget(Task().id)
+    field.ledger.is_whole = not damaged
+    link = field.another().link(epoch)
+    assert [*fly(field.kernel, link.fleet_report()).jobs] == known
     link.fly(job := Task(), heard.append)
     field.advance(50)
-    assert (heard, job.begun) == ([None, None], 0)
-
-
-def test_what_a_drone_remembers_is_not_done_again_though_the_ledger_does_not_have_it() -> None:
-    """The ledger may be lost, or have forgotten what a damaged journal does not say any more."""
-    field, heard = flown_and_forgotten()
-    link = field.another().link(2)
-    assert not fly(field.virtual, link.fleet_report()).jobs
-    link.fly(job := Task(), heard.append)
-    field.advance(50)
-    assert (heard, job.begun) == ([None, None], 0)
-
-
-def test_in_a_first_life_no_drone_is_taken_at_its_word() -> None:
-    """It may remember another flight, whose jobs had the same names."""
-    field, heard = flown_and_forgotten()
-    link = field.another().link(1)
-    fly(field.virtual, link.fleet_report())
-    link.fly(job := Task(), heard.append)
-    field.advance(50)
-    assert job.begun == 1
+    assert (heard, job.begun) == ([None, None], begun)
 
 
 def test_the_file_does_not_grow_while_its_gateway_runs(tmp_path: Path) -> None:
@@ -173,27 +167,6 @@ def test_a_death_at_any_write_of_the_new_file_loses_nothing(
     assert (list(again.entries()), list(again.cut)) == ([entry("stays", value=PHOTO)], ["cf2"])
     assert again.is_whole
     again.close()
-
-
-def test_whose_motors_are_cut_is_there_for_the_next_process(tmp_path: Path) -> None:
-    """The last word on each drone counts, also when the file was written anew."""
-    path = tmp_path / "ledger"
-    ledger = FileLedger(path)
-    for drone, is_cut in (("cf1", True), ("cf2", True), ("cf3", True), ("cf1", False)):
-        ledger.write_cut(drone, is_cut)
-    ledger.make_sure()
-    ledger.write(entry("a"))
-    assert list(ledger.cut) == ["cf2", "cf3"]
-    ledger.close()
-    ledger = FileLedger(path)
-    for number in range(1010):
-        ledger.forget(str(number))
-    ledger.close()
-    for _ in range(2):
-        ledger = FileLedger(path)
-        assert (list(ledger.cut), [one.id for one in ledger.entries()]) == (["cf2", "cf3"], ["a"])
-        ledger.close()
-    assert path.stat().st_size < 1000
 
 
 def test_an_action_that_cannot_be_written_down_is_not_begun(

@@ -2,24 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import pytest
 
+from pluto_fleet.gateway.gateway import Link
 from pluto_fleet.jobs.flown import Flown
-from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import Failure
 from tests.library.gateway.flights import THERE, Field, Task
-from tests.library.simulation.flights import failure, fly
+from tests.library.simulation.flights import fly
 
 HOME = [1, 1, 0.0]
 ABOVE = [1, 1, 1.2]
 
 
-def measured() -> tuple[Field, list[Flown]]:
-    """Return drones whose commands are measured, and the list to which they are added."""
+def measured() -> tuple[Field, Link, list[Flown]]:
+    """Return drones whose commands are measured, their link, and the list of what is told."""
     field, told = Field(measures=True), list[Flown]()
-    field.gateway.link(1).on_flown(told.append)
-    return field, told
+    link = field.gateway.link(1)
+    link.on_flown(told.append)
+    return field, link, told
 
 
 def facts(told: Sequence[Flown], *names: str) -> list[tuple[object, ...]]:
@@ -28,12 +30,10 @@ def facts(told: Sequence[Flown], *names: str) -> list[tuple[object, ...]]:
 
 
 def test_each_command_of_a_job_is_told_with_its_seconds_and_its_battery() -> None:
-    field, told = measured()
-    link = field.gateway.commander
-    assert link is not None
+    field, link, told = measured()
     link.fly(Task(), lambda _: None)
     field.advance(100)
-    fly(field.virtual, link.land("cf1"))
+    fly(field.kernel, link.land("cf1"))
     there, below = list(THERE), [*THERE[:2], 0.0]
     assert facts(told, "what", "from", "to", "ended") == [
         ("take_off", HOME, ABOVE, "done"),
@@ -49,9 +49,7 @@ def test_each_command_of_a_job_is_told_with_its_seconds_and_its_battery() -> Non
 
 
 def test_what_is_broken_off_or_fails_is_told_as_that() -> None:
-    field, told = measured()
-    link = field.gateway.commander
-    assert link is not None
+    field, link, told = measured()
     link.fly(Task(id="a"), lambda _: None)
     link.fly(Task(id="b", drone="cf2", stops=((12.0, 1.0, 1.2),)), lambda _: None)
     field.advance(6)
@@ -63,19 +61,8 @@ def test_what_is_broken_off_or_fails_is_told_as_that() -> None:
     assert ends["cf2", "leg"] == ("failed", pytest.approx(2.0))
 
 
-def test_a_command_that_moves_nothing_is_no_measurement() -> None:
-    field, told = measured()
-    link = field.gateway.commander
-    assert link is not None
-    assert failure(field.virtual, link.go_to("cf1", THERE)).failure is Failure.REFUSED
-    fly(field.virtual, link.land("cf1"))
-    assert told == []
-
-
 def test_only_the_brain_in_command_is_told_and_it_need_not_listen() -> None:
-    field, told = measured()
-    old = field.gateway.commander
-    assert old is not None
+    field, old, told = measured()
     old.fly(Task(), lambda _: None)
     field.advance(5)
     new, later = field.gateway.link(2), list[Flown]()
@@ -84,22 +71,3 @@ def test_only_the_brain_in_command_is_told_and_it_need_not_listen() -> None:
     field.advance(100)
     assert [one["what"] for one in told] == ["take_off"]
     assert [one["what"] for one in later] == ["action"]
-
-
-def test_a_simulation_does_not_measure() -> None:
-    """It pays nothing for what is not recorded."""
-    field, told = Field(), list[Mapping[str, object]]()
-    link = field.gateway.link(1)
-    link.on_flown(told.append)
-    fly(field.virtual, link.takeoff("cf1", 1.0))
-    assert told == []
-
-
-def test_an_error_passes_through_as_it_was() -> None:
-    field, _ = measured()
-    link = field.gateway.commander
-    assert link is not None
-    fly(field.virtual, link.takeoff("cf1", 1.0))
-    field.navigation.strike("cf1", Failure.LINK)
-    with pytest.raises(FlightFailed, match="lost its link"):
-        fly(field.virtual, link.land("cf1"))

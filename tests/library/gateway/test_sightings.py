@@ -15,7 +15,7 @@ def watched(folder: Path) -> tuple[Field, Sightings]:
     """Return drones at home, and who writes down how they are; no look is taken by itself."""
     field = Field()
     seen = Sightings(folder / SEEN, field.navigation.telemetry, down=field.navigation.down)
-    field.leaving = seen.leaving
+    field.options["leaving"] = seen.leaving
     field.another()
     return field, seen
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import stat
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -42,18 +41,6 @@ def message(**facts: object) -> bytes:
 
 
 LINK = message(do="link", epoch=1)
-
-
-def test_its_socket_is_where_only_its_owner_goes(tmp_path: Path) -> None:
-    """The folder around it is closed to all others."""
-
-    async def play(brain: InsideBrain) -> None:
-        await brain.begins()
-        address = address_in(tmp_path / NOTE)
-        assert address is not None
-        assert stat.S_IMODE(address.parent.stat().st_mode) == 0o700
-
-    played_inside(tmp_path, play)
 
 
 @pytest.mark.parametrize(

@@ -111,20 +111,6 @@ def test_without_a_name_it_is_the_newest(
     assert len(printed()[1]) == 1 + len(EVENTS)
 
 
-def test_nothing_is_left_beside_a_journal_that_was_read(path: Path, printed: Printed) -> None:
-    printed(path)
-    assert os.listdir(path.parent) == ["J"]
-
-
-def test_it_is_read_beside_the_app_that_writes_it(path: Path, printed: Printed) -> None:
-    store = Store.open(path)
-    store.append(['[{"t": 12.0, "event": "log", "text": "the newest"}]'])
-    code, lines, err = printed(path)
-    assert (code, lines[-1][-10:], err) == (0, "the newest", "")
-    store.append(['[{"t": 13.0, "event": "log", "text": "goes on"}]'])
-    store.close()
-
-
 def test_of_a_damaged_journal_the_rest_is_printed_and_it_ends_with_1(
     path: Path, printed: Printed
 ) -> None:
@@ -215,14 +201,3 @@ def test_what_comes_is_printed_as_it_comes_until_it_is_interrupted(path: Path) -
     following.send_signal(signal.SIGINT)
     out, err = following.communicate(timeout=30)
     assert (following.returncode, out, err) == (0, "", "")
-
-
-@pytest.mark.long
-def test_it_ends_when_it_is_not_read_any_more_though_nothing_happens(path: Path) -> None:
-    following = follow(path)
-    assert following.stdout is not None
-    following.stdout.readline()
-    following.stdout.close()
-    following.stdout = None
-    _, err = following.communicate(timeout=30)
-    assert (following.returncode, err) == (141, "")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -50,15 +51,6 @@ def places(length: int, first: int, size: int) -> Iterator[int]:
         for place in (0, 3, 8, chance.randrange(size)):
             if start + place < length:
                 yield start + place
-
-
-def test_both_are_whole_before_they_are_damaged(
-    quick: Path, at_rest: dict[str, bytes], after_a_kill: dict[str, bytes]
-) -> None:
-    for files in (at_rest, after_a_kill):
-        assert holds(quick / "w", files) == ("sound", len(ROWS))
-        assert len(files["J"]) > 10 * PAGE
-    assert len(after_a_kill["J-wal"]) > 10 * FRAME
 
 
 def test_a_flipped_bit_in_any_page_shows_no_wrong_event(
@@ -137,10 +129,9 @@ def test_rows_that_vanish_from_the_end_are_missed(tmp_path: Path) -> None:
     store = Store.create(path, HEADER)
     store.append(["[1]", "[2]", "[3]"])
     store.close()
-    database = sqlite3.connect(path)
-    database.execute("DELETE FROM journal WHERE seq > 1")
-    database.commit()
-    database.close()
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("DELETE FROM journal WHERE seq > 1")
+        database.commit()
     store = Store.open(path)
     read = store.read()
     assert [row.text for row in read.rows] == ["[1]"]
@@ -171,7 +162,6 @@ def test_a_damaged_snapshot_is_replaced_by_the_one_before_and_then_by_all_rows(
     [
         (b"", "the file is empty"),
         (b"[[mission]]\n", "it is no journal of an app"),
-        (b"\0" * 5000, "it is no journal of an app"),
         (bytes(Random(3).randbytes(9000)), "it is no journal of an app"),
     ],
 )
@@ -188,32 +178,30 @@ def test_another_file_is_refused_and_left_as_it_is(
     assert [(file.name, file.read_bytes()) for file in tmp_path.iterdir()] == [("J", content)]
 
 
-def test_another_database_is_refused_and_left_as_it_is(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("statement", "why"),
+    [
+        ("CREATE TABLE journal (seq INTEGER)", "it is no journal of an app"),
+        (
+            f"PRAGMA user_version = {VERSION + 1}",
+            f"its format is {VERSION + 1}, and pluto-fleet .* reads {VERSION}: install",
+        ),
+    ],
+)
+def test_a_database_that_is_another_is_refused_and_left_as_it_is(
+    tmp_path: Path, statement: str, why: str
+) -> None:
     path = tmp_path / "J"
-    database = sqlite3.connect(path)
-    database.execute("CREATE TABLE journal (seq INTEGER)")
-    database.commit()
-    database.close()
+    if "PRAGMA" in statement:
+        Store.create(path, HEADER).close()
+    with closing(sqlite3.connect(path)) as database:
+        database.execute(statement)
+        database.commit()
     content = path.read_bytes()
     for opens in (Store.open, Reader):
-        with pytest.raises(JournalError, match="it is no journal of an app"):
+        with pytest.raises(JournalError, match=why):
             opens(path)
     assert path.read_bytes() == content
-
-
-@pytest.mark.parametrize("version", [VERSION + 1, VERSION + 9])
-def test_another_format_is_refused_by_its_number(tmp_path: Path, version: int) -> None:
-    path = tmp_path / "J"
-    Store.create(path, HEADER).close()
-    database = sqlite3.connect(path)
-    database.execute(f"PRAGMA user_version = {version}")
-    database.close()
-    for opens in (Store.open, Reader):
-        with pytest.raises(
-            JournalError,
-            match=f"its format is {version}, and pluto-fleet .* reads {VERSION}: install",
-        ):
-            opens(path)
 
 
 @pytest.mark.parametrize("opens", [Store.open, Reader])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import json
 import os
 import sqlite3
@@ -14,7 +13,6 @@ from typing import Any, ClassVar
 import pytest
 
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.fold import replayed
 from pluto_fleet.journal.lock import holder
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
@@ -91,11 +89,6 @@ def test_the_epoch_grows_at_each_opening_even_if_nothing_is_written(place: Path)
     assert epochs == [1, 2, 3]
 
 
-def test_events_of_all_rows_come_one_by_one(store: Store) -> None:
-    store.append([json.dumps([{"t": 0, "event": "a"}, {"t": 0, "event": "b"}]), row(2), "[]"])
-    assert [event["event"] for event in store.read().events] == ["a", "b", "log"]
-
-
 def test_only_what_follows_the_newest_snapshot_is_read(store: Store) -> None:
     for number in range(1, 10):
         store.append([row(number)])
@@ -148,18 +141,6 @@ def test_it_is_known_when_the_last_thing_that_is_read_was_written(place: Path) -
     assert len(list(read.events)) == 1
     assert read.written == 40.0
     store.close()
-
-
-def test_records_are_what_a_snapshot_and_the_events_since_come_to(store: Store) -> None:
-    ended = {"event": "mission.ended", "mission": "A", "status": "FAILED", "reason": "rain"}
-    store.append([json.dumps([{"t": 1.0, **ended}])])
-    whole = replayed(store.read())
-    store.snapshot(json.dumps(whole.data))
-    store.append([json.dumps([{"t": 2.0, **ended, "mission": "B"}])])
-    records = replayed(store.read())
-    assert sorted(records.missions) == ["A", "B"]
-    assert (whole.time, records.time) == (1.0, 2.0)
-    assert gc.isenabled()
 
 
 def test_a_reader_that_stops_in_the_middle_keeps_no_one_from_tidying_up(

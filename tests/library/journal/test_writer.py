@@ -10,7 +10,6 @@ import pytest
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
-from tests.library.journal.damage import full_disk
 
 
 def row(number: int) -> str:
@@ -34,46 +33,6 @@ def test_rows_have_numbers_and_are_durable_in_order(store: Store) -> None:
     assert sorted(told) == told
     assert [found.text for found in store.read().rows] == [row(n) for n in range(1, 2001)]
     assert not failures
-    store.close()
-
-
-def test_a_snapshot_stands_for_the_rows_before_it_and_no_others(store: Store) -> None:
-    writer = Writer(store, lambda _: None, lambda _: None)
-    for number in range(1, 50):
-        writer.add(row(number))
-        if number == 20:
-            writer.snapshot("after twenty")
-    writer.close()
-    read = store.read()
-    assert (read.snapshot, read.after) == ("after twenty", 20)
-    assert [found.seq for found in read.rows] == list(range(21, 50))
-    store.close()
-
-
-def test_rows_go_on_counting_where_the_journal_ended(store: Store) -> None:
-    store.append([row(1), row(2)])
-    writer = Writer(store, lambda _: None, lambda _: None)
-    assert writer.add(row(3)) == 3
-    writer.close()
-    store.close()
-
-
-def test_after_a_failure_no_row_is_ever_called_durable(store: Store) -> None:
-    told: list[int] = []
-    failures: list[JournalError] = []
-    writer = Writer(store, told.append, failures.append)
-    writer.add(row(1))
-    writer.flush()
-    with full_disk():
-        writer.add(row(2))
-        with pytest.raises(JournalError, match="cannot be written"):
-            writer.flush()
-    writer.add(row(3))
-    with pytest.raises(JournalError):
-        writer.flush()
-    writer.close()
-    assert told == [1]
-    assert failures == [store.failure]
     store.close()
 
 

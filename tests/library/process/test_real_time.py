@@ -122,19 +122,6 @@ def test_real_time_takes_the_same_events_in_the_same_order() -> None:
     assert asyncio.run(main()) == ["FLIGHT 0", "FLIGHT 1", "TIMER 0"]
 
 
-def test_in_real_time_a_hook_may_await_anything_of_asyncio() -> None:
-    async def hook(text: str) -> str:
-        await asyncio.sleep(0)
-        return text.upper()
-
-    async def main() -> object:
-        kernel = RealTime()
-        task = kernel.spawn(kernel.call_hook(hook, "done"), 0, "hook")
-        return await kernel.run(task)
-
-    assert asyncio.run(main()) == "DONE"
-
-
 def test_in_real_time_a_blocking_hook_does_not_hold_the_others_up() -> None:
     async def main() -> tuple[object, bool]:
         import threading

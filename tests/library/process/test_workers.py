@@ -32,23 +32,6 @@ def test_results_and_prints_come_in_order(jobs: int, capsys: pytest.CaptureFixtu
     assert err == "three!\n"
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("jobs", [1, 7])
-def test_which_tasks_share_a_process_does_not_depend_on_the_jobs(jobs: int) -> None:
-    """So what one leaves behind for the next is always the same."""
-    seen: list[int] = []
-
-    def before(number: int) -> list[int]:
-        found = list(seen)
-        seen.append(number)
-        return found
-
-    shared = list(in_workers(before, range(100), jobs))
-    assert shared[:6] == [[], [0], [0, 1], [0, 1, 2], [0, 1, 2, 3], []]
-    assert shared == list(in_workers(before, range(100), 3))
-    assert seen == []
-
-
 def fails(number: int) -> int:
     if number >= 20:
         raise LookupError(number)

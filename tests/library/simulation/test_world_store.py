@@ -55,7 +55,7 @@ def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx(THERE)
     assert not telemetry.landed
-    fly(field.virtual, field.navigation.land("cf1"))
+    fly(field.kernel, field.navigation.land("cf1"))
     assert field.later(tmp_path, 5).navigation.telemetry["cf1"].landed
 
 
@@ -70,7 +70,7 @@ def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
     (tmp_path / DRONES).write_bytes(before)
     field = Kept(tmp_path, 1025.0)
     assert field.navigation.carrying("cf1") == PILLS
-    report = fly(field.virtual, field.navigation.drone_report("cf1"))
+    report = fly(field.kernel, field.navigation.drone_report("cf1"))
     assert report.done == {Task().id: None}
     deeds = [json.loads(line) for line in (tmp_path / DEEDS).read_text().splitlines()]
     (deed,) = deeds
@@ -95,7 +95,7 @@ def test_what_was_put_down_is_not_aboard(tmp_path: Path) -> None:
     field.navigation.reboot("cf1")
     field = field.later(tmp_path, 1)
     assert field.navigation.carrying("cf1") is None
-    report = fly(field.virtual, field.navigation.drone_report("cf1"))
+    report = fly(field.kernel, field.navigation.drone_report("cf1"))
     assert (report.boot, report.done, report.reached) == (1, {}, False)
 
 
@@ -133,7 +133,7 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
 def test_a_landing_is_seen_through(tmp_path: Path) -> None:
     """A drone that sinks when its gateway dies touches down."""
     field = Kept(tmp_path)
-    fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
+    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
     field.kernel.spawn(field.navigation.land("cf1"), FLEET, "land")
     field.advance(1)
     field = field.later(tmp_path, 1)
@@ -149,13 +149,13 @@ def test_a_landing_is_seen_through(tmp_path: Path) -> None:
 def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     """A drone that takes no commands takes none from another process either."""
     field = Kept(tmp_path)
-    fly(field.virtual, field.navigation.takeoff("cf1", 1.2))
+    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
     field.navigation.strike("cf1", what)
     field = field.later(tmp_path, 10)
     assert field.navigation.telemetry["cf1"].landed
-    error = failure(field.virtual, field.navigation.takeoff("cf1", 1.2))
+    error = failure(field.kernel, field.navigation.takeoff("cf1", 1.2))
     assert error.failure is what
-    assert fly(field.virtual, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
+    assert fly(field.kernel, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
 
 
 def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> None:
@@ -165,7 +165,7 @@ def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> N
     field.advance(0)
     field = field.later(tmp_path, 30)
     assert field.navigation.telemetry["cf1"].landed
-    assert failure(field.virtual, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
+    assert failure(field.kernel, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
 
 
 def test_how_long_ago_it_was_depends_on_no_clock_that_can_be_set() -> None:

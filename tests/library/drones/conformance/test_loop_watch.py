@@ -34,15 +34,6 @@ def found(held_up_by: Callable[[], object]) -> list[str]:
     return asyncio.run(watched())
 
 
-def test_a_turn_that_sleeps_is_found_with_its_place() -> None:
-    def waits() -> None:
-        for _ in range(2):
-            time.sleep(LONG)
-
-    [sentence] = found(waits)
-    assert "test_loop_watch.py:" in sentence
-
-
 def test_a_thread_that_the_machine_starts_late_is_not_blamed() -> None:
     thread = LateThread(target=time.sleep, args=(0,))
     assert found(thread.start) == []

@@ -8,9 +8,7 @@ from math import dist, inf
 from random import Random
 from typing import Any, TypeVar
 
-from pluto_fleet.gateway.gateway import Gateway, Link
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.gateway.gateway import Link
 from pluto_fleet.shared.domain.actions import PICK
 from pluto_fleet.shared.domain.airspace import Airspace, permitted_way
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
@@ -19,10 +17,8 @@ from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from pluto_fleet.shared.time.kernel import Task as Coroutine
-from pluto_fleet.shared.time.virtual import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
-from pluto_fleet.simulation.drones import SimulatedNavigation
-from tests.library.gateway.flights import Task
+from tests.library.gateway.flights import Field, Task
 
 T = TypeVar("T")
 
@@ -32,8 +28,8 @@ GLANCE = 0.1
 """Seconds between two looks at all drones."""
 
 
-class Sky:
-    """Simulated drones behind a gateway, and what is seen of them."""
+class Sky(Field):
+    """Simulated drones behind a gateway that keeps them apart, and what is seen of them."""
 
     def __init__(
         self,
@@ -41,41 +37,18 @@ class Sky:
         *,
         airspace: Airspace | None = None,
         apart: float = 0.5,
-        slack: float = 0.0,
-        max_airborne: int | None = None,
         category: Category = ENDURING,
+        **options: Any,
     ) -> None:
-        self.airspace, self.apart = airspace or Airspace(), apart
-        self.kernel = VirtualTime()
-        self.drones = [
-            SimulatedDrone(id=f"cf{i + 1}", category=category, home=(x, y, 0.0), index=i)
-            for i, (x, y) in enumerate(homes)
-        ]
-        self.navigation = SimulatedNavigation(
-            self.kernel, self.drones, World(1, self.airspace), Faults(), 1, self.airspace
-        )
-        self.max_airborne, self.slack = max_airborne, slack
+        super().__init__(airspace=airspace, homes=homes, category=category, apart=apart, **options)
+        self.apart = apart
         self.epoch = 1
-        self.gateway = self.another()
         self.link: Link = self.gateway.link(self.epoch)
         self.nearest = inf
         """How near two drones in the air have come to each other; those that fail do not count."""
         self.airborne = 0
         """How many were in the air at once, at most."""
         self.trips = 0
-
-    def another(self) -> Gateway:
-        """Return another gateway over the same drones."""
-        self.gateway = Gateway(
-            self.kernel,
-            self.navigation,
-            self.drones,
-            self.airspace,
-            apart=self.apart,
-            slack=self.slack,
-            max_airborne=self.max_airborne,
-        )
-        return self.gateway
 
     # What is seen
 
@@ -96,10 +69,6 @@ class Sky:
             self.advance(GLANCE)
             self.look()
         return True
-
-    def advance(self, seconds: float) -> None:
-        """Let virtual time pass."""
-        self.kernel.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))
 
     # What a brain does
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import combinations
 from math import dist
-from random import Random
 
 import pytest
 from hypothesis import given
@@ -19,9 +18,6 @@ from pluto_fleet.shared.domain.actions import PHOTO
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
-from pluto_fleet.shared.time.kernel import FLEET
-from tests.kit.draws import draws
-from tests.library.gateway.flights import PILLS
 from tests.library.gateway.flights import Task as Job
 from tests.library.gateway.traffic.skies import Sky
 
@@ -31,7 +27,6 @@ WALL: Polygon = ((4.0, 5.2), (6.0, 5.2), (6.0, 5.4), (4.0, 5.4))
 OPEN, LOW = Airspace(), Airspace(ceiling=1.3)
 WALLED = Airspace(no_fly=(WALL,))
 CORNER = Airspace(size=(10.0, 5.0))
-PLACES = {"open": OPEN, "low": LOW, "walled": WALLED, "at the edge": CORNER}
 
 
 def hears(sky: Sky) -> list[Mapping[str, object]]:
@@ -57,16 +52,6 @@ def test_some_at_one_spot_take_hardly_longer_than_one(count: int, slack: float) 
     assert min(dist(a, b) for a, b in combinations(places, 2)) >= sky.apart + slack - 1e-6
     assert max(dist(place, SPOT) for place in places) <= FURTHEST * sky.gateway.traffic.level + 1e-6  # type: ignore[union-attr]
     assert sky.nearest >= sky.apart + slack - 1e-6
-
-
-def test_a_dozen_find_room_around_one_spot() -> None:
-    """From all sides, while none of them leaves."""
-    homes = [(x, y) for x in (1.0, 3.5, 6.5, 9.0) for y in (1.0, 5.0, 9.0)]
-    sky = Sky(homes)
-    jobs = [sky.gives(drone.id, SPOT) for drone in sky.drones]
-    assert all(sky.until(job, 90) for job in jobs)
-    assert max(dist(sky.at(drone.id), SPOT) for drone in sky.drones) <= FURTHEST * sky.apart + 1e-6
-    assert sky.nearest >= sky.apart - 1e-6
 
 
 def test_it_is_told_where_an_action_is_done_beside_its_target() -> None:
@@ -156,61 +141,6 @@ def test_where_the_map_leaves_no_place_around_there_is_one_above() -> None:
     assert [place[2] for place in places[:2]] == [SPOT[2]] * 2
     assert places[3] == pytest.approx((5.0, 5.0, SPOT[2] + sky.apart))
     assert sky.nearest >= sky.apart - 1e-6
-
-
-def test_they_land_where_they_are_as_before() -> None:
-    """None on another, and none in another's way."""
-    sky = Sky(DOCKS)
-    jobs = [sky.gives(f"cf{n + 1}", SPOT) for n in range(3)]
-    assert all(sky.until(job, 60) for job in jobs)
-    lands = [sky.kernel.spawn(sky.link.land(f"cf{n + 1}"), FLEET + n, "it lands") for n in range(3)]
-    assert all(sky.until(land, 60) for land in lands)
-    places = [sky.at(f"cf{n + 1}") for n in range(3)]
-    assert all(z == 0.0 for _, _, z in places)
-    assert min(dist(a, b) for a, b in combinations(places, 2)) >= sky.apart - 1e-6
-
-
-@pytest.mark.parametrize("slack", [0.0, CRAZYFLIE.slack])
-@pytest.mark.parametrize("where", PLACES)
-@pytest.mark.parametrize("seed", draws(1, 6))
-def test_a_crowd_at_a_few_spots_neither_hangs_nor_comes_too_near(
-    seed: int, where: str, slack: float
-) -> None:
-    """Some act, some pick what lies just there, some stay for long; all come home."""
-    chance = Random(seed)
-    sky = Sky(DOCKS, airspace=PLACES[where], slack=slack)
-    spots = [SPOT, (5.0, 4.7, 1.2), (chance.uniform(2, 8), chance.uniform(2, 5), 1.0)]
-    told = hears(sky)
-
-    async def restless(drone: str) -> None:
-        for _ in range(3):
-            await sky.pause(chance.choice([0.0, 0.0, 3.0]))
-            item = PILLS if chance.random() < 0.2 else None
-            target = chance.choice(spots)
-            await sky.fly(drone, target, item=item)
-            if item is not None:
-                assert sky.at(drone) == pytest.approx(target)
-            await sky.pause(chance.choice([0.0, 1.0, 20.0]))
-            if chance.random() < 0.3:
-                await sky.link.land(drone)
-        await sky.goes_home(drone)
-
-    flights = [
-        sky.kernel.spawn(restless(drone.id), FLEET + 100 + drone.index, f"{drone.id} is restless")
-        for drone in sky.drones
-    ]
-    assert all(sky.until(flight, 3000) for flight in flights)
-    for flight in flights:
-        flight.result()
-    assert sky.nearest >= sky.apart - 1e-6
-    assert told != []
-    traffic = sky.gateway.traffic
-    assert traffic is not None
-    for one in told:
-        target, place = one["target"], one["at"]
-        assert isinstance(target, list)
-        assert isinstance(place, list)
-        assert dist(target, place) <= FURTHEST * traffic.level + 2e-3
 
 
 @given(

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-from math import inf
+from dataclasses import dataclass
 
 import pytest
 from hypothesis import assume, given
@@ -12,10 +11,9 @@ from hypothesis import strategies as st
 from pluto_fleet.gateway.traffic.legs import between, leaves
 from pluto_fleet.gateway.traffic.reservations import Reservation, part_way
 from pluto_fleet.gateway.traffic.traffic import AGAIN
-from pluto_fleet.gateway.traffic.wait_queue import HOVERS, Elder, Wait, WaitQueue
-from pluto_fleet.gateway.traffic.ways import Section
+from pluto_fleet.gateway.traffic.wait_queue import HOVERS, Obstacle
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.model import Point
+from pluto_fleet.shared.domain.model import Category, Point
 from tests.library.gateway.traffic.skies import Sky
 
 LOW = 1.3
@@ -80,34 +78,6 @@ def test_requests_count_as_simultaneous_that_come_one_right_after_the_other(
     assert sky.navigation.telemetry["cf3"].landed == waits
 
 
-def waits(drone: str, x: float) -> Wait:
-    """Return a drone that wants to fly along a line, and need not be looked at by itself."""
-    section = Section(drone, ((x, 1.0, 1.2), (x, 9.0, 1.2)), False, False)
-    return Wait(section, 0.0, (section, section.at_height(0.5)), due=inf)
-
-
-def test_only_those_are_due_that_one_who_waits_no_more_has_kept() -> None:
-    queue, elder, kept, other = WaitQueue(LIMIT), waits("cf1", 1), waits("cf2", 1), waits("cf3", 9)
-    for wait in (elder, kept, other):
-        queue.add(wait)
-    kept.elders[1] = Elder(elder, True)
-    queue.remove(elder)
-    assert (kept.due, other.due) == (-inf, inf)
-    assert [*queue] == [kept, other]
-
-
-def test_only_those_are_due_that_a_reservation_keeps_or_may_keep() -> None:
-    queue, kept, near, far = WaitQueue(LIMIT), waits("cf1", 9), waits("cf2", 1), waits("cf3", 9)
-    for wait in (kept, near, far):
-        queue.add(wait)
-    sky = Sky([(1, 1)])
-    claim = Reservation("cf4", sky.navigation.telemetry["cf1"])
-    claim.moves_along(((1.0, 5.0, 1.2), (3.0, 5.0, 1.2)), ())
-    kept.keepers = {"cf4"}
-    queue.changed(claim)
-    assert (kept.due, near.due, far.due) == (-inf, -inf, inf)
-
-
 metres = st.one_of(st.integers(0, 3).map(float), st.floats(0, 3))
 places = st.tuples(metres, metres, metres)
 
@@ -124,7 +94,51 @@ def test_a_drone_leaves_another_way_when_it_is_said_to(
         assert between(after, b, c, d) > LIMIT - 1e-9
 
 
-@given(places, places, places)
-def test_a_drone_that_comes_near_no_leg_has_none_to_leave(a: Point, b: Point, c: Point) -> None:
-    far = [(x + 10.0, y, z) for x, y, z in (a, b, c)]
-    assert [leaves(a, b, d, e, LIMIT) for d, e in pairwise(far)] == [0.0, 0.0]
+QUICK = Category(name="quick", speed=2.0)
+
+
+@dataclass
+class Seen:
+    """The telemetry of a drone that flies exactly as fast as it may."""
+
+    location: Point
+    battery_level: float = 1.0
+    landed: bool = False
+    silence: float = 0.0
+
+
+def test_who_crosses_a_way_at_its_end_needs_no_look_before() -> None:
+    telemetry = Seen((0.0, 0.0, 1.0))
+    claim = Reservation("one", telemetry)
+    claim.moves_along(((0.0, 0.0, 1.0), (10.0, 0.0, 1.0)), ())
+    obstacle = Obstacle(claim, QUICK, False)
+    obstacle.seen(((9.0, -1.0, 1.0), (9.0, 1.0, 1.0)), LIMIT, 0.0)
+    assert obstacle.is_sure(4.0)
+    assert not obstacle.is_sure(9.5 / QUICK.speed)
+
+
+@pytest.mark.parametrize("what", ["goes", "rests", "sinks"])
+def test_who_is_told_something_else_is_looked_at_again(what: str) -> None:
+    telemetry = Seen((0.0, 0.0, 1.0))
+    claim = Reservation("one", telemetry)
+    claim.rests((), 0.0)
+    obstacle = Obstacle(claim, QUICK, False)
+    obstacle.seen(((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), LIMIT, 3.0)
+    assert obstacle.is_sure(3.1)
+    if what == "goes":
+        claim.moves_along(((0.0, 0.0, 1.0), (0.0, 5.0, 1.0)), ())
+    elif what == "rests":
+        claim.rests((), 0.0)
+    else:
+        claim.sinks()
+    assert not obstacle.is_sure(3.1)
+
+
+def test_who_has_not_come_to_a_stop_is_looked_at_when_it_has() -> None:
+    telemetry = Seen((0.0, 0.0, 1.0))
+    claim = Reservation("one", telemetry)
+    claim.rests(((0.6, 0.0, 1.0),), 2.0)
+    obstacle = Obstacle(claim, QUICK, True)
+    obstacle.seen(((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), LIMIT, 0.0)
+    assert obstacle.is_sure(1.9)
+    assert not obstacle.is_sure(2.0)

@@ -8,16 +8,10 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.gateway.traffic.choosing import DescendingDrone
-from pluto_fleet.gateway.traffic.courses import course
-from pluto_fleet.gateway.traffic.timetable import Timetable, timetable
-from pluto_fleet.gateway.traffic.ways import ways_home
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
-from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
 from pluto_fleet.shared.fleet.reach import flight_seconds
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.draws import draws
 from tests.library.gateway.traffic.real_skies import PRECISE, late, quick
 from tests.library.gateway.traffic.skies import ENDURING, Sky, is_home
@@ -55,26 +49,6 @@ def comes_down(homes: list[Point], places: list[Point], airspace: Airspace, how:
     sky.look()
     assert sky.until(sky.gateway.bring_down(how), 300)
     return sky
-
-
-@pytest.mark.parametrize("how", [Down.HOME, Down.LAND])
-@pytest.mark.parametrize("side", [20.0, 6.0])
-@pytest.mark.parametrize("seed", draws(2, 10))
-def test_all_are_down_when_the_slowest_is(seed: int, side: float, how: Down) -> None:
-    """Within two seconds of what it takes alone; half of the cases at one and the same height."""
-    chance = Random(seed)
-    homes = scattered(chance, side, 0.0)
-    places = scattered(chance, side, 1.2 if seed % 2 else None)
-    airspace = Airspace(size=(side, side))
-    alone = [
-        comes_down([home], [place], airspace, how).kernel.now
-        for home, place in zip(homes, places, strict=True)
-    ]
-    sky = comes_down(homes, places, airspace, how)
-    assert sky.kernel.now <= max(alone) + 2
-    assert sky.nearest >= sky.apart - 1e-6
-    if how is Down.HOME:
-        assert all(is_home(sky, drone) for drone in sky.drones)
 
 
 @pytest.mark.parametrize("speed", [0.3, 0.5, 1.0, 2.0, 3.0])
@@ -148,44 +122,3 @@ def test_a_drone_whose_battery_drains_too_fast_for_its_way_home_lands_where_it_i
     assert sky.until(sky.another().bring_down(Down.HOME), 300)
     body = sky.navigation.bodies["cf1"]
     assert (body.down, body.location) == (None, home if goes else (*here[:2], 0.0))
-
-
-def plan_of(seed: int, motion: Motion) -> Timetable:
-    """Plan for some drones in a small place, with docks side by side."""
-    chance = Random(seed)
-    side = chance.choice([3.0, 5.0])
-    airspace = Airspace(size=(side, side), ceiling=chance.choice([1.4, 2.0, 5.0]))
-    places = scattered(chance, side, 1.2, 6)
-    spots = [(0.3 + 0.6 * (i % 3), 0.3 + 0.6 * (i // 3), 0.0) for i in range(6)]
-    goers = []
-    for index, (home, place) in enumerate(zip(spots, places, strict=True)):
-        drone = SimulatedDrone(id=f"cf{index}", category=ENDURING, home=home, index=index)
-        ways = ways_home(airspace, drone, place, False, 0.65)
-        speed = chance.choice([0.2, 1.0])
-        courses = sorted((course(way, speed, motion) for way in ways), key=lambda one: one.cost)
-        goers.append(DescendingDrone(drone.id, courses))
-    return timetable(goers, 0.65)
-
-
-@pytest.mark.parametrize("motion", [PRECISE, STRAIGHT], ids=["smooth", "straight"])
-@pytest.mark.parametrize("seed", range(4))
-def test_no_drone_waits_for_one_that_waits_for_it(seed: int, motion: Motion) -> None:
-    """At all times a drone that may go goes to its next rest, and so all come to their ends."""
-    plan, chance = plan_of(seed, motion), Random(seed)
-    at = dict.fromkeys(plan.courses, 0)
-    ends = {drone: len(one.pieces) - 1 for drone, one in plan.courses.items()}
-    assert ends
-    while at:
-        goes = []
-        for drone, here in at.items():
-            waits = [
-                mine - 1 for mine, other, its in plan.after[drone] if at.get(other, its + 1) <= its
-            ]
-            free = min((piece for piece in waits if piece >= here), default=ends[drone])
-            to = plan.rest_after(drone, here, free)
-            if to > here:
-                goes.append((drone, to))
-        assert goes
-        drone, at[drone] = chance.choice(goes)
-        if at[drone] == ends[drone]:
-            del at[drone]

@@ -7,7 +7,7 @@ from math import dist, hypot
 import pytest
 
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
@@ -41,15 +41,6 @@ def test_below_a_low_ceiling_one_waits_on_the_ground_until_the_other_has_passed(
     assert not first.is_set
     assert sky.until(second, 30)
     assert sky.nearest >= APART - 1e-6
-
-
-def test_of_two_jobs_of_one_instant_the_first_that_was_given_goes_first() -> None:
-    """As those of a brain in another process do, which come one by one."""
-    sky = Sky([(1, 5), (5, 1)], airspace=LOW)
-    second, first = sky.gives("cf2", (5, 9, 1.2)), sky.gives("cf1", (9, 5, 1.2))
-    sky.advance(10)
-    assert (sky.at("cf1"), sky.at("cf2")[2] > 0) == ((1, 5, 0), True)
-    assert all(sky.until(job, 40) for job in (second, first))
 
 
 def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
@@ -190,15 +181,6 @@ def test_who_waits_can_be_told_not_to() -> None:
     assert sky.until(home, 60)
 
 
-@pytest.mark.parametrize("slack", [0.0, 0.15])
-def test_real_drones_keep_further_apart(slack: float) -> None:
-    """By what their positions may be wrong."""
-    sky = Sky([(1, 5), (5, 1)], slack=slack)
-    jobs = sky.gives("cf1", (9, 5, 1.2)), sky.gives("cf2", (5, 9, 1.2))
-    assert all(sky.until(job, 30) for job in jobs)
-    assert APART + slack - 1e-6 <= sky.nearest
-
-
 def test_what_a_stopped_drone_may_still_fly_into_stays_its_own_for_a_moment() -> None:
     """A real one shoots past where it was told to stop."""
     sky = Sky([(1, 5), (3.9, 4.5)], airspace=LOW, slack=0.1)
@@ -222,23 +204,6 @@ def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
     blocked = sky.gives("cf2", (5, 4, 1.2), item=PILLS)
     assert not sky.until(blocked, 40)
     assert sky.nearest >= APART
-
-
-def test_a_drone_that_sinks_has_the_air_below_it() -> None:
-    """Until it is down; then it lies there, and others fly over it."""
-    sky = Sky([(1, 1), (5, 1)], airspace=LOW)
-    flown = sky.gives("cf1", (5, 5, 1.2))
-    assert sky.until(flown, 60)
-    hovers = sky.sends(sky.link.hold("cf1"))
-    hovers.watch(lambda _: None)
-    sky.advance(1)
-    sky.navigation.strike("cf1", Failure.LINK)
-    other = sky.gives("cf2", (5, 9, 1.2))
-    sky.advance(1)
-    assert sky.at("cf2") == (5, 1, 0)
-    assert sky.until(other, 40)
-    with pytest.raises(FlightFailed):
-        hovers.result()
 
 
 def test_without_a_distance_nothing_is_done() -> None:
