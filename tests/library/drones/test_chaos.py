@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
@@ -24,69 +23,56 @@ LONG = 4000.0
 METHODS = ("connect", "preflight", "takeoff", "go_to", "hold", "land", "act", "close")
 
 
-def _silent(drone: FakeDrone, chance: Random) -> None:
-    drone.goes_silent()
-    if chance.random() < 0.8:
-        the_loop().call_later(chance.choice((0.5, 3, 30, 200)), setattr, drone, "answers", True)
-
-
-def _falls(drone: FakeDrone, chance: Random) -> None:
-    if drone.motors:
-        drone.falls(tells=chance.random() < 0.5)
-
-
-def _hangs(drone: FakeDrone, chance: Random) -> None:
-    drone.hangs.add(method := chance.choice(METHODS))
-    if chance.random() < 0.3:
-        drone.clings.add(method)
-        the_loop().call_later(100, drone.clings.discard, method)
-    the_loop().call_later(chance.choice((1, 20, 100)), drone.hangs.discard, method)
-
-
-def _raises(drone: FakeDrone, chance: Random) -> None:
-    method = chance.choice(METHODS)
-    drone.raises[method] = chance.choice((NavigationError("no"), TypeError("what?"), SystemExit(1)))
-    the_loop().call_later(chance.choice((1, 20, 100)), lambda: drone.raises.pop(method, None))
-
-
-def _tells(drone: FakeDrone, chance: Random) -> None:
-    drone.happens(chance.choice((BATTERY_LOW, LINK_LOST, LOCKED)))
-
-
-def _drifts(drone: FakeDrone, chance: Random) -> None:
-    x, y, z = drone.place
-    if drone.motors:
-        drone.put((x + chance.uniform(-6, 6), y + chance.uniform(-6, 6), z))
-
-
-def _empties(drone: FakeDrone, chance: Random) -> None:
-    drone.level = chance.choice((0.0, 0.02, 0.1))
-    the_loop().call_later(60, setattr, drone, "level", 0.9)
-
-
-def _blocks(drone: FakeDrone, chance: Random) -> None:
-    drone.blocks[method := chance.choice(METHODS)] = chance.choice((0.06, 0.5, 5.0))
-    the_loop().call_later(20, drone.blocks.pop, method, None)
-
-
-def _restarts(drone: FakeDrone, _: Random) -> None:
-    drone.goes_silent()
-    if drone.motors:
-        drone.falls(tells=False)
-    the_loop().call_later(4, setattr, drone, "answers", True)
-
-
-FAULTS: tuple[Callable[[FakeDrone, Random], None], ...] = (
-    _silent,
-    _falls,
-    _hangs,
-    _raises,
-    _tells,
-    _drifts,
-    _empties,
-    _blocks,
-    _restarts,
+FAULTS = (
+    "silent",
+    "falls",
+    "hangs",
+    "raises",
+    "tells",
+    "drifts",
+    "empties",
+    "blocks",
+    "restarts",
 )
+
+
+def strike(drone: FakeDrone, what: str, chance: Random) -> None:
+    """Let something go wrong with a drone, most often for a while."""
+    later, method = the_loop().call_later, chance.choice(METHODS)
+    match what:
+        case "silent":
+            drone.goes_silent()
+            if chance.random() < 0.8:
+                later(chance.choice((0.5, 3, 30, 200)), setattr, drone, "answers", True)
+        case "falls" if drone.motors:
+            drone.falls(tells=chance.random() < 0.5)
+        case "hangs":
+            drone.hangs.add(method)
+            if chance.random() < 0.3:
+                drone.clings.add(method)
+                later(100, drone.clings.discard, method)
+            later(chance.choice((1, 20, 100)), drone.hangs.discard, method)
+        case "raises":
+            drone.raises[method] = chance.choice(
+                (NavigationError("no"), TypeError("what?"), SystemExit(1))
+            )
+            later(chance.choice((1, 20, 100)), drone.raises.pop, method, None)
+        case "tells":
+            drone.happens(chance.choice((BATTERY_LOW, LINK_LOST, LOCKED)))
+        case "drifts" if drone.motors:
+            x, y, z = drone.place
+            drone.put((x + chance.uniform(-6, 6), y + chance.uniform(-6, 6), z))
+        case "empties":
+            drone.level = chance.choice((0.0, 0.02, 0.1))
+            later(60, setattr, drone, "level", 0.9)
+        case "blocks":
+            drone.blocks[method] = chance.choice((0.06, 0.5, 5.0))
+            later(20, drone.blocks.pop, method, None)
+        case "restarts":
+            drone.goes_silent()
+            if drone.motors:
+                drone.falls(tells=False)
+            later(4, setattr, drone, "answers", True)
 
 
 async def trouble(flown: Flown, gateway: Gateway, chance: Random) -> None:
@@ -94,7 +80,7 @@ async def trouble(flown: Flown, gateway: Gateway, chance: Random) -> None:
     while True:
         await asyncio.sleep(chance.expovariate(1 / 15))
         drone = chance.choice(list(flown.drones.values()))
-        chance.choice(FAULTS)(drone, chance)
+        strike(drone, chance.choice(FAULTS), chance)
         if chance.random() < 0.2:
             flown.kernel.post(gateway.break_off, drone.id)
         for one in flown.drones.values():

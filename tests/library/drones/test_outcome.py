@@ -15,7 +15,7 @@ from pluto_fleet.shared.domain.model import Photo, Point
 
 @dataclass
 class Picture:
-    """A photo of another copy of the runtime, an older one."""
+    """A photo of another copy of the runtime."""
 
     position: Point
     width: float

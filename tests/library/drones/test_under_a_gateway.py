@@ -12,7 +12,6 @@ import pytest
 
 from pluto_fleet.drones.real_fleet import RealFleet
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.gateway.ledger import FileLedger
 from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
 from pluto_fleet.jobs.telemetry import Publisher
@@ -39,10 +38,7 @@ class Craft:
 
 @asynccontextmanager
 async def commanded(
-    folder: Path,
-    count: int = 1,
-    patience: float | None = None,
-    ledger: FileLedger | None = None,
+    folder: Path, count: int, patience: float | None = None
 ) -> AsyncIterator[tuple[Flown, Gateway]]:
     """Begin a gateway over some fake drones, and query the drones."""
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
@@ -53,7 +49,6 @@ async def commanded(
             flown.team,
             crafts,
             FIELD,
-            ledger=ledger,
             apart=0.5,
             slack=0.15,
             patience=patience,

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.flight.config import End, FlightConfig, FlightResult, Stops
+from pluto_fleet.flight.config import FlightConfig, FlightResult, Stops
 from pluto_fleet.flight.fly import live
 from pluto_fleet.gateway.gateway import Gateway, Link
 from pluto_fleet.gateway.ledger import Ledger
@@ -151,34 +151,6 @@ def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]
     tried.watch = watch
     asyncio.run(tried.live())
     assert tried.kinds == durable
-
-
-@pytest.mark.parametrize("how", Down)
-def test_a_stopped_app_goes_on_where_it_was(how: Down, tried: Tried) -> None:
-    stops = Stops()
-    tried.on("trip.launched", lambda: stops.stop(how))
-    assert asyncio.run(tried.live(stops)).end is End.STOPPED
-    assert tried.kinds[-1] == "stopped"
-    lived = asyncio.run(tried.live())
-    assert lived.end is End.OVER
-    assert tried.kinds.count("trip.completed") == 2
-    assert tried.kinds.count("mission.created") == 1
-    assert [mission.status for mission in lived.missions] == [Status.COMPLETED]
-    assert [trip.attempt for trip in lived.missions[0].completed_trips] == [1, 1]
-
-
-def test_an_app_whose_gateway_dies_begins_another_life(tried: Tried) -> None:
-    def crash() -> None:
-        assert tried.gateway is not None
-        tried.gateway.crash()
-
-    async def lives() -> list[FlightResult]:
-        tried.on("trip.launched", crash)
-        return [await tried.live(), await tried.live()]
-
-    first, second = asyncio.run(lives())
-    assert (first.end, second.end) == (End.LOST, End.OVER)
-    assert tried.kinds.count("trip.completed") == 2
 
 
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(

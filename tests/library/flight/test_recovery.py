@@ -43,8 +43,10 @@ MOMENTS = [moment / 2 for moment in range(1, 180, 9)]
 
 @pytest.mark.parametrize(
     ("moment", "how"),
-    [(moment, None) for moment in MOMENTS]
-    + [(moment, how) for moment in MOMENTS[::3] for how in Down],
+    [
+        *((moment, None) for moment in MOMENTS),
+        *((moment, how) for moment in MOMENTS[::3] for how in Down),
+    ],
 )
 def test_the_app_may_die_and_everything_may_be_stopped_at_any_moment(
     moment: float, how: Down | None

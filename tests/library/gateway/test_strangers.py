@@ -6,12 +6,9 @@ import json
 import os
 import signal
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from pluto_fleet.gateway.process import NOTE
 from pluto_fleet.gateway.starting import start, stop_directly
@@ -91,48 +88,6 @@ def test_numbers_that_are_none_move_no_drone(tmp_path: Path) -> None:
     assert failed[1] == "nan m is not between the ground and 10 m"
     assert "is outside the map" in failed[2]
     assert "above the ceiling" in failed[3]
-
-
-anything = st.recursive(
-    st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5),
-    lambda inner: st.lists(inner, max_size=3)
-    | st.dictionaries(st.text(max_size=5), inner, max_size=3),
-    max_leaves=6,
-)
-words = st.sampled_from(
-    [
-        "heartbeat",
-        "fly",
-        "break_off",
-        "attach",
-        "forget",
-        "cancel",
-        "hold",
-        "takeoff",
-        "go_to",
-        "land",
-        "recover",
-        "roll_call",
-        "call",
-    ]
-)
-facts = st.fixed_dictionaries(
-    {"do": words},
-    optional={
-        name: st.sampled_from(["cf1", "cf2"]) | anything
-        for name in ("drone", "n", "job", "id", "height", "target", "how", "epoch")
-    },
-)
-
-
-@settings(max_examples=30)
-@given(st.lists(facts | st.dictionaries(st.text(max_size=5), anything), max_size=6))
-def test_after_any_message_the_gateway_goes_on(messages: list[dict[str, object]]) -> None:
-    """Any messages, from a client that has linked."""
-    strange = tuple(json.dumps(one).encode() + b"\n" for one in messages)
-    with TemporaryDirectory() as folder:
-        _, answers = said(Path(folder), (LINK, *strange), (LINK,))
-    assert answers[0].keys() == {"linked"}
 
 
 def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:

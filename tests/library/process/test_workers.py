@@ -82,20 +82,6 @@ def test_who_stops_early_leaves_no_worker() -> None:
     work.close()
 
 
-@pytest.mark.long
-@pytest.mark.usefixtures("no_worker_left")
-def test_an_interrupt_ends_all_at_once() -> None:
-    """Workers that are busy, too."""
-    parent = os.getpid()
-
-    def interrupts(number: int) -> None:
-        os.kill(parent, signal.SIGINT)
-        signal.pause()
-
-    with pytest.raises(KeyboardInterrupt):
-        list(in_workers(interrupts, [0, 1], 2))
-
-
 ENDED = """
 import os, signal, sys
 from pluto_fleet.process.workers import in_workers

@@ -108,18 +108,3 @@ def test_no_drone_is_commanded_twice_at_once() -> None:
     kernel.spawn(navigation.hold("cf1"), FLEET, "hover")
     with pytest.raises(RuntimeError, match=r"cf1 was told to fly to \(2, 2\) while told to hover"):
         fly(kernel, navigation.go_to("cf1", (2, 2, 1)))
-
-
-def test_drones_that_arrive_together_are_taken_in_the_fleets_order() -> None:
-    """In any order of being told, the drone declared first comes first."""
-    kernel, navigation = at_home()
-    arrived: list[str] = []
-
-    async def rise(drone: str) -> None:
-        await navigation.takeoff(drone, 1.2, order())
-        arrived.append(drone)
-
-    for drone, key in (("cf2", 2), ("cf1", 1)):
-        kernel.spawn(rise(drone), FLEET + key, drone)
-    advance(kernel, 5)
-    assert arrived == ["cf1", "cf2"]

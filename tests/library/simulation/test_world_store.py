@@ -11,7 +11,6 @@ import pytest
 
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.world_store import DEEDS, DRONES, Moment, WorldStore, this_moment
 from tests.library.gateway.flights import PILLS, THERE, Field, Task
 from tests.library.simulation.flights import failure, fly
@@ -128,21 +127,6 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
     assert "the simulated world cannot be written down" in str(error)
     assert (tmp_path / DEEDS).read_bytes() == b""
     assert field.navigation.carrying("cf1") is None
-
-
-def test_a_landing_is_seen_through(tmp_path: Path) -> None:
-    """A drone that sinks when its gateway dies touches down."""
-    field = Kept(tmp_path)
-    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
-    field.kernel.spawn(field.navigation.land("cf1"), FLEET, "land")
-    field.advance(1)
-    field = field.later(tmp_path, 1)
-    telemetry = field.navigation.telemetry["cf1"]
-    assert telemetry.location == pytest.approx((1, 1, 0.6))
-    assert not telemetry.landed
-    field.advance(10)
-    assert telemetry.landed
-    assert telemetry.battery_level == pytest.approx(1 - 8 / 420 + 8 / 1200)
 
 
 @pytest.mark.parametrize("what", [Failure.CRASH, Failure.LINK, Failure.BATTERY])

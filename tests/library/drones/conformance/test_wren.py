@@ -11,9 +11,6 @@ from wren import Wren
 from pluto_fleet.drones.conformance.contract import NavigationContract
 from pluto_fleet.drones.conformance.recording import Truth
 from pluto_fleet.drones.protocol import DroneNavigation, DroneSetup
-from tests.paths import ROOT
-
-HERE = ROOT / "docs/navigation"
 
 
 @pytest.mark.long
@@ -48,10 +45,3 @@ class TestWren(NavigationContract):
         x, y, z = at
         turning = navigation.radio.mode in ("moving", "hovering")
         return Truth(position=(x / 100, y / 100, z / 100), yaw=pi / 2, motors=turning)
-
-
-def test_it_has_forty_lines() -> None:
-    """After its imports, without blank ones."""
-    text = (HERE / "wren.py").read_text()
-    lines = [line for line in text[text.index("class Wren:") :].splitlines() if line.strip()]
-    assert len(lines) <= 40
