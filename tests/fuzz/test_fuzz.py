@@ -8,7 +8,7 @@ from __future__ import annotations
 from tests.fuzz.__main__ import one
 from tests.fuzz.tally import Tally
 
-SEEDS = range(150)
+SEEDS = range(80)
 
 
 def test_much_odd_input_breaks_nothing() -> None:
@@ -18,4 +18,4 @@ def test_much_odd_input_breaks_nothing() -> None:
         tally.add(one(seed))
     assert tally.accepted.total() > len(SEEDS) // 10
     assert len(tally.made) == 3
-    assert len(tally.codes) > 35
+    assert len(tally.codes) > 25

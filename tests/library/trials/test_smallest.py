@@ -20,7 +20,7 @@ from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.fleet.fleet import Fleet
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials import command as trials
-from pluto_fleet.trials import invariants
+from pluto_fleet.trials import explore, invariants
 from pluto_fleet.trials.command import test as trial
 from pluto_fleet.trials.explore import Tally, small_case
 from pluto_fleet.trials.options import Options
@@ -153,8 +153,11 @@ def test_one_mission_was_completed_and_two_were() -> None:
     assert "3 missions ended: 1 was completed, 2 were cancelled." in said
 
 
-def test_what_does_not_show_again_is_told_as_that(capfd: Said) -> None:
+def test_what_does_not_show_again_is_told_as_that(
+    capfd: Said, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """And no case is said to show it that does not."""
+    monkeypatch.setattr(explore, "MOST_ROWS", 3)
     assert trial(failing(range(40, 41)), ["--file", "app.pluto", "--seeds", "1"]) == 1
     rest = capfd.readouterr().out.partition("What was found first:")[2]
     assert "LookupError: nothing there" in rest
