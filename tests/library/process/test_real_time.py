@@ -15,7 +15,7 @@ from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.kernel import EventKind
 from tests.kit import apps, in_real_time
 
 FAST = Category(name="scout", speed=200.0)
@@ -96,17 +96,6 @@ def test_any_error_of_a_hook_ends_its_mission_and_never_hangs(
         raise error
 
     assert says in hooked(raises)
-
-
-def test_time_can_pass_faster_than_on_the_wall() -> None:
-    """A thousand seconds at a million times the speed take a millisecond."""
-
-    async def main() -> float:
-        kernel = RealTime(speed=1e6)
-        await kernel.run(kernel.spawn(kernel.sleep(1000), FLEET, "waits"))
-        return kernel.now
-
-    assert asyncio.run(main()) >= 1000
 
 
 def test_real_time_takes_the_same_events_in_the_same_order() -> None:

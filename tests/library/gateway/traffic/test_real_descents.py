@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import dist
-from random import Random
 
 import pytest
 
@@ -12,7 +10,6 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import flight_seconds
-from tests.kit.draws import draws
 from tests.library.gateway.traffic.real_skies import PRECISE, late, quick
 from tests.library.gateway.traffic.skies import ENDURING, Sky, is_home
 
@@ -29,17 +26,6 @@ def later(speed: float) -> float:
     Two, or what a detour takes that is as long as drones keep apart, and four more ends of legs.
     """
     return max(2.0, quick(speed).motion.leg(APART, speed)) + 4 * PRECISE.settles
-
-
-def scattered(chance: Random, side: float, z: float | None, count: int = 10) -> list[Point]:
-    """Return places far enough from each other."""
-    found: list[Point] = []
-    while len(found) < count:
-        height = chance.uniform(0.6, 2.0) if z is None else z
-        place = chance.uniform(0, side), chance.uniform(0, side), height
-        if all(dist(place, other) >= 0.7 for other in found):
-            found.append(place)
-    return found
 
 
 def comes_down(homes: list[Point], places: list[Point], airspace: Airspace, how: Down) -> Sky:
@@ -60,21 +46,6 @@ def test_ten_whose_ways_cross_are_home_when_the_slowest_is(speed: float) -> None
     assert all(sky.navigation.flown(drone.id) > 0 for drone in sky.drones)
     assert sky.nearest >= APART
     assert all(is_home(sky, drone) for drone in sky.drones)
-
-
-@pytest.mark.parametrize("how", Down)
-@pytest.mark.parametrize("seed", draws(2, 4))
-def test_ten_anywhere_are_down_when_the_slowest_is(seed: int, how: Down) -> None:
-    """At one height or at many, with docks anywhere."""
-    chance = Random(seed)
-    homes = scattered(chance, 12.0, 0.0)
-    places = scattered(chance, 12.0, 1.2 if seed % 2 else None)
-    airspace = Airspace(size=(12.0, 12.0), ceiling=3.0)
-    speed = chance.choice([0.5, 1.0, 2.0])
-    seconds, sky = late(homes, places, airspace, speed, how)
-    assert seconds <= later(speed)
-    assert all(sky.navigation.flown(drone.id) > 0 for drone in sky.drones)
-    assert sky.nearest >= APART
 
 
 def test_who_has_the_longest_way_home_chooses_first() -> None:
