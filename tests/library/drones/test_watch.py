@@ -295,3 +295,13 @@ async def test_a_landing_that_does_not_succeed_is_tried_again(tmp_path: Path) ->
         await flown.until(lambda: any("was to land" in line for line in flown.log))
         drone.raises = {}
         await flown.until(lambda: not drone.motors, 10)
+
+
+async def test_the_log_says_when_it_was_not_watched(tmp_path: Path) -> None:
+    """And a drone that told all the time has not lost its link for that."""
+    async with flying(tmp_path) as flown:
+        await flown.up()
+        the_loop().call_later(1, the_loop().advance, 2.5)
+        hovers = flown.begin(flown.team.hold("cf1"))
+        await flown.until(lambda: "kept from watching" in " ".join(flown.log), 10)
+        assert not hovers.is_set

@@ -9,7 +9,7 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.trials.invariants import violations
 from tests.kit import apps
-from tests.kit.living import Living, enterable
+from tests.kit.living import Living, enterable, names
 
 
 def item_mission() -> apps.Mission:
@@ -60,6 +60,24 @@ def test_what_is_safe_to_do_once_more_is_asked_about_by_no_one() -> None:
         living.life.control.mishap("cf1", "uncertain")
     with pytest.raises(BadInput, match='no drone "cf7" is in the fleet'):
         living.life.control.mishap("cf7", "crash")
+
+
+@pytest.mark.parametrize(
+    ("kind", "reason", "comes_back"),
+    [
+        ("crash", "cf2 crashed at", False),
+        ("lost", "cf2 lost its link at", True),
+        ("battery", "cf2 ran out of battery at", True),
+    ],
+)
+def test_a_drone_fails_in_flight(kind: str, reason: str, comes_back: bool) -> None:
+    living = Living(enterable(attempts=3), apps.mission("a", apps.trip("1", 3)), on=two_drones())
+    living.at(2.0, lambda: happens(living, "cf2", kind))
+    assert living.run() == ["COMPLETED"]
+    (failed,) = living.named("trip.failed")
+    assert str(failed["reason"]).startswith(reason)
+    assert ("cf2" not in names(living.named("drone.lost"), "drone")) is comes_back
+    assert violations(living.events, {}) == []
 
 
 def test_a_drone_on_the_ground_and_one_that_is_down_have_no_mishap() -> None:

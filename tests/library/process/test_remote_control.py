@@ -181,6 +181,25 @@ def test_an_answer_that_makes_no_sense_leaves_one_in_doubt(note: Path, answer: b
     asyncio.run(scenario())
 
 
+def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:
+    """That is told, and not that all went well."""
+    asked, over = asyncio.Event(), asyncio.Event()
+
+    async def never(request: Mapping[str, object]) -> str:
+        asked.set()
+        await over.wait()
+        return "done"
+
+    async def scenario() -> None:
+        async with hear_commands(note, never):
+            doubt = asyncio.create_task(asyncio.to_thread(ask, note, {"command": "pause"}, 5.0))
+            await asked.wait()
+        with pytest.raises(AnswerLost, match="before it could say whether that was done"):
+            await doubt
+
+    asyncio.run(scenario())
+
+
 def test_nothing_flies_that_could_not_be_stopped(
     note: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
