@@ -21,7 +21,7 @@ REWRITES = {
     "pytest tests/examples/test_typed_pages.py --update": "what the tutorial, and the page on sizes, show of commands' output",
     "pytest tests/library/drones --update": "the code that the page on navigation shows",
     "pytest tests/library/station/browser/test_every_page.py -m 'long or not long' --update": "the pictures of the ground station",
-    "python -m tests.library.station.schema": "the description of the station's interface, and what is made of it",
+    "python -m station_interface": "the description of the station's interface, and what is made of it",
     "pytest tests/compiler/editor/browser --update": "the pictures of the graph editor",
     "python docs/tutorial/make_pictures.py": "the pictures and the quoted files in the pages",
 }
@@ -79,7 +79,8 @@ def file_of(command: str) -> Path:
     target = next(word for word in command.split()[1:] if word != "-m")
     if not command.startswith("python -m"):
         return ROOT / target
-    place = ROOT / target.replace(".", "/")
+    within = ROOT if target.startswith("tests.") else ROOT / "runtime"
+    place = within / target.replace(".", "/")
     return place / "__main__.py" if place.is_dir() else place.with_suffix(".py")
 
 

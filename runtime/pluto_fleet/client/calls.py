@@ -1,4 +1,4 @@
-"""Every address of a station as a method; made by `python -m tests.library.station.schema`."""
+"""Every address of a station as a method; made by `python -m station_interface`."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What goes over the wire between a station and its pages: the one schema of both sides.
 
 The OpenAPI description, the pages' types and the Python client are made from these types
-(`python -m tests.library.station.schema`). Times are seconds since a flight's beginning unless a name ends
+(`python -m station_interface`). Times are seconds since a flight's beginning unless a name ends
 in `_at`, which is in milliseconds since 1970; places are in metres, batteries from 0 to 1.
 """
 

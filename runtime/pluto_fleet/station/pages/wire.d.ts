@@ -1,4 +1,4 @@
-// Made from pluto_fleet/station/wire.py by `python -m tests.library.station.schema`: change that.
+// Made from pluto_fleet/station/wire.py by `python -m station_interface`: change that.
 
 /** Say that a person knows of an alert. */
 export interface Acknowledge {

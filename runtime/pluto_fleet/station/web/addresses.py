@@ -1,7 +1,7 @@
 """The table of all addresses: from it requests are answered, and the interface is described.
 
 `openapi.json`, the pages' types and the Python client are made of it and of the types that it
-names (`python -m tests.library.station.schema`).
+names (`python -m station_interface`).
 """
 
 from __future__ import annotations

@@ -201,25 +201,6 @@ def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason
     assert station.tell("start").endswith(f"without {first}, lost until brought back")
 
 
-def test_a_drone_that_has_lost_its_link_when_the_app_dies_is_said_to_be_unknown_and_why(
-    serve: Serve,
-) -> None:
-    station = serve(faults={"link": 1.0}, speed=10.0)
-    station.tell("start")
-
-    def silent() -> list[str]:
-        return [row["id"] for row in rows(station) if row["status"] == "RECOVERING"]
-
-    station.until(silent, "one has lost its link")
-    [who, *_] = silent()
-    station.kill()
-    station.start()
-    comes_true(station)
-    row = station.drone(who)
-    assert (row["status"], row["why"][:17]) == ("UNKNOWN", f"{who} lost its link")
-    assert row["x"] is not None
-
-
 def test_who_is_lost_is_remembered_without_journals_and_with_no_drone_left_nothing_flies(
     serve: Serve,
 ) -> None:

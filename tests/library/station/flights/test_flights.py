@@ -152,18 +152,6 @@ def test_what_was_interrupted_is_shown_and_flies_when_it_is_told_or_is_put_away(
     station.comes_to("over")
 
 
-def test_a_station_that_is_told_to_end_lands_all_drones_and_the_next_one_goes_on(
-    serve: Serve,
-) -> None:
-    station = serve().flying()
-    station.end()
-    assert station.events("stopped")[0]["how"] == "land"
-    station.start()
-    assert station.phase == "stopped"
-    station.tell("resume")
-    station.completes_all_once()
-
-
 def test_a_priority_can_be_changed_while_missions_fly_and_only_in_apps_that_have_one(
     serve: Serve,
 ) -> None:

@@ -5,15 +5,12 @@ from __future__ import annotations
 import os
 import shutil
 import signal
-import subprocess
 from dataclasses import replace
 from itertools import count
-from resource import RLIM_INFINITY, RLIMIT_FSIZE, prlimit
 from typing import Any
 
 import pytest
 
-from pluto_fleet.journal.lock import holder
 from tests.kit.station import Station, until
 
 from .conftest import Run
@@ -112,47 +109,6 @@ def test_no_other_station_serves_from_the_same_folder_nor_at_the_same_port(run: 
     with pytest.raises(AssertionError, match=f"port {station.port} is taken"):
         replace(station, folder=elsewhere).start()
     assert elsewhere.stat().st_mode & 0o777 == 0o700
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_on_a_full_disk_a_flight_is_interrupted_and_goes_on_when_there_is_room(run: Run) -> None:
-    station = flying(run("--speed", "10"))
-    prlimit(station.pid, RLIMIT_FSIZE, (60_000, RLIM_INFINITY))  # room to read it, none to go on
-    comes_to(station, "interrupted")
-    assert "the journal cannot be written" in station.now()["state"]["said"]
-    prlimit(station.pid, RLIMIT_FSIZE, (RLIM_INFINITY, RLIM_INFINITY))
-    said(station, "resume")
-    completes_all_once(station)
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_no_start_flies_beside_what_a_command_goes_on_with_and_drones_are_brought_back_by_command(
-    run: Run,
-) -> None:
-    station = flying(run("--speed", "20"))
-    [who, *_] = [row["id"] for row in drones(station) if (row["z"] or 0.0) > 0.5]
-    assert said(station, "cut-motors", drone=who) == f"the motors of {who} are cut"
-    station.kill()
-    (journal,) = station.journals()
-    words = [os.fspath(station.app.program), "resume", os.fspath(journal)]
-    with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT) as command:
-        until(lambda: holder(journal) == command.pid, "the command goes on with it")
-        station.start()
-        told = said(station, "start")
-        assert f"the last flight was gone on with elsewhere (process {command.pid})" in told
-    revision = station.get("/api/plan")["revision"]
-    assert "the plan has changed meanwhile" in said(station, "start", revision=revision)
-    assert station.phase == "over"
-    assert len(station.journals()) == 1
-    words = [os.fspath(station.app.program), "tell", os.fspath(journal), "bring-back", who]
-    told = subprocess.run(words, capture_output=True, text=True, check=True).stdout
-    assert told.startswith(f"{who} is brought back")
-    until(
-        lambda: {row["id"]: row["status"] for row in drones(station)}[who] == "UNKNOWN",
-        "all pages see it",
-    )
 
 
 @pytest.mark.long

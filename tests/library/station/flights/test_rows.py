@@ -33,17 +33,6 @@ def text(seen: MissionRow) -> str:
     return "" if seen["wait"] is None else seen["wait"]["text"]
 
 
-def test_a_mission_whose_last_trip_is_judged_has_not_ended() -> None:
-    seen = row(record_of("COMPLETED"), "judge = MissionEvaluator(hook: judge)")
-    assert (seen["status"], seen["at"]) == ("STANDBY", ["judge"])
-    assert text(seen) == "waits for what judge says"
-
-
-def test_a_mission_that_has_ended_is_at_the_end() -> None:
-    seen = recorded_row("a", record_of("COMPLETED", ended=True), lives=True)
-    assert (seen["status"], seen["at"], seen["wait"]) == ("COMPLETED", ["end"], None)
-
-
 TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
 
 

@@ -92,11 +92,3 @@ def test_the_readme_of_another_app_is_not_believed(made: Made, old: str, new: st
     text = (folder / "README.md").read_text(encoding="utf-8")
     (folder / "README.md").write_text(text.replace(old, new), encoding="utf-8")
     assert found(name) is None
-
-
-def test_metadata_that_cannot_be_read_is_no_graph(
-    made: Made, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """No matter what happened to it."""
-    installed(made, monkeypatch).write_bytes(b"\xff\xfe")
-    assert found(made[0]) is None

@@ -7,7 +7,6 @@ import os
 import shutil
 import time
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -20,7 +19,7 @@ from pluto_fleet.journal.store import Store
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
-from pluto_fleet.station.history.folder import recording_of, rehearsals_in
+from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.past import PastFlights
 from pluto_fleet.station.history.recording import Recording
 from tests.library.files.an_app import APP, POLLINATE
@@ -66,14 +65,6 @@ def frames_of(past: PastFlights, id: str) -> list[dict[str, Any]]:
         frames += part["frames"]
         start = part["next"]
     return frames
-
-
-def events_of(path: Path) -> Iterator[dict[str, Any]]:
-    store = Store.open(path)
-    try:
-        yield from store.read().events
-    finally:
-        store.close()
 
 
 def test_what_is_told_of_a_flight_is_what_its_journal_tells(tmp_path: Path, update: bool) -> None:
@@ -256,26 +247,6 @@ def test_a_damaged_recording_leaves_the_journal(tmp_path: Path) -> None:
     assert part["recorded"] is False
     assert "not recorded" in part["said"]
     assert part["frames"]
-
-
-def test_a_rehearsal_is_replayed_by_its_name(tmp_path: Path) -> None:
-    """It is no flight, so it is in no list."""
-    past = past_of(tmp_path)
-    folder = rehearsals_in(tmp_path / "station")
-    folder.mkdir()
-    recording = Recording(folder / "median.recording", begun_at=5)
-    recording.write(0.0, {"phase": "flying"}, [{"name": "A"}], [{"id": "cf1", "battery": 1.0}])
-    recording.tell({"number": 1, "text": "hello"})
-    recording.bring({"number": 1, "value": 3})
-    recording.finish()
-    part: Any = past.replay("median", 0.0)
-    assert part["frames"][0]["missions"] == [{"name": "A"}]
-    assert part["log"] == [{"number": 1, "text": "hello"}]
-    assert part["results"] == [{"number": 1, "value": 3}]
-    assert (part["begun_at"], part["recorded"], part["said"]) == (5, True, "")
-    assert past.flights() == []
-    with pytest.raises(BadInput, match="there is no flight"):
-        past.report("median")
 
 
 def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> None:

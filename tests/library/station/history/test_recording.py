@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 
 from pluto_fleet.station.history.frames import Shown
 from pluto_fleet.station.history.recorded import Recorded
-from pluto_fleet.station.history.recorder import Recorder, Sample
 from pluto_fleet.station.history.recording import MOVES_EVERY, Recording
 
 Scene = dict[str, Any]
@@ -77,17 +76,6 @@ def check(recorded: Recorded, scenes: Sequence[Scene]) -> None:
 
 
 slow = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=20)
-
-
-@slow
-@given(scenes=shown)
-def test_each_instant_is_replayed_as_it_was_shown(tmp_path: Path, scenes: list[Scene]) -> None:
-    """Rows that come, go, and gain and lose fields, too."""
-    path = file_of(tmp_path)
-    recording = Recording(path, begun_at=1)
-    write(recording, scenes)
-    recording.finish()
-    check(Recorded(path), scenes)
 
 
 @slow
@@ -183,20 +171,6 @@ def test_what_only_moves_is_kept_four_times_a_second(tmp_path: Path) -> None:
     }
 
 
-def test_a_disk_that_takes_nothing_ends_the_recording_with_a_sentence(tmp_path: Path) -> None:
-    """Whoever gives it more does not notice."""
-    said: list[str] = []
-    recorder = Recorder(tmp_path, begun_at=0, speed=1.0, troubled=said.append)
-    assert recorder.wait(60.0)
-    for t in range(1_000):
-        recorder.show(Sample(t=float(t), state={}, missions=[], drones=[]))
-        recorder.tell({"text": "x"}, after=0)
-    recorder.end()
-    [sentence] = said
-    assert sentence.startswith("this flight is not recorded any more")
-    assert str(tmp_path) in sentence
-
-
 def test_a_recording_that_becomes_too_large_ends_and_can_be_read(tmp_path: Path) -> None:
     path = file_of(tmp_path)
     recording = Recording(path, begun_at=0, largest=4_000)
@@ -208,19 +182,3 @@ def test_a_recording_that_becomes_too_large_ends_and_can_be_read(tmp_path: Path)
     recorded = Recorded(path)
     assert path.stat().st_size <= 4_000
     assert recorded.seconds > 0
-
-
-def test_a_recorder_that_is_ended_has_written_all_that_it_was_given(tmp_path: Path) -> None:
-    path = file_of(tmp_path)
-    said: list[str] = []
-    recorder = Recorder(path, begun_at=0, speed=1.0, troubled=said.append)
-    for t in range(50):
-        recorder.show(Sample(t=float(t), state={"phase": str(t)}, missions=[], drones=[]))
-    recorder.tell({"text": "the end"}, after=3)
-    recorder.end()
-    assert recorder.wait(60.0)
-    recorder.show(Sample(t=99.0, state={"phase": "later"}, missions=[], drones=[]))
-    recorded = Recorded(path)
-    assert not said
-    assert recorded.seconds == 49.0
-    assert list(recorded.said) == [({"text": "the end"}, 3)]

@@ -99,14 +99,6 @@ def test_a_file_that_was_changed_by_hand_counts(tmp_path: Path) -> None:
     assert "Bed 1" not in text(tmp_path)
 
 
-def test_two_pages_do_not_overwrite_each_other(tmp_path: Path) -> None:
-    drawn = ward(tmp_path)
-    asyncio.run(drawn.change(0, {"north": 3}))
-    with pytest.raises(StaleMap):
-        asyncio.run(drawn.change(0, {"north": 4}))
-    assert drawn.landmarks.north == 3.0
-
-
 @pytest.mark.parametrize("broken", ["[map", None, "[map]\nnorth = 'x'\n"])
 def test_a_file_that_cannot_be_read_any_more_is_not_replaced(
     tmp_path: Path, broken: str | None

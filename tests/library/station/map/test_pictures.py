@@ -86,14 +86,6 @@ def test_both_points_come_to_lie_where_they_are(
     assert there == pytest.approx([a + metres * r for a, r in zip(at, ray, strict=True)], abs=1e-6)
 
 
-def test_without_a_place_the_picture_begins_where_the_map_does() -> None:
-    """Upright; 100 pixels are 4 m, so 500 × 250 are 20 × 10 m."""
-    laid = calibration("x.png", (500.0, 250.0), (100.0, 50.0), (200.0, 50.0), 4.0)
-    assert (laid.at, laid.size, laid.turn) == ((0.0, 0.0), (20.0, 10.0), 0.0)
-    beside = calibration("x.png", (500.0, 250.0), (100.0, 50.0), (200.0, 50.0), 4.0, at=(5.0, 9.0))
-    assert (beside.at, beside.turn) == ((1.0, 1.0), 0.0)
-
-
 def test_a_turned_picture_is_turned_clockwise() -> None:
     """What leads to the right in it leads down on the map, if it is turned by 90 degrees."""
     laid = calibration("x", (100.0, 100.0), (0, 100), (100, 100), 10.0, at=(3, 3), towards=(3, 0))

@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
-from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.plan.missing import settled
 from pluto_fleet.station.plan.plan import MissionPlan
-from tests.library.files.an_app import APP
 from tests.library.station.plan.drawing import Json, a_plan, drawn, mission, trip
 
 ITEM = {"name": "box", "mass": 0.004}
-FLEET = replace(default_fleet(APP, 4), apart=0.0)
 PICK, RELEASE = "pick_item", "release_item"
 
 
@@ -70,53 +61,6 @@ def test_what_was_picked_and_not_released_is_picked_again(
 
 def ways(total: Any, key: str) -> int:
     return sum(one == key for one in total)
-
-
-@settings(max_examples=10, derandomize=True, deadline=None)
-@given(seed=st.integers(0, 1_000), share=st.sampled_from([0.1, 0.3, 0.6]))
-def test_after_random_failures_exactly_what_is_missing_flies_until_all_is_done(
-    seed: int, share: float
-) -> None:
-    plan = drawn(long("mission-one"), long("mission-two"), fleet=FLEET)
-    flown = list[tuple[str, str, str]]()
-    """Mission, trip and action of all that was done."""
-    only_failed = False
-    for life in range(60):
-        missions, keys = plan.launchable(only_failed=only_failed)
-        before = {(name, each) for name, each, _ in flown}
-        for one in missions:
-            for each in one.trips:
-                assert (one.name, each.name) not in before or each.action == PICK
-        plan.launched(keys, only_failed)
-        outcome = simulate(
-            APP,
-            missions,
-            FLEET,
-            seed=seed + life,
-            faults=Faults(action=share if life < 50 else 0.0),
-            until=None,
-            on_event=None,
-        )
-        stands = outcome.standing["missions"]
-        actions = {"2": PICK, "3": RELEASE, "4": PICK, "5": RELEASE}
-        for name, stand in stands.items():
-            names = [str(each["name"]) for each in stand["done"]]
-            flown += [(name, each, actions.get(each, "")) for each in names]
-        plan.settle(
-            {name: stand["status"] for name, stand in stands.items()},
-            {name: settled({**stand, "gone": []}) for name, stand in stands.items()},
-        )
-        ends: Any = plan.data()["missions"]
-        if all(one["ended"] == "COMPLETED" for one in ends):
-            break
-        only_failed = True
-    assert all(one["ended"] == "COMPLETED" for one in ends)
-    assert {(name, each) for name, each, _ in flown} == {
-        (name, str(number)) for name in ("mission-one", "mission-two") for number in range(1, 7)
-    }
-    for name, each, action in flown:
-        if action != PICK:
-            assert ways([(one, two) for one, two, _ in flown], (name, each)) == 1  # type: ignore[arg-type]
 
 
 def test_what_cannot_be_flown_again_alone_is_refused_in_words(tmp_path: Path) -> None:

@@ -95,32 +95,3 @@ def test_a_plan_is_handed_out_and_taken_in_again(tmp_path: Path) -> None:
     other = drawn()
     other.import_toml(text, other.revision)
     assert other.export_toml() == text
-
-
-def test_what_a_list_leaves_out_stays_the_default(tmp_path: Path) -> None:
-    """So that it is another one as soon as the app has another default."""
-    (tmp_path / "beds.csv").write_text("who,share\nAda,10 %\nBob,20 %\n")
-    text = """[[mission]]
-each = "beds.csv"
-name = "{who}"
-patient = "{who}"
-share = "{share}"
-[[mission.trip]]
-action = "measure"
-target = [1, 1]
-fragile = false
-warmth = "21 C"
-"""
-    plan = drawn()
-    plan.import_toml(text, plan.revision, folder=tmp_path)
-    data: Any = plan.data()["missions"]
-    assert [(one["patient"], one["share"]) for one in data] == [("Ada", 0.1), ("Bob", 0.2)]
-    assert "margin" not in data[0] and "layers" not in data[0]["trips"][0]
-
-
-def test_the_example_has_them() -> None:
-    plan = drawn()
-    plan.example(plan.revision)
-    assert said(plan) == [] and not plan.is_empty
-    missions, _ = plan.launchable()
-    assert missions

@@ -19,16 +19,6 @@ def keys_of(plan: MissionPlan) -> list[str]:
     return [one["key"] for one in missions]
 
 
-def test_a_change_of_an_old_plan_is_refused() -> None:
-    """The page that drew it draws it again on the new one."""
-    plan = a_plan()
-    old = plan.revision
-    plan.replace(old, [mission("mission-one")])
-    with pytest.raises(Stale, match=f"it is at {plan.revision}, not at {old}"):
-        plan.replace(old, [mission("mission-two")])
-    assert keys_of(plan) == ["mission-one"]
-
-
 def test_what_is_there_already_may_be_said_again() -> None:
     """An answer may have been lost on its way: nothing is done twice, and no page is refused."""
     plan = a_plan()

@@ -82,13 +82,6 @@ def test_a_quantity_that_was_not_named_is_the_usual_one() -> None:
     assert found["values"] == [{"quantity": "temperature", "value": 21.0, "unit": "°C"}]
 
 
-def test_an_undeclared_unit_is_not_made_up() -> None:
-    """What a real drone's sensor gives has the unit of its sensor, which is not known here."""
-    [unknown] = told("measure", 21.0, {})["values"]
-    [radon] = told("measure", 3.0, dict(UNITS), quantity="radon")["values"]
-    assert (unknown["unit"], radon["unit"]) == (None, None)
-
-
 def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a_parameter() -> (
     None
 ):
@@ -138,11 +131,6 @@ def test_a_photo_has_an_address_where_its_camera_has_left_a_picture() -> None:
         assert isinstance(found, dict)
         value: Any = found["value"]
         assert (found["kind"], value["sees"], value["picture"]) == ("photo", ["bloom"], picture)
-
-
-def test_an_action_that_returned_nothing_was_done_all_the_same() -> None:
-    assert shown(None) == (None, None)
-    assert shown(None, "release_item") == (None, None)
 
 
 def test_a_long_text_is_downloaded_whole_and_shown_in_part() -> None:

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from pluto_fleet.shared.domain.actions import BUILT_IN
+from pluto_fleet.shared.domain.model import Photo
+from pluto_fleet.shared.hooks.plain_data import value_data
 from pluto_fleet.station.results.flights import Brought, FlightResults
 from pluto_fleet.station.results.meaning import Meanings
 from pluto_fleet.station.results.rows import ResultRows
@@ -47,6 +51,17 @@ def test_a_row_says_what_where_when_and_in_which_unit() -> None:
     assert line["wall"] == "2023-11-14T22:13:20.250+00:00"
     assert (line["quantity"], line["value"], line["unit"]) == ("pm10", "-3.5", "")
     assert (line["x"], line["y"], line["z"], line["place"]) == ("3.0", "4.5", "1.2", "Bed 3")
+
+
+def test_a_photo_is_the_ground_that_it_shows() -> None:
+    """A closed ring, counter-clockwise, with the photo's area."""
+    did = {"action": "take_photo", "target": [3.0, 4.5, 1.2], "parameters": {}}
+    photo = Photo(position=(3.0, 4.5, 1.2), width=2.0, height=1.0, sees=("bloom",))
+    collection: Any = geojson(a_flight(did=did, result=value_data(photo)), "field")
+    [feature] = collection["features"]
+    [ring] = feature["geometry"]["coordinates"]
+    assert ring[0] == ring[-1]
+    assert sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2 == pytest.approx(2.0)
 
 
 def test_coordinates_of_the_map_are_not_passed_off_as_degrees() -> None:

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
-from itertools import pairwise
 from random import Random
 from typing import Any
 
@@ -18,7 +14,6 @@ from pluto_fleet.station.config import layers
 from pluto_fleet.station.results.flights import Brought, ResultsOfFlights
 from pluto_fleet.station.results.heat import Sample, heat_at, newest
 from pluto_fleet.station.results.mosaic import on_top
-from pluto_fleet.station.results.tables import COLUMNS, cells, csv_text, from_cell, geojson
 from tests.library.station.results.flying import Flown, flown, truth
 
 PLACES = 100
@@ -122,50 +117,6 @@ def test_findings_are_those_of_the_app_alone(flights: Flights) -> None:
     assert {*found} <= kinds
     assert not any(one.result["tags"] for one in site.results.rows)  # it shows photos only
     assert "take_photo:findings" not in [one["id"] for one in layers(site.app, sim=True)]
-
-
-def test_a_dose_is_no_measurement(flights: Flights) -> None:
-    doses = [
-        one.result for one in flights(FIELD).results.rows if one.result["action"] == "pollinate"
-    ]
-    assert doses
-    assert all((one["kind"], one["values"], one["layers"]) == ("handling", [], []) for one in doses)
-
-
-@pytest.mark.parametrize("name", ["pm10", SITE, FIELD])
-def test_files_read_back_say_the_same(name: str, flights: Flights) -> None:
-    flight = flights(name)
-    rows = list(cells(flight.results))
-    assert len(rows) >= len(flight.results.rows) > 0
-    header, *lines = csv.reader(io.StringIO(csv_text(rows).removeprefix("\ufeff"), newline=""))
-    assert tuple(header) == COLUMNS
-    read = [[from_cell(cell) for cell in line] for line in lines]
-    assert read == [[_text(row[name]) for name in COLUMNS] for row in rows]
-
-    features: Sequence[Any] = json.loads(json.dumps(geojson(flight.results, name)))["features"]
-    assert [one["id"] for one in features] == [r["number"] for r in rows if r["x"] is not None]
-    placed = [row for row in rows if row["x"] is not None]
-    for feature, row in zip(features, placed, strict=True):
-        given = feature["properties"]
-        assert (given["quantity"], given["value"]) == (row["quantity"], row["value"])
-        assert "; ".join(given["tags"]) == row["tags"]
-        if feature["geometry"]["type"] == "Point":
-            assert feature["geometry"]["coordinates"] == [row["x"], row["y"], row["z"]]
-        else:
-            [ring] = feature["geometry"]["coordinates"]
-            assert ring[0] == ring[-1]
-            assert _area(ring) == pytest.approx(
-                float(row["width"] or 0) * float(row["height"] or 0)
-            )
-
-
-def _text(value: object) -> str:
-    return "" if value is None else str(value)
-
-
-def _area(ring: Sequence[Sequence[float]]) -> float:
-    """Return the area of a ring: above 0 if it goes counter-clockwise."""
-    return sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2
 
 
 def test_there_is_nothing_of_flights_that_are_not_there(flights: Flights) -> None:

@@ -169,10 +169,6 @@ def test_a_station_can_be_installed_as_a_program() -> None:
         assert icon["sizes"] == "any"
 
 
-def test_a_floor_plan_that_is_gone_is_not_there(tmp_path: Path) -> None:
-    assert asked(AStation(image=tmp_path / "gone.png"))("GET", "/map").status == 404
-
-
 NO_PICTURES = [
     ".",
     "missions.toml",
@@ -204,6 +200,10 @@ def test_a_fleet_file_names_no_file_but_a_picture_beside_it(tmp_path: Path, name
         floor_plan(folder, name)
     with pytest.raises(BadInput, match=r"map\.image"):
         floor_plan(folder, str(tmp_path / "outside.png"))
+
+
+def test_a_floor_plan_that_is_gone_is_not_there(tmp_path: Path) -> None:
+    assert asked(AStation(image=tmp_path / "gone.png"))("GET", "/map").status == 404
 
 
 def test_a_picture_may_lie_deeper_or_be_linked_to_beside_it(tmp_path: Path) -> None:

@@ -64,15 +64,7 @@ def test_a_body_that_is_too_long_is_not_read() -> None:
     play(scene)
 
 
-STRANGE_PATHS = (
-    "/pages/..%2f..%2fhttp.py",
-    "/pages/%2e%2e/%2e%2e/http.py",
-    "/pages/main.js%00",
-    "//etc/passwd",
-    "/%ff%fe",
-    "http://evil.example/pages/../http.py",
-    "/nowhere?" + "&".join(f"a{n}=1" for n in range(100)),
-)
+STRANGE_PATHS = ("/pages/..%2f..%2fhttp.py", "/pages/main.js%00", "//etc/passwd", "/%ff%fe")
 NO_HTTP = (
     b"\r\n\r\n\r\n\r\n",
     b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(range(256)),
@@ -171,19 +163,6 @@ def test_strangers_keep_out_no_client_with_the_token() -> None:
     play(scene, token="sesame")
 
 
-def test_tabs_without_the_token_that_say_nothing_keep_out_no_page_with_it() -> None:
-    async def scene(station: Served) -> None:
-        where = f"ws://{station.host}/api/live"
-        silent = [await connect(where, origin=station.origin) for _ in range(40)]
-        async with connect(where, origin=station.origin) as page:
-            await page.send(json.dumps({**SEEN, "token": "sesame"}))
-            assert json.loads(await page.recv())["version"] == 1
-        for each in silent:
-            await each.close()
-
-    play(scene, token="sesame")
-
-
 def test_a_page_stays_connected() -> None:
     async def scene(station: Served) -> None:
         where = f"ws://{station.host}/api/live"
@@ -213,21 +192,6 @@ def test_a_page_of_another_site_does_not_get_connected(path: str) -> None:
                     pass
             assert refused.value.response.status_code == 403
         assert station.station.untouched and station.station.told == 0
-
-    play(scene)
-
-
-def test_who_asks_and_does_not_read_costs_nothing_and_hears_all_of_it_later() -> None:
-    async def scene(station: Served) -> None:
-        async with connect(
-            f"ws://{station.host}/api/live", origin=station.origin, max_queue=1
-        ) as page:
-            for _ in range(10):
-                await page.send(json.dumps(SEEN))
-            await station.stop()
-            assert [json.loads(await page.recv())["version"] for _ in range(10)] == list(
-                range(1, 11)
-            )
 
     play(scene)
 

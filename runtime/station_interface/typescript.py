@@ -13,7 +13,7 @@ _PLAIN = {
     "boolean": "boolean",
     "null": "null",
 }
-_HEAD = "// Made from pluto_fleet/station/wire.py by `python -m tests.library.station.schema`: change that.\n"
+_HEAD = "// Made from pluto_fleet/station/wire.py by `python -m station_interface`: change that.\n"
 
 
 def declarations(description: Schema) -> str:

@@ -9,14 +9,13 @@ import pytest
 from openapi_spec_validator import validate
 
 from pluto_fleet.station.web.reads import DESCRIPTION
+from station_interface.made import made
 from tests.library.station.server.asking import asked
-
-from .made import made
 
 
 @pytest.mark.parametrize(("file", "text"), made().items(), ids=[file.name for file in made()])
 def test_what_is_made_from_the_types_of_the_wire_is_current(file: Path, text: str) -> None:
-    """`python -m tests.library.station.schema` makes it anew."""
+    """`python -m station_interface` makes it anew."""
     assert file.read_text(encoding="utf-8") == text
 
 

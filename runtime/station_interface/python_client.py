@@ -14,7 +14,7 @@ from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.reads import TOML
 from pluto_fleet.station.web.results import GEOJSON
 
-_HEAD = '''"""Every address of a station as a method; made by `python -m tests.library.station.schema`."""
+_HEAD = '''"""Every address of a station as a method; made by `python -m station_interface`."""
 
 from __future__ import annotations
 

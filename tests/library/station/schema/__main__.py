@@ -1,9 +1,0 @@
-"""`python -m tests.library.station.schema`: write what is made from the types of the wire."""
-
-from argparse import ArgumentParser
-
-from .made import made
-
-ArgumentParser(prog="python -m tests.library.station.schema", description=__doc__).parse_args()
-for file, text in made().items():
-    file.write_text(text, encoding="utf-8")
