@@ -10,7 +10,7 @@ from pluto_fleet.gateway.gateway import Link
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.shared.domain.errors import Failure
 from tests.library.gateway.flights import THERE, Field, Task
-from tests.library.simulation.flights import fly
+from tests.library.simulation.flights import failure, fly
 
 HOME = [1, 1, 0.0]
 ABOVE = [1, 1, 1.2]
@@ -59,6 +59,13 @@ def test_what_is_broken_off_or_fails_is_told_as_that() -> None:
     ends = {(one["drone"], one["what"]): (one["ended"], one["seconds"]) for one in told}
     assert ends["cf1", "leg"] == ("broken off", pytest.approx(2.0))
     assert ends["cf2", "leg"] == ("failed", pytest.approx(2.0))
+
+
+def test_a_command_that_moves_nothing_is_no_measurement() -> None:
+    field, link, told = measured()
+    assert failure(field.kernel, link.go_to("cf1", THERE)).failure is Failure.REFUSED
+    fly(field.kernel, link.land("cf1"))
+    assert told == []
 
 
 def test_only_the_brain_in_command_is_told_and_it_need_not_listen() -> None:

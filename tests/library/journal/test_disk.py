@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from itertools import count
 from pathlib import Path
 
@@ -104,3 +105,36 @@ def test_where_there_is_too_little_room_no_part_of_a_journal_is_made(
     with full_disk(room), pytest.raises(JournalError, match="cannot be opened: the disk"):
         Store.open(path)
     assert os.listdir(tmp_path) == ["J"]
+
+
+@pytest.fixture
+def mounted(tmp_path: Path) -> Iterator[Path]:
+    """A file system of its own."""
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    mount = ["mount", "-t", "tmpfs", "tmpfs", str(disk)]
+    if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
+        pytest.skip("a file system can be mounted here by root alone")
+    yield disk
+    subprocess.run(["umount", disk], check=True)
+
+
+@pytest.mark.long
+def test_in_a_folder_that_may_only_be_read_a_journal_is_read_and_nothing_else(
+    mounted: Path,
+) -> None:
+    """Of an app that was killed: its log is still there."""
+    process = appender(mounted / "J")
+    assert process.stdout is not None
+    process.stdout.readline()
+    process.kill()
+    process.communicate()
+    (mounted / "J-shm").unlink()
+    subprocess.run(["mount", "-o", "remount,ro", mounted], check=True)
+    assert rows_of(mounted / "J")
+    with pytest.raises(
+        JournalError, match=r"cannot be made: .*; name another place with --journal"
+    ):
+        Store.create(mounted / "another", {})
+    with pytest.raises(JournalError, match="the journal cannot be opened"):
+        Store.open(mounted / "J")
