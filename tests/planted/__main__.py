@@ -88,11 +88,11 @@ def drawn(rooms: Sequence[str], count: int, seed: int) -> list[Bug]:
     found: list[Bug] = []
     while turns and len(found) < count:
         for turn in [*turns]:
-            bug = next(turn, None)
-            if bug is None:
+            another = next(turn, None)
+            if another is None:
                 turns.remove(turn)
             elif len(found) < count:
-                found.append(bug)
+                found.append(another)
     return found
 
 
