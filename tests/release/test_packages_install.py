@@ -20,12 +20,9 @@ from tests.release.environments import Finished, compile_app, fresh, run, succee
 
 WITH_PROMISES = ROOT / "examples/night_round"
 """Its plan says what only the library reads."""
-EXAMPLES = sorted({path.parent for path in ROOT.glob("examples/*/app.pluto")} - {WITH_PROMISES})
 ALONE = ROOT / "examples/alfalfa"
-OTHERS = [
-    one for one in EXAMPLES if one != ALONE and not one.name.startswith("drugs_distribution_")
-]
-"""Two more differ from one of these by a block."""
+OTHERS = [ROOT / "examples/object_finder", ROOT / "examples/pm10"]
+"""All others have the blocks of one of these, or are flown by the tests below."""
 OURS = str(Path(pytest.__file__).parents[1])
 """Where pytest and what the extras bring are installed for these tests; the library is not there."""
 
@@ -38,50 +35,52 @@ NEEDING = (
 )
 
 
-@pytest.mark.parametrize(
-    "examples",
-    [
-        pytest.param([ALONE], id=ALONE.name),
-        pytest.param(OTHERS, id="others"),
-    ],
-)
-def test_examples_stand_alone_and_fly_with_the_library(
-    examples: list[Path], library: Path, tmp_path: Path
-) -> None:
-    """One in an environment of its own, and the others in one together."""
-    packages = [compile_app(one / "app.pluto", tmp_path / one.name) for one in examples]
+def test_an_example_stands_alone_and_flies_with_the_library(library: Path, tmp_path: Path) -> None:
+    """What needs the library says so before it is installed, and once it is gone."""
+    package = compile_app(ALONE / "app.pluto", tmp_path / ALONE.name)
     programs = fresh(tmp_path / "venv")
     before = installed(programs)
-    succeed(programs / "pip", "install", "--quiet", *packages)
-    assert installed(programs) - before == {one.name.replace("_", "-") for one in examples}
+    succeed(programs / "pip", "install", "--quiet", package)
+    assert installed(programs) - before == {ALONE.name}
+    program = programs / ALONE.name
 
-    alone = [flies_alone(programs, example) for example in examples]
-    for package in packages:
-        own_tests_pass(programs, package)
+    alone = flies_alone(program, ALONE)
+    assert succeed(program, "check", *plan_of(ALONE))
+    for words in NEEDING:
+        missing(run(program, *words, cwd=ALONE), words[0])
+    own_tests_pass(programs, package)
 
     succeed(programs / "pip", "install", "--quiet", library)
-    for example in examples:
-        flies_with_the_library(programs, example, state=str(tmp_path / "state" / example.name))
+    flies_with_the_library(program, ALONE, state=str(tmp_path / "state"))
 
     succeed(programs / "pip", "uninstall", "--quiet", "--yes", "pluto-fleet")
-    assert [simulated(programs / example.name, example) for example in examples] == alone
-    for example in examples:
-        missing(run(programs / example.name, "fly", "missions.toml", cwd=example), "fly")
+    assert simulated(program, ALONE) == alone
+    missing(run(program, "fly", "missions.toml", cwd=ALONE), "fly")
 
 
-def flies_alone(programs: Path, example: Path) -> dict[str, Any]:
-    """Return what it says of its simulation; what else needs the library, says so."""
-    alone = simulated(programs / example.name, example)
+def test_other_examples_do_so_together(library: Path, tmp_path: Path) -> None:
+    """In one environment: none is in another's way."""
+    packages = [compile_app(one / "app.pluto", tmp_path / one.name) for one in OTHERS]
+    programs = fresh(tmp_path / "venv")
+    succeed(programs / "pip", "install", "--quiet", *packages)
+    for example, package in zip(OTHERS, packages, strict=True):
+        flies_alone(programs / example.name, example)
+        own_tests_pass(programs, package)
+    succeed(programs / "pip", "install", "--quiet", library)
+    for example in OTHERS:
+        state = str(tmp_path / "state" / example.name)
+        flies_with_the_library(programs / example.name, example, state)
+
+
+def flies_alone(program: Path, example: Path) -> dict[str, Any]:
+    """Return what it says of its simulation without the library."""
+    alone = simulated(program, example)
     assert {mission["status"] for mission in alone["missions"]} == {"COMPLETED"}
     assert "alone" in alone["world"]
-    assert succeed(programs / example.name, "check", *plan_of(example))
-    for words in NEEDING:
-        missing(run(programs / example.name, *words, cwd=example), words[0])
     return alone
 
 
-def flies_with_the_library(programs: Path, example: Path, state: str) -> None:
-    program = programs / example.name
+def flies_with_the_library(program: Path, example: Path, state: str) -> None:
     together = simulated(program, example)
     assert {mission["status"] for mission in together["missions"]} == {"COMPLETED"}
     assert "world" not in together

@@ -41,10 +41,13 @@ def app(here: Path) -> Path:
     return Path("crop.pluto")
 
 
+FOLDER = b"a folder"
+
+
 def tree(folder: Path) -> dict[str, bytes]:
     """Return every file below a folder; links and folders by their kind."""
     return {
-        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else b"a folder"
+        path.relative_to(folder).as_posix(): path.read_bytes() if path.is_file() else FOLDER
         for path in sorted(folder.rglob("*"))
         if "__pycache__" not in path.parts
     }

@@ -96,7 +96,7 @@ def test_what_compile_shows_leaves_standard_output_to_the_report(
 ) -> None:
     """A program reads that; what is shown goes to standard error."""
     app.write_text(WARNED)
-    for flags in (["--diff"], ["--show", "plan"], ["--show", "graph"]):
+    for flags in (["--diff"], ["--show", "graph"]):
         text = plutoc("compile", app, *flags)
         said = plutoc("compile", app, *flags, "--format", name)
         assert said.code == text.code == 0

@@ -34,21 +34,18 @@ def app(app: Path) -> Path:
 
 
 def told(app: Path) -> list[str]:
-    """Compile, which succeeds; return what is told, twice, of which functions."""
-    found = []
-    for _ in range(2):
-        said = plutoc("compile", app, "--format", "json")
-        assert (said.code, said.err) == (0, "")
-        found.append([json.loads(line)["message"].split()[0] for line in said.out.splitlines()])
-    assert found[0] == found[1]
-    return found[0]
+    """Compile, which succeeds; return of which functions something is told."""
+    said = plutoc("compile", app, "--format", "json")
+    assert (said.code, said.err) == (0, "")
+    return [json.loads(line)["message"].split()[0] for line in said.out.splitlines()]
 
 
 def test_a_probe_is_told_of_also_where_its_action_has_gone_before(app: Path) -> None:
     """Or has become a hook of another kind."""
     HOOKS.write_text(CODE + DONE)
     app.write_text(NO_ACTION)
-    assert told(app) == ["`pollinate`", "`pollinate_done`"]
+    for _ in range(2):  # for as long as it is there
+        assert told(app) == ["`pollinate`", "`pollinate_done`"]
     HOOKS.write_text(CODE.replace("pollinate", "_mine") + DONE)
     assert told(app) == ["`pollinate_done`"]
     app.write_text(APP)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from difflib import SequenceMatcher
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
-from tests.compiler.cli.conftest import APP, tree
+from tests.compiler.cli.conftest import APP, FOLDER, tree
 from tests.kit.command import command, plutoc
 
 FLOW, LOCK = Path("crop/src/crop/flow.py"), Path("crop/pluto.lock")
@@ -30,6 +32,16 @@ def changed(*edits: Edit) -> str:
     return text
 
 
+@cache
+def package_of(text: str) -> dict[str, bytes]:
+    """Return the files of an app's package, compiled once for all tests."""
+    with TemporaryDirectory() as folder:
+        app, package = Path(folder, "crop.pluto"), Path(folder, "crop")
+        app.write_text(text)
+        assert plutoc("compile", app, "-o", package).code == 0
+        return tree(package)
+
+
 def conflict(base: list[str], ours: list[str], theirs: list[str], style: str) -> str:
     """Return the lines of two sides with the marks of Git around those that differ."""
     middle = ["||||||| base\n", *base] if style == "diff3" else []
@@ -50,10 +62,11 @@ def merge(
 
     The file `alone` is left as it is on our side.
     """
-    for name, edits in (("base", ()), ("theirs", (theirs,)), ("crop", (ours,))):
-        app.write_text(changed(*edits))
-        assert plutoc("compile", app, "-o", name).code == 0
-    sides = [tree(Path(name)) for name in ("base", "crop", "theirs")]
+    sides = [dict(package_of(changed(*edits))) for edits in ((), (ours,), (theirs,))]
+    for name, data in sides[1].items():
+        if data != FOLDER:
+            Path("crop", name).parent.mkdir(parents=True, exist_ok=True)
+            Path("crop", name).write_bytes(data)
     for side in sides:
         for own in OWN:
             del side[own]
@@ -71,8 +84,7 @@ def merge(
 
 def assert_is_as_new(app: Path) -> None:
     """Compare the package with one that is compiled anew, but for what is the developer's."""
-    assert plutoc("compile", app, "-o", "fresh").code == 0
-    found, wanted = tree(Path("crop")), tree(Path("fresh"))
+    found, wanted = tree(Path("crop")), dict(package_of(app.read_text()))
     for own in OWN:
         assert found.pop(own).startswith(wanted.pop(own).partition(b"\n")[0])
     assert found == wanted

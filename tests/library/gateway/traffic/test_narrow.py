@@ -11,10 +11,7 @@ from narrow_places import PLACES, Place, flown, longest_wait
 
 @pytest.mark.parametrize("is_real", [False, True])
 @pytest.mark.parametrize("kind", PLACES)
-@pytest.mark.parametrize(
-    ("seed", "drones"),
-    [(2, 4), *(pytest.param(*case, marks=pytest.mark.long) for case in ((1, 8), (0, 14)))],
-)
+@pytest.mark.parametrize(("seed", "drones"), [(2, 4), pytest.param(0, 14, marks=pytest.mark.long)])
 @pytest.mark.parametrize("stays", [(0.0, 2.0, 10.0), (0.0, 240.0)])
 def test_none_waits_longer_than_those_before_it_fly(
     kind: Callable[[float, float], Place],
