@@ -66,14 +66,6 @@ def test_a_start_is_refused_that_was_asked_for_on_another_plan(serve: Serve) -> 
     assert station.phase == "idle"
 
 
-def test_a_command_that_is_repeated_under_its_name_is_carried_out_once(serve: Serve) -> None:
-    station = serve().flying()
-    skip: dict[str, object] = {"id": "the-same", "mission": "Mission 1", "trip": "C"}
-    first, again = station.post("/api/skip", skip), station.post("/api/skip", skip)
-    assert first == again and first[0] == 200
-    assert len(station.events("trip.skipped")) == 1
-
-
 def test_all_fly_home_by_a_stop_and_go_on_where_they_were(serve: Serve) -> None:
     """The clock does not go back meanwhile, though the drones are down."""
     station = serve(speed=3.0).flying()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,8 +13,12 @@ import pytest
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.map.drawn import DrawnMap, StaleMap
+from pluto_fleet.station.station import Station
 from tests.library.files.an_app import APP
+from tests.library.station.plan.drawing import FLEET as PLAIN_FLEET
+from tests.library.station.plan.drawing import a_plan
 
 SVG = b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 2 1"/>'
 FLEET = """\
@@ -180,3 +185,23 @@ def test_a_floor_plan_that_cannot_be_named_is_not_left_behind(tmp_path: Path) ->
     with pytest.raises(BadInput, match=r"write the line \[map\]"):
         asyncio.run(drawn.take_picture(drawn.revision, "x", SVG))
     assert sorted(file.name for file in tmp_path.iterdir()) == ["fleet.toml", "ward.svg"]
+
+
+def test_all_pages_learn_of_a_new_map(tmp_path: Path) -> None:
+    """By its revision in what they are told; its names are known to plans that are taken in."""
+    config = StationConfig(folder=tmp_path, fleet=PLAIN_FLEET, faults={})
+    config.own_folder.mkdir()
+    station = Station(APP, config, a_plan())
+    station.begin()
+
+    async def scene() -> list[int]:
+        first = json.loads(await station.newer("", 0, 0, 0))
+        place = {"name": "Desk", "x": 1, "y": 2}
+        await station.map.change(station.map.revision, {"places": [place]})
+        second = json.loads(await station.newer("", first["version"], 0, 0))
+        return [first["state"]["map"], second["state"]["map"]]
+
+    before, after = asyncio.run(scene())
+    assert after == before + 1
+    assert station.plan.landmarks.place == {"Desk": (1.0, 2.0)}
+    assert Station(APP, config, a_plan()).plan.landmarks == station.plan.landmarks

@@ -59,21 +59,7 @@ def test_a_plan_is_a_missions_file(tmp_path: Path) -> None:
     assert file.stat().st_mode & 0o077 == 0
 
 
-NO_NAMES = (
-    "",
-    " ",
-    "../x",
-    "a/b",
-    "a\\b",
-    ".hidden",
-    "..",
-    "a\0",
-    "a\n",
-    "a:b",
-    "C:",
-    81 * "x",
-    150 * "é",
-)
+NO_NAMES = ("", " ", "../x", "a\\b", ".hidden", "a\0", "a\n", "C:", 81 * "x", 150 * "é")
 
 
 @pytest.mark.parametrize("name", NO_NAMES)

@@ -6,10 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-import pytest
-
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig, described
 from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.plan.plan import MissionPlan
@@ -49,18 +46,6 @@ def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> Non
     json.dumps(fields)
 
 
-def test_what_must_be_filled_in_is_shown_as_missing() -> None:
-    """Beside its field, by its label; as long as it is missing nothing starts."""
-    plan = drawn(mission("mission-one", trip("trip-one-1", action="measure")))
-    assert said(plan) == [
-        ("mission-one", None, "patient", "Patient is not filled in yet"),
-        ("mission-one", "trip-one-1", "fragile", "Fragile is not filled in yet"),
-        ("mission-one", "trip-one-1", "warmth", "Warmth is not filled in yet"),
-    ]
-    with pytest.raises(BadInput, match="Patient is not filled in yet"):
-        plan.launchable()
-
-
 def test_a_value_of_each_type_can_be_typed() -> None:
     """As a person writes it; it is launched in SI units."""
     plan = drawn(whole(margin="3 min", share="40 %", urgent=True))
@@ -70,28 +55,3 @@ def test_a_value_of_each_type_can_be_typed() -> None:
     assert (ready.patient, ready.margin, ready.share, ready.urgent) == ("Ada", 180.0, 0.4, True)
     (flown,) = ready.trips
     assert (flown.fragile, flown.warmth, flown.layers, flown.note) == (False, 294.15, 1, "")
-
-
-@pytest.mark.parametrize(
-    ("given", "says"),
-    [
-        ({"margin": "3 m"}, 'Margin "3 m" is a length, not a time: it takes ms, s, min, h'),
-        ({"share": "x"}, 'Share "x" is not a percent: write a number and a unit (%)'),
-        ({"urgent": "yes"}, 'Urgent "yes" is neither true nor false'),
-    ],
-)
-def test_what_is_wrong_is_said_beside_its_field(given: dict[str, object], says: str) -> None:
-    (one,) = said(drawn(whole(**given)))
-    assert one == ("mission-one", None, next(iter(given)), says)
-
-
-def test_a_plan_is_handed_out_and_taken_in_again(tmp_path: Path) -> None:
-    """And kept in between: as it was typed."""
-    plan = drawn(whole(margin="3 min", urgent=True), keep=tmp_path / "plan.json")
-    text = plan.export_toml()
-    assert 'patient = "Ada"' in text and 'margin = "3 min"' in text and "fragile = false" in text
-    again = MissionPlan(OWN, FLEET, tmp_path / "plan.json", now=lambda: 0.0)
-    assert again.export_toml() == text
-    other = drawn()
-    other.import_toml(text, other.revision)
-    assert other.export_toml() == text

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.app import App
 from pluto_fleet.cli.runs import spread
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
@@ -17,7 +16,7 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.trials.case import fresh
-from tests.kit.apps import Example
+from tests.kit.apps import example
 from tests.library.station.plan.drawing import mission, trip
 from tests.library.station.preflight.asking import (
     FLEET,
@@ -60,26 +59,22 @@ def test_with_full_batteries_it_is_what_simulate_says_of_as_many_runs(
     assert 0.0 < (forecast["lowest_battery"] or 0.0) < 1.0
 
 
-def in_the_hall(
-    warehouse: tuple[App, Example], folder: Path, level: float, out: Sequence[str] = ()
-) -> Forecast:
-    """Forecast the example's missions, with all batteries at one level."""
-    app, example = warehouse
+def in_the_hall(folder: Path, level: float, out: Sequence[str] = ()) -> Forecast:
+    """Forecast the missions of an example with light drones and lifters, all batteries at one level."""
+    hall = example("warehouse_item_finder")
     asked = Question(
-        app=moving(app, example.fleet.motion),
-        fleet=example.fleet,
-        missions=example.missions,
-        present=present(example.fleet, level, out),
+        app=moving(hall.app, hall.fleet.motion),
+        fleet=hall.fleet,
+        missions=hall.missions,
+        present=present(hall.fleet, level, out),
         faults=Faults(),
         runs=3,
     )
     return answer(asked, folder)
 
 
-def test_low_batteries_lengthen_it_and_it_says_what_waits_for_them(
-    warehouse: tuple[App, Example], tmp_path: Path
-) -> None:
-    full, low = (in_the_hall(warehouse, tmp_path, level) for level in (1.0, 0.2))
+def test_low_batteries_lengthen_it_and_it_says_what_waits_for_them(tmp_path: Path) -> None:
+    full, low = (in_the_hall(tmp_path, level) for level in (1.0, 0.2))
     assert full["median"] is not None and low["median"] is not None
     assert low["median"] > full["median"]
     assert all(one["ready"] for one in full["drones"])
@@ -107,10 +102,8 @@ def test_a_drone_that_is_lost_flies_nothing_and_the_others_take_longer(tmp_path:
         answer(question(*THREE, drones=SCOUTS[:1], out=[SCOUTS[0].id]), tmp_path)
 
 
-def test_it_names_the_drones_that_are_too_few(
-    warehouse: tuple[App, Example], tmp_path: Path
-) -> None:
-    forecast = in_the_hall(warehouse, tmp_path, 1.0, ["lifter2"])
+def test_it_names_the_drones_that_are_too_few(tmp_path: Path) -> None:
+    forecast = in_the_hall(tmp_path, 1.0, ["lifter2"])
     (few,) = [one for one in forecast["bottlenecks"] if one["key"] == "preflight.few-lift"]
     assert few["text"] == "1 of 6 missions waits for the one drone that can lift 38 g"
     assert few["facts"]["drones"] == ["lifter1"]

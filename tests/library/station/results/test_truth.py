@@ -3,22 +3,67 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 
+from pluto_fleet.app import App
+from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import layers
-from pluto_fleet.station.results.flights import Brought, ResultsOfFlights
+from pluto_fleet.station.results.flights import Brought, FlightResults, ResultsOfFlights
 from pluto_fleet.station.results.heat import Sample, heat_at, newest
 from pluto_fleet.station.results.mosaic import on_top
-from tests.library.station.results.flying import Flown, flown, truth
+from tests.kit.apps import example
+from tests.library.station import in_process
+
+SEED = 3
+
 
 PLACES = 100
 ERROR = 0.006
 """The largest error of a simulated sensor, as a share: six times its standard deviation."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Flown:
+    """A flight that is over."""
+
+    app: App
+    world: World
+    """The world without the errors of its sensors: `truth` of them."""
+    size: tuple[float, float]
+    results: FlightResults
+
+
+def flown(name: str, folder: Path) -> Flown:
+    """Fly an example's missions to their end, and read their results off the journal."""
+    with pytest.MonkeyPatch.context() as patch, in_process.world(patch) as here:
+        options = {"seed": SEED, "speed": 200.0}
+        station = in_process.Flown(world=here, name=name, folder=folder, options=options)
+        station.tell("start")
+        station.comes_to("over")
+        [journal] = station.journals()
+    app, fleet = example(name).app, example(name).fleet
+    return Flown(
+        app=app,
+        world=World(SEED, fleet.airspace, fleet.world),
+        size=fleet.airspace.size,
+        results=ResultsOfFlights(app, folder).of(journal.stem),
+    )
+
+
+def truth(world: World, quantity: str, x: float, y: float) -> float:
+    """Return what the world holds at a place, without the error of a sensor."""
+    value = world.background.get(quantity, 0.0)
+    for source in world.sources:
+        if source.quantity == quantity:
+            value += source.at_distance(x - source.at[0], y - source.at[1])
+    return value
 
 
 @pytest.fixture(scope="module")

