@@ -27,21 +27,6 @@ CRASHES = ("--fail", "crash=30%", "--seed", 10)
 
 
 @pytest.mark.long
-def test_what_the_runs_took_is_a_table(missions: Path, command: Command) -> None:
-    """Makespan, flights, failures and the lowest battery, from the few to the many."""
-    out = command("simulate", missions, "--runs", 20, *CRASHES)[1]
-    table = out.split("\n\n")[1].splitlines()
-    assert table[0].split() == ["p5", "median", "p95"]
-    assert [line.split("  ")[0] for line in table[1:]] == [
-        "completed missions",
-        "makespan",
-        "flights",
-        "failed flights",
-        "lowest battery",
-    ]
-
-
-@pytest.mark.long
 def test_few_runs_say_that_they_are_few(missions: Path, command: Command) -> None:
     """And a single one has no percentiles at all."""
     few = command("simulate", missions, "--runs", 3, *CRASHES)[1]
