@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Iterator, Sequence
 from types import NoneType, UnionType
-from typing import Any, Literal, NotRequired, Union, get_args, get_origin, get_type_hints
-
-import black
+from typing import Any, Literal, NotRequired, get_args, get_origin, get_type_hints
 
 from pluto_fleet.station import requests, wire, wire_app
 from pluto_fleet.station.requests import Said
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.reads import TOML
 from pluto_fleet.station.web.results import GEOJSON
+
+from .formatted import formatted
 
 _HEAD = '''"""Every address of a station as a method; made by `python -m station_interface`."""
 
@@ -42,7 +43,7 @@ def calls(addresses: Sequence[Address] = ADDRESSES) -> str:
     ]
     typing = ", ".join(name for name in ("Any", "Literal") if _is_named(name, code))
     head = _HEAD.format(imports="\n    ".join(imports), typing=typing)
-    return black.format_str(head + methods, mode=black.Mode(line_length=100))
+    return formatted(head + methods)
 
 
 def _own(module: Any) -> Iterator[str]:
@@ -124,7 +125,7 @@ def _call(address: Address, query: str, body: str) -> str:
 def _written(kind: Any) -> str:
     """Return a type as it is written."""
     origin, arguments = get_origin(kind), get_args(kind)
-    if origin in (Union, UnionType):
+    if origin in (typing.Union, UnionType):
         return " | ".join(map(_written, arguments))
     if origin is Literal:
         return f"Literal[{', '.join(map(repr, arguments))}]"

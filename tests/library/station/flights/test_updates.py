@@ -10,7 +10,7 @@ from pluto_fleet.station.session import FlightSession
 
 from .conftest import Serve
 
-SOON = 0.3
+SOON = 0.1
 """Seconds of the loop's time, which jumps."""
 
 
@@ -44,4 +44,4 @@ def test_a_page_that_has_seen_all_is_answered_when_something_changes_or_in_a_sec
         return loop.time() - begun
 
     assert station.world.run(answered(change=False)) == pytest.approx(1.1, abs=0.1)
-    assert station.world.run(answered(change=True)) == pytest.approx(0.4, abs=0.1)
+    assert station.world.run(answered(change=True)) == pytest.approx(0.2, abs=0.1)

@@ -31,6 +31,15 @@ def mission(key: str = "mission-one", *trips: Json, **given: object) -> Json:
     return {"key": key, "name": key, "trips": list(trips or (trip(f"{key}-trip"),)), **given}
 
 
+def handling(key: str) -> list[Json]:
+    """Return the trips that carry an item from one place to another."""
+    item = {"name": "box", "mass": 0.004}
+    return [
+        trip(f"{key}-trip-pick", action="pick_item", target=[3, 4], item=item),
+        trip(f"{key}-trip-release", action="release_item", target=[8, 4], item=item),
+    ]
+
+
 def drawn(*missions: Json, fleet: FleetFile = FLEET) -> MissionPlan:
     """Return a plan of these missions."""
     plan = a_plan(fleet=fleet)

@@ -9,17 +9,7 @@ import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan.plan import MissionPlan
-from tests.library.station.plan.drawing import Json, a_plan, drawn, mission, trip
-
-ITEM = {"name": "box", "mass": 0.004}
-PICK, RELEASE = "pick_item", "release_item"
-
-
-def handling(key: str) -> list[Json]:
-    return [
-        trip(f"{key}-trip-pick", action=PICK, target=[3, 4], item=ITEM),
-        trip(f"{key}-trip-drop", action=RELEASE, target=[8, 4], item=ITEM),
-    ]
+from tests.library.station.plan.drawing import Json, a_plan, drawn, handling, mission, trip
 
 
 def long(key: str) -> Json:

@@ -1,4 +1,4 @@
-"""Fields of an app's own in a plan that is drawn: typed in, shown as missing, handed out and taken in."""
+"""Fields of an app's own as pages learn of them, and as they fly; sessions/own_fields.txt has the rest."""
 
 from __future__ import annotations
 
@@ -15,16 +15,6 @@ from tests.library.station.plan.drawing import mission, said, trip
 
 FLEET = default_fleet(OWN)
 TRIP = {"action": "measure", "fragile": False, "warmth": "21 C"}
-
-
-def drawn(*missions: dict[str, Any], keep: Path | None = None) -> MissionPlan:
-    plan = MissionPlan(OWN, FLEET, keep, now=lambda: 0.0)
-    plan.replace(plan.revision, list(missions))
-    return plan
-
-
-def whole(**given: object) -> dict[str, Any]:
-    return mission("mission-one", trip("trip-one-1", **TRIP), patient="Ada", **given)
 
 
 def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> None:
@@ -48,7 +38,9 @@ def test_a_page_learns_of_them_with_their_types_and_units(tmp_path: Path) -> Non
 
 def test_a_value_of_each_type_can_be_typed() -> None:
     """As a person writes it; it is launched in SI units."""
-    plan = drawn(whole(margin="3 min", share="40 %", urgent=True))
+    typed = {"patient": "Ada", "margin": "3 min", "share": "40 %", "urgent": True}
+    plan = MissionPlan(OWN, FLEET, None)
+    plan.replace(plan.revision, [mission("mission-one", trip("trip-one-1", **TRIP), **typed)])
     assert said(plan) == []
     (made,), _ = plan.launchable()
     ready: Any = made

@@ -27,21 +27,12 @@ from tests.library.station.plan.drawing import Json, drawn, mission, trip
 FLEET = default_fleet(APP, 4)
 """Two scouts and two carriers, on a plain of 20 × 20 m, kept apart."""
 SCOUTS = tuple(one for one in FLEET.drones if one.category == "scout")
-ITEM = {"name": "box", "mass": 0.004}
 
 
 def photos(key: str, number: int) -> Json:
     """Return a mission of so many photos, far apart."""
     trips = [trip(f"{key}-trip-{i}", target=[4 + 5 * (i % 3), 6 + i % 7]) for i in range(number)]
     return mission(key, *trips)
-
-
-def handling(key: str) -> list[Json]:
-    """Return the trips that carry an item from one place to another."""
-    return [
-        trip(f"{key}-trip-pick", action="pick_item", target=[3, 4], item=ITEM),
-        trip(f"{key}-trip-release", action="release_item", target=[8, 4], item=ITEM),
-    ]
 
 
 THREE = (photos("mission-one", 2), photos("mission-two", 3), photos("mission-six", 1))

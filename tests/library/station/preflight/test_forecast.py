@@ -17,13 +17,12 @@ from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.trials.case import fresh
 from tests.kit.apps import example
-from tests.library.station.plan.drawing import mission, trip
+from tests.library.station.plan.drawing import handling, mission, trip
 from tests.library.station.preflight.asking import (
     FLEET,
     SCOUTS,
     THREE,
     answer,
-    handling,
     of,
     photos,
     present,
