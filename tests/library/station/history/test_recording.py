@@ -24,7 +24,7 @@ NORTH: Scene = {"name": "North", "status": "RUNNING", "at": ["watch"]}
 SCENES: Sequence[Scene] = (
     {"state": FLYING, "missions": [], "drones": [CF1]},
     {"state": FLYING, "missions": [NORTH], "drones": [{**CF1, "x": 0.5}, CF2]},
-    {"state": FLYING, "missions": [NORTH], "drones": [{**CF1, "x": 0.7}, CF2]},
+    {"state": FLYING, "missions": [NORTH], "drones": [CF1, {**CF2, "x": 0.2}]},
     {"state": FLYING, "missions": [{**NORTH, "status": "FAILED"}], "drones": [CF2]},
     {"state": {"phase": "over"}, "missions": [], "drones": [{**CF1, "ready_in": 0.1}, CF2]},
 )
