@@ -14,9 +14,8 @@ from pluto_fleet.app import described
 from pluto_fleet.station.graph.picture import app_graph
 from plutoc.compile import compile_source
 from plutoc.source import Source
-from tests.paths import ROOT
+from tests.compiler.emit.apps import PLAIN
 
-PLAIN = (ROOT / "tests/compiler/emit/apps/plain.pluto").read_text("utf-8")
 NAMES = iter(f"drawn_{number}" for number in range(100))
 
 Made = tuple[str, Path]
