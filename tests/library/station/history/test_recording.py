@@ -22,8 +22,8 @@ CF1: Scene = {"id": "cf1", "status": "FREE", "battery": 1.0}
 CF2: Scene = {"id": "cf2", "status": "BUSY", "battery": 0.5, "x": 0.1}
 NORTH: Scene = {"name": "North", "status": "RUNNING", "at": ["watch"]}
 SCENES: Sequence[Scene] = (
-    {"state": FLYING, "missions": [], "drones": [CF1]},
-    {"state": FLYING, "missions": [NORTH], "drones": [{**CF1, "x": 0.5}, CF2]},
+    {"state": FLYING, "missions": [], "drones": [{**CF1, "x": 0.5}]},
+    {"state": FLYING, "missions": [NORTH], "drones": [CF1, CF2]},
     {"state": FLYING, "missions": [NORTH], "drones": [CF1, {**CF2, "x": 0.2}]},
     {"state": FLYING, "missions": [{**NORTH, "status": "FAILED"}], "drones": [CF2]},
     {"state": {"phase": "over"}, "missions": [], "drones": [{**CF1, "ready_in": 0.1}, CF2]},
