@@ -172,7 +172,7 @@ def _outcome(work: Callable[[T], R], task: T) -> Message:
 def portable(error: BaseException) -> BaseException:
     """Return an error that another process can read."""
     with suppress(*ANY_ERROR):  # its class may be a hook's own
-        if type(pickle.loads(pickle.dumps(error))) is type(error):  # noqa: S301 - it is our own
+        if type(pickle.loads(pickle.dumps(error))) is type(error):
             return error
     return RuntimeError(f"{type(error).__name__}: {error}")
 
