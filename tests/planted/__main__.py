@@ -14,14 +14,13 @@ from __future__ import annotations
 
 import sys
 import tempfile
-from argparse import ArgumentParser
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from queue import SimpleQueue
 from random import Random
 
+from tests.kit.campaign import Campaign
 from tests.paths import ROOT
 from tests.planted.bug import ROOMS, Bug, named_bugs, words_on_the_rest
 from tests.planted.operators import proposals
@@ -33,17 +32,16 @@ WANTED = 0.9
 
 def main() -> int:
     """Plant what the command line asks for."""
-    parser = ArgumentParser(
-        prog="python -m tests.planted", description=(__doc__ or "").split("\n")[0]
-    )
-    parser.add_argument("--bugs", type=int, default=300, metavar="N", help="how many are drawn")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--room", choices=ROOMS, help="draw from this room alone")
-    parser.add_argument("--named", action="store_true", help="only those that were planted by hand")
-    parser.add_argument("--processes", type=int, default=2)
-    parser.add_argument("--seconds", type=float, default=300.0, help="the most for one bug")
-    parser.add_argument("--anew", action="store_true", help="measure anew which tests reach what")
-    options = parser.parse_args()
+    campaign = Campaign("tests.planted", __doc__)
+    campaign.unit = "bug"
+    campaign.option("--bugs", type=int, default=300, metavar="N", help="how many are drawn")
+    campaign.option("--seed", type=int, default=1)
+    campaign.option("--room", choices=ROOMS, help="draw from this room alone")
+    campaign.option("--named", action="store_true", help="only those that were planted by hand")
+    campaign.option("--seconds", type=float, default=300.0, help="the most for one bug")
+    campaign.option("--anew", action="store_true", help="measure anew which tests reach what")
+    campaign.side_by_side(2)
+    options = campaign.parse()
     bugs = [] if options.room else named_bugs()
     named = len(bugs)
     if not options.named:
@@ -52,7 +50,7 @@ def main() -> int:
     copies: SimpleQueue[Copy] = SimpleQueue()
     verdicts = []
     with tempfile.TemporaryDirectory(prefix="pluto-planted-") as folder:
-        for number in range(options.processes):
+        for number in range(options.at_once):
             copies.put(Copy(Path(folder, str(number)), reach, options.seconds))
 
         def tried(bug: Bug) -> Verdict:
@@ -62,12 +60,11 @@ def main() -> int:
             finally:
                 copies.put(copy)
 
-        with ThreadPoolExecutor(options.processes) as pool:
-            for verdict in pool.map(tried, bugs):
-                print(line(verdict), flush=True)
-                verdicts.append(verdict)
-    print("\n".join(summary(verdicts[:named], verdicts[named:])))
-    return 0 if suffices(verdicts[:named], verdicts[named:]) else 1
+        for _, verdict in campaign.each(tried, bugs, threads=True):
+            print(line(verdict), flush=True)
+            verdicts.append(verdict)
+    by_hand, others = verdicts[:named], verdicts[named:]
+    return campaign.over(*summary(by_hand, others), fails=too_few(by_hand, others))
 
 
 def drawn(rooms: Sequence[str], count: int, seed: int) -> list[Bug]:
@@ -141,10 +138,12 @@ def summary(named: Sequence[Verdict], others: Sequence[Verdict]) -> Iterator[str
         yield f"  {verdict.place}: {_short(bug.before)} -> {_short(bug.after)}: {why}"
 
 
-def suffices(named: Sequence[Verdict], others: Sequence[Verdict]) -> bool:
-    """Return whether enough is caught."""
-    caught = sum(verdict.catcher is not None for verdict in others)
-    return all(verdict.catcher for verdict in named) and caught >= WANTED * len(others)
+def too_few(named: Sequence[Verdict], others: Sequence[Verdict]) -> Iterator[str]:
+    """Yield why too few are caught."""
+    if not all(verdict.catcher for verdict in named):
+        yield "some that were planted by hand are not caught"
+    if sum(verdict.catcher is not None for verdict in others) < WANTED * len(others):
+        yield f"less than {WANTED:.0%} of the others are caught"
 
 
 def _room(verdict: Verdict) -> str:
