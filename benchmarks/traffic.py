@@ -26,8 +26,8 @@ from statistics import fmean
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
 import tests  # noqa: F401  # first: all that follows shares one brain
-from narrow_places import PLACES, longest_wait
-from narrow_places import flown as flown_in
+from measuring.narrow_places import PLACES, longest_wait
+from measuring.narrow_places import flown as flown_in
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Point

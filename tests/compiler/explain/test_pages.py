@@ -24,12 +24,17 @@ CODES = [code for code in codes() if code not in WITHOUT_EXAMPLES]
 SEVERITY = {"Refused": "error", "Warned": "warning"}
 
 
-TYPED = [code for code in CODES if example(code, mended=False).console]
-"""Those whose pages show a session."""
+EXAMPLES = [
+    pytest.param(code, mended, id=f"{code}-{'mended' if mended else 'failing'}")
+    for code in CODES
+    for mended in (False, True)
+]
+TYPED = [one for one in EXAMPLES if example(str(one.values[0]), mended=bool(one.values[1])).console]
+"""Those that are typed: the app alone does not show it."""
+ALONE = [one for one in EXAMPLES if one not in TYPED]
 
 
-@pytest.mark.parametrize("mended", [False, True], ids=["failing", "mended"])
-@pytest.mark.parametrize("code", [code for code in CODES if code not in TYPED])
+@pytest.mark.parametrize(("code", "mended"), ALONE)
 def test_an_example_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
     code: str, mended: bool, tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -39,8 +44,7 @@ def test_an_example_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
 
 
 @pytest.mark.long  # real shells; the sessions of tests/compiler/cli/sessions have most of these codes
-@pytest.mark.parametrize("mended", [False, True], ids=["failing", "mended"])
-@pytest.mark.parametrize("code", TYPED)
+@pytest.mark.parametrize(("code", "mended"), TYPED)
 def test_a_session_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
     code: str, mended: bool, tmp_path: Path
 ) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from narrow_places import PLACES, Place, flown, longest_wait
+from measuring.narrow_places import PLACES, Place, flown, longest_wait
 
 
 @pytest.mark.parametrize("is_real", [False, True])
