@@ -38,7 +38,7 @@ def main() -> int:
     campaign.option("--seed", type=int, default=1)
     campaign.option("--room", choices=ROOMS, help="draw from this room alone")
     campaign.option("--named", action="store_true", help="only those that were planted by hand")
-    campaign.option("--seconds", type=float, default=300.0, help="the most for one bug")
+    campaign.option("--seconds", type=float, default=120.0, help="tests end before that, or never")
     campaign.option("--anew", action="store_true", help="measure anew which tests reach what")
     campaign.side_by_side(2)
     options = campaign.parse()

@@ -18,6 +18,8 @@ from tests.planted.reach import Reach
 
 FIRST = 40
 """So many tests are tried at first: to look for the others takes longer than to run these."""
+_TIMES = 6.0
+"""How much longer than measured tests may take before they count as never ending: a busy machine is no catch."""
 _PATHS = (".", "grammar", "runtime", "stdlib_blocks")
 
 
@@ -97,7 +99,7 @@ class Copy:
             start_new_session=True,
         ) as run:
             try:
-                said, _ = run.communicate(timeout=self._limit)
+                said, _ = run.communicate(timeout=self._longest(tests))
             except subprocess.TimeoutExpired:
                 os.killpg(run.pid, 9)
                 return "one that then never ends"
@@ -105,6 +107,9 @@ class Copy:
             return None
         found = re.search(r"^(?:FAILED|ERROR) (\S+)", said, re.MULTILINE)
         return found[1] if found else f"the run itself: {said.strip()[-200:]}"
+
+    def _longest(self, tests: Sequence[str]) -> float:
+        return max(self._limit, _TIMES * sum(self._reach.seconds[test] for test in tests))
 
 
 def _parts(tests: Sequence[str]) -> Iterator[Sequence[str]]:
