@@ -37,18 +37,6 @@ SAID = re.compile(r"^station: (http://\S+)", re.MULTILINE)
 NUMBERS = count()
 """Each command has a name of its own."""
 
-ALTERED = {
-    "night_ward": (
-        "night_round",
-        {
-            "app night_round": "app night_ward",
-            'patient: text = "", most: float = 20': "patient: text, most: float = 20, margin: time = 10 min",
-            "  action listen": "  trip has softly: bool, warmth: temperature = 20 C\n\n  action listen",
-        },
-    )
-}
-"""Apps that are an example with other words in its source."""
-
 
 def until(holds: Callable[[], bool], what: str | Callable[[], str]) -> None:
     """Wait until something holds; what that is may be said by how things are at the end."""
@@ -69,17 +57,10 @@ class App:
 
 def compiled_app(name: str, folder: Path) -> App:
     """Compile an example there, and make a program of it that imports it from there."""
-    example, words = ALTERED.get(name, (name, {}))
     files = folder / name
-    shutil.copytree(EXAMPLES / example, files)
-    source = files / "app.pluto"
-    text = source.read_text(encoding="utf-8")
-    for old, new in words.items():
-        assert old in text
-        text = text.replace(old, new)
-    source.write_text(text, encoding="utf-8")
+    shutil.copytree(EXAMPLES / name, files)
     fly_straight(files / "fleet.toml")
-    package = compiled_file(source, folder / f"{name}.package")
+    package = compiled_file(files / "app.pluto", folder / f"{name}.package")
     program = folder / f"{name}.sh"
     path = f"PYTHONPATH='{package / 'src'}'"
     program.write_text(f"#!/bin/sh\n{path} exec '{sys.executable}' -m {name} \"$@\"\n")

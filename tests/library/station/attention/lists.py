@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Any, cast
 
 from pluto_fleet.station.attention.attention import Attention
 from pluto_fleet.station.attention.causes import Cause
@@ -12,28 +13,11 @@ from pluto_fleet.station.words import words
 
 
 def drone(
-    id: str,
-    status: str,
-    why: str = "",
-    ready_in: float | None = None,
-    retired: bool = False,
+    id: str, status: str, why: str = "", ready_in: float | None = None, retired: bool = False
 ) -> DroneRow:
-    row: DroneRow = {
-        "id": id,
-        "status": status,
-        "x": 1.0,
-        "y": 2.0,
-        "z": 0.0,
-        "seen_at": None,
-        "battery": 0.4,
-        "mission": None,
-        "trips": 0,
-        "retired": retired,
-        "why": why,
-    }
-    if ready_in is not None:
-        row["ready_in"] = ready_in
-    return row
+    row = {"id": id, "status": status, "x": 1.0, "y": 2.0, "battery": 0.4, "retired": retired}
+    charges = {} if ready_in is None else {"ready_in": ready_in}
+    return cast(DroneRow, {**row, "why": why, **charges})
 
 
 def mission(
@@ -46,55 +30,28 @@ def mission(
     answers: list[str] | None = None,
     at: str = "allocate",
 ) -> MissionRow:
-    return {
+    row: dict[str, Any] = {
         "name": name,
-        "index": 0,
         "status": status,
         "reason": reason,
-        "trips": [
-            {"name": "A", "status": "WAITING", "x": 3.0, "y": 4.0, "priority": None, "action": "m"}
-        ],
-        "current": 0,
-        "done": 0,
-        "total": 1,
-        "drone": None,
         "at": [at],
         "wait": wait,
-        "until": None,
-        "attempt": 1,
-        "attempts": 0,
-        "round": 0,
-        "question": (
-            None
-            if answers is None
-            else {"said": words("question.other", reason, question=reason), "answers": answers}
-        ),
-        "due": 30.0 if late else None,
-        "late": late,
-        "fields": {},
     }
+    row |= {
+        "trips": [{"name": "A", "x": 3.0, "y": 4.0}],
+        "current": 0,
+        "drone": None,
+        "question": None,
+    }
+    if answers is not None:
+        said = words("question.other", reason, question=reason)
+        row["question"] = {"said": said, "answers": answers}
+    return cast(MissionRow, {**row, "due": 30.0 if late else None, "late": late})
 
 
 def result(number: int, *tags: str) -> Result:
-    return {
-        "number": number,
-        "time": 1.0,
-        "mission": "North",
-        "trip": "A",
-        "round": 0,
-        "attempt": 1,
-        "drone": "cf1",
-        "kind": "photo",
-        "action": "take_photo",
-        "parameters": {},
-        "target": [5.0, 6.0, 1.0],
-        "at": None,
-        "place": "Bed 3",
-        "value": None,
-        "values": [],
-        "tags": [*tags],
-        "layers": [],
-    }
+    row = {"number": number, "mission": "North", "trip": "A", "drone": "cf1", "place": "Bed 3"}
+    return cast(Result, {**row, "target": [5.0, 6.0, 1.0], "at": None, "tags": [*tags]})
 
 
 class Listed:

@@ -189,34 +189,6 @@ def test_what_is_expected_and_what_wants_attention_is_opened_and_closed_by_keys(
 
 
 @pytest.mark.long
-def test_a_result_a_replay_and_a_setting_are_reached_by_keys(serve: Serve, visit: Visit) -> None:
-    station = put_in(serve("drugs_distribution", "--speed", "60"))
-    station.tell("start")
-    until(lambda: station.phase == "over", "the flight is over")
-    page = visit(station)
-    page_by_keys(page, "Results")
-    results = page.get_by_role("tabpanel", name="Results")
-    tab_to(page, results.get_by_role("tab", name="Layers"))
-    page.keyboard.press("ArrowRight")
-    expect(results.get_by_role("tab", name="Table")).to_be_focused()
-    tab_to(page, page.get_by_role("table", name="Results"))
-    page.keyboard.press("ArrowDown")
-    expect(page.locator(".result-card")).to_be_visible()
-    page_by_keys(page, "History")
-    flights = page.get_by_role("table", name="Flights").locator("tbody").get_by_role("button")
-    tab_to(page, flights.first)
-    page.keyboard.press("Enter")
-    slider = page.get_by_role("slider", name="Time")
-    tab_to(page, slider)
-    page.keyboard.press("ArrowRight")
-    expect(slider).to_have_value("5")
-    page_by_keys(page, "Help")
-    tab_to(page, page.get_by_label("Language"))
-    page.keyboard.type("Ital")
-    expect(page.get_by_role("tab", name="Aiuto")).to_be_visible()
-
-
-@pytest.mark.long
 def test_a_place_is_drawn_by_its_numbers_and_taken_away_by_keys(serve: Serve, visit: Visit) -> None:
     station = serve("drugs_distribution")
     page = visit(station)

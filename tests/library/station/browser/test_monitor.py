@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -11,11 +12,14 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.steps import open_page, row_of, start
+from tests.library.station.browser.exercise import COMPLETED, DONE, put_in
+from tests.library.station.browser.steps import open_page, row_of, sees_all, start
 from tests.paths import ROOT
 
 FIELD = ROOT / "examples" / "alfalfa" / "missions.toml"
 MISSIONS = ("North arc", "South-west arc", "South-east arc")
+
+AS_SEEN = Path(__file__).with_name("as_seen.js").read_text(encoding="utf-8")
 
 
 @pytest.fixture
@@ -112,23 +116,6 @@ def test_the_graph_is_for_those_who_want_it_and_says_what_each_block_does(
 
 
 @pytest.mark.long
-def test_lines_are_found_in_the_console_and_all_are_downloaded(
-    flying: tuple[Station, Page], tmp_path: Path
-) -> None:
-    _, page = flying
-    console = lists(page, "Console")
-    expect(console.get_by_role("log")).to_contain_text("South-east arc")
-    console.get_by_label("Find text").fill("launched")
-    expect(console.get_by_role("log")).to_contain_text("trip A launched")
-    expect(console.get_by_role("log")).not_to_contain_text("completed")
-    with page.expect_download() as download:
-        console.get_by_role("button", name="Download the console").click()
-    assert download.value.suggested_filename == "console.txt"
-    download.value.save_as(tmp_path / "console.txt")
-    assert "South-east arc" in (tmp_path / "console.txt").read_text()
-
-
-@pytest.mark.long
 def test_missions_are_sifted_walked_through_by_keys_and_folded_away(
     flying: tuple[Station, Page],
 ) -> None:
@@ -183,3 +170,36 @@ def test_drones_are_retired_brought_back_let_fall_and_joined_by_others(
     drones.get_by_role("button", name="Let it join").click()
     expect(card(page, "late")).to_be_visible()
     assert station.get("/api/app")["drones"][-1]["home"] == [1.0, 1.0, 0.0]
+
+
+def seen(page: Page) -> dict[str, dict[str, Any]]:
+    """Return what list and map say of each drone, as a person reads them."""
+    return {row["id"]: row for row in page.evaluate(AS_SEEN)}
+
+
+def test_drones_that_are_called_home_are_seen_there_and_go_on_where_they_were(
+    serve: Serve, visit: Visit
+) -> None:
+    station = put_in(serve())
+    page = visit(station)
+    start(page)
+    until(lambda: ("pick_item", "Mission 3/1/0") in station.done(), "the pills are picked")
+    page.get_by_role("button", name="Stop: fly home").click()
+    until(lambda: station.phase == "stopped", "all are down")
+    open_page(page, "Monitor")
+    lists(page, "Drones")
+    said = re.compile(r"at [\d.]+; [\d.]+, seen \d+ s ago")
+    until(
+        lambda: all(said.search(row["why"]) for row in seen(page).values()),
+        lambda: f"what is known is told with its age: {seen(page)}",
+    )
+    for drone in station.get("/api/app")["drones"]:
+        shown = seen(page)[drone["id"]]
+        assert (shown["x"], shown["y"]) == pytest.approx(drone["home"][:2], abs=0.15)
+        assert shown["word"] == "On the ground"
+        assert "On the ground" in shown["label"]
+    page.get_by_role("button", name="Resume").click()
+    lists(page, "Missions")
+    sees_all(page, "Completed")
+    assert station.statuses() == COMPLETED
+    assert station.done() == DONE

@@ -61,23 +61,6 @@ def test_a_network_that_breaks_and_comes_back_is_said_and_the_page_picks_up_by_i
     completes_all_once(page, station)
 
 
-def test_a_server_that_is_killed_goes_on_where_it_was_once_a_person_says_resume(
-    serve: Serve, visit: Visit, watch: Watch
-) -> None:
-    watch.expected += BREAKS
-    station = put_in(serve(own=True))
-    page = visit(station)
-    flies_until_the_pills_are_picked(page, station)
-    station.kill()
-    expect(lost(page)).to_be_visible()
-    station.start()
-    resume = page.get_by_role("button", name="Resume")
-    expect(resume).to_be_visible()
-    assert station.phase == "interrupted"  # it launches nothing by itself
-    resume.click()
-    completes_all_once(page, station)
-
-
 @pytest.mark.long  # a whole flight once more
 def test_an_answer_that_is_lost_starts_nothing_twice(
     station: Station, visit: Visit, watch: Watch

@@ -45,20 +45,6 @@ def rows_of(page: Page) -> Locator:
 
 
 @pytest.mark.long  # a whole flight
-def test_what_was_found_is_pinned_where_it_is_and_leads_to_its_rows(
-    serve: Serve, visit: Visit
-) -> None:
-    page, results = flown(serve, visit, "alfalfa")
-    places = {(tag, *one["target"]) for one in results for tag in one["tags"]}
-    assert places
-    expect(page.locator(".finding [data-tag]")).to_have_count(len(places))
-    page.get_by_role("button", name="bloom").click()
-    expect(page.get_by_role("tab", name="Table")).to_have_attribute("aria-selected", "true")
-    blooms = [one for one in results if "bloom" in one["tags"]]
-    expect(rows_of(page)).to_have_count(len(blooms))
-
-
-@pytest.mark.long  # a whole flight
 def test_photos_lie_on_the_map_and_are_gone_through_by_keys(serve: Serve, visit: Visit) -> None:
     page, results = flown(serve, visit, "aerial_mapping")
     photos = sum(one["kind"] == "photo" for one in results)

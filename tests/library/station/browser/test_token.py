@@ -7,37 +7,11 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from pluto_fleet.station.web.static import FOLDER
 from tests.kit.browser import Watch
 from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import put_in
-from tests.library.station.browser.steps import missions_listed, open_page, row_of, sees_all, start
-
-LOGO_IS_DRAWN = "() => document.querySelector('.head img').naturalWidth > 0"
-
-
-@pytest.mark.long
-def test_the_printed_address_lets_one_fly_and_the_token_leaves_it(
-    serve: Serve, visit: Visit
-) -> None:
-    """The floor plan is seen, too: it needs the token as well; and whose station it is."""
-    whose = ("--title", "Ward 3", "--logo", str(FOLDER / "icon.svg"))
-    station = serve("drugs_distribution", "--name", "ward.example", "--speed", "60", *whose)
-    assert "#token=" in station.url
-    put_in(station)
-    page = visit(station)
-    expect(missions_listed(page)).to_have_count(3)
-    assert "token" not in page.url
-    expect(page.get_by_role("heading", name="Ward 3", level=1)).to_be_visible()
-    expect(page).to_have_title(re.compile("Ward 3$"))
-    until(lambda: page.evaluate(LOGO_IS_DRAWN), "the logo is drawn")
-    start(page)
-    sees_all(page, "Completed")
-    expect(page.locator("image[href^='blob:']").first).to_be_attached()
-    page.reload()
-    expect(page.get_by_role("tab", name="Monitor")).to_be_visible()
-    assert station.audit()
+from tests.library.station.browser.steps import missions_listed, open_page, row_of, start
 
 
 @pytest.mark.long
@@ -86,6 +60,7 @@ def test_who_may_only_watch_sees_all_and_no_button_that_commands(
     start(flier)
     page = visit(station, path=station.url_to_watch.partition(str(station.port))[2])
     open_page(page, "Monitor")
+    assert "token" not in page.url
     row_of(page, "Mission 3").get_by_role("button", name="Mission 3").click()
     expect(row_of(page, "Mission 3")).to_contain_text("Flying")
     expect(page.get_by_text("You are watching")).to_be_visible()

@@ -10,16 +10,14 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station, until
-from tests.library.station.browser.conftest import Serve, Visit
+from tests.library.station.browser.conftest import Visit
 from tests.library.station.browser.exercise import Place
 from tests.library.station.browser.steps import (
-    action_called,
     add_mission,
     card_of,
     drag,
     on_the_screen,
     pin_of,
-    start,
 )
 
 WALL = (6.0, 8.0)
@@ -95,33 +93,6 @@ def test_a_pin_over_a_no_fly_area_says_so_while_it_is_still_held(
     expect(pin_of(page, 1)).not_to_have_accessible_name(re.compile("Problem"))
     page.mouse.up()
     assert targets(station) == [[3.0, 7.5]]
-
-
-@pytest.mark.long
-def test_of_a_mission_that_flies_only_what_has_not_flown_can_be_changed(
-    serve: Serve, visit: Visit
-) -> None:
-    """Once it is stopped nothing can, and the page says why."""
-    station = serve("drugs_distribution", "--speed", "2")
-    page = draw(station, visit, ("take_photo", (15.0, 8.5)), ("measure", (9.0, 5.0)))
-    start(page)
-    until(lambda: list(station.statuses().values()) == ["RUNNING"], "it flies")
-    page.get_by_role("tab", name="Trips").click()
-    expect(page.get_by_text("This mission is under way.")).to_be_visible()
-    card_of(page, 1).locator(".trip-head").click()
-    expect(card_of(page, 1).get_by_label("x (m)")).to_be_disabled()
-    card_of(page, 2).locator(".trip-head").click()
-    x = card_of(page, 2).get_by_label("x (m)")
-    x.fill("10")
-    assert targets(station)[1] == [9.0, 5.0], "nothing is flown letter by letter"
-    x.press("Tab")
-    until(lambda: targets(station)[1] == [10.0, 5.0], "it is in the plan")
-    assert station.now()["missions"][0]["trips"][1]["x"] == 10.0
-    page.get_by_role("button", name="Stop: fly home").click()
-    until(lambda: station.phase == "stopped", "all are down")
-    expect(page.get_by_text("This mission has been started")).to_be_visible()
-    expect(action_called(page, "take_photo")).to_be_hidden()
-    expect(x).to_be_disabled()
 
 
 @pytest.mark.long

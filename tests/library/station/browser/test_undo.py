@@ -1,14 +1,22 @@
-"""What was drawn on a page is undone and done again there, and nothing of another page's."""
+"""What was drawn on a page is undone and done again there; what others draw is seen, and nothing of it lost."""
 
 from __future__ import annotations
 
 import pytest
 from playwright.sync_api import Page, expect
 
+from tests.kit.browser import Watch
 from tests.kit.station import Station, until
-from tests.library.station.browser.conftest import Visit
+from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import names
-from tests.library.station.browser.steps import missions_listed, open_page, select_mission
+from tests.library.station.browser.steps import (
+    ANOTHER_WAS_QUICKER,
+    add_mission,
+    drag,
+    missions_listed,
+    open_page,
+    select_mission,
+)
 
 
 def rename(page: Page, mission: str, name: str) -> None:
@@ -72,3 +80,16 @@ def test_who_else_is_here_is_seen_with_what_they_have_selected(
     one.get_by_label("Mission", exact=True).select_option(label="Mission 2 (2 trips)")
     seen = one.get_by_role("list", name="Trips").get_by_role("img", name="has this selected")
     expect(seen).to_have_count(1)
+
+
+def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:
+    watch.expected.append(ANOTHER_WAS_QUICKER)  # the trip may still be on its way to the other
+    station = serve()
+    one, other = visit(station), visit(station)
+    add_mission(one, "From here")
+    drag(one, "measure", (3.0, 5.0))
+    expect(missions_listed(other)).to_have_text(["From here"])
+    add_mission(other, "From there")
+    open_page(one, "Missions")
+    expect(missions_listed(one)).to_have_text(["From here", "From there"])
+    until(lambda: len(station.missions) == 2, "both are kept")

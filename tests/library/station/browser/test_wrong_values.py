@@ -94,24 +94,6 @@ def test_a_wrong_coordinate_is_marked_and_start_waits_for_it(
 
 
 @pytest.mark.long
-def test_what_keeps_a_plan_from_starting_leads_to_its_field_wherever_that_is(
-    planned: Station, visit: Visit
-) -> None:
-    page = visit(planned)
-    card = opened(page, "Mission 3", 1)
-    card.get_by_label("Mass").fill("heavy")
-    open_page(page, "Help")
-    told(page).get_by_role("button", name=re.compile("^Mission 3, trip 1: ")).click()
-    expect(card_of(page, 1).get_by_label("Mass")).to_be_focused()
-    card_of(page, 1).get_by_label("Mass").fill("8 g")
-    open_page(page, "Missions")
-    page.get_by_role("textbox", name="Name").fill("")
-    open_page(page, "Help")
-    told(page).get_by_role("button").click()
-    expect(page.get_by_role("textbox", name="Name")).to_be_focused()
-
-
-@pytest.mark.long
 def test_two_who_name_one_mission_at_once_are_told_and_nothing_is_lost(
     planned: Station, two: Two
 ) -> None:

@@ -2,64 +2,41 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from itertools import combinations, pairwise
 from typing import Any
 
-from pluto_fleet.station.graph.layout import Area, Layout, Point
-
-Piece = tuple[Point, Point]
+from pluto_fleet.station.graph.layout import Area, Point
 
 STAND = 13.0
 LETTER = 5.4
 """About as wide as one is."""
+ROUNDED = 0.11
+"""A page gets numbers that are off by less."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Pictured:
-    """What a page draws."""
-
-    laid: Layout
-    ways: list[tuple[int, int]]
-    """From which box to which."""
-    words: list[Area]
-    """What the statuses beside arrows cover, about."""
-
-    @property
-    def stands(self) -> list[Area]:
-        """Where missions stand: at the foot of each box."""
-        return [
-            ((left + right) / 2 - STAND, bottom, (left + right) / 2 + STAND, bottom + STAND)
-            for left, _, right, bottom in self.laid.boxes
-        ]
+def boxes_of(picture: Mapping[str, Any]) -> dict[str, Area]:
+    """Return what each block covers, by its name."""
+    return {
+        one["name"]: (one["x"], one["y"], one["x"] + one["w"], one["y"] + one["h"])
+        for one in picture["blocks"]
+    }
 
 
-def pictured(plain: Mapping[str, Any]) -> Pictured:
-    """Return the same from what a page gets."""
-    number = {block["name"]: place for place, block in enumerate(plain["blocks"])}
-    edges = plain["edges"]
-    laid = Layout(
-        width=plain["width"],
-        height=plain["height"],
-        boxes=tuple(
-            (one["x"], one["y"], one["x"] + one["w"], one["y"] + one["h"])
-            for one in plain["blocks"]
-        ),
-        ways=tuple(tuple((x, y) for x, y in one["points"]) for one in edges),
-        words=tuple((one["label"][0], one["label"][1]) if one["label"] else None for one in edges),
-    )
-    words = [
-        _words(at, LETTER * len(", ".join(one["statuses"])))
-        for one, at in zip(edges, laid.words, strict=True)
-        if at is not None
-    ]
-    ways = [(number[one["source"]], number[one["target"]]) for one in edges]
-    return Pictured(laid=laid, ways=ways, words=words)
+def words_of(picture: Mapping[str, Any]) -> list[Area]:
+    """Return what the statuses beside arrows cover, about."""
+    found = []
+    for one in picture["edges"]:
+        if one["label"] is not None:
+            (x, y, *_), width = one["label"], LETTER * len(", ".join(one["statuses"]))
+            found.append((x - width / 2, y - 9, x + width / 2, y + 2))
+    return found
 
 
-def _words(at: Point, width: float) -> Area:
-    return at[0] - width / 2, at[1] - 9, at[0] + width / 2, at[1] + 2
+def stands_of(picture: Mapping[str, Any]) -> list[Area]:
+    """Return where missions stand: at the foot of each block."""
+    middles = [((box[0] + box[2]) / 2, box[3]) for box in boxes_of(picture).values()]
+    return [(x - STAND, foot, x + STAND, foot + STAND) for x, foot in middles]
 
 
 def overlap(one: Area, other: Area) -> bool:
@@ -67,74 +44,47 @@ def overlap(one: Area, other: Area) -> bool:
     return one[0] < other[2] and other[0] < one[2] and one[1] < other[3] and other[1] < one[3]
 
 
-def covered(piece: Piece) -> Area:
-    (x, y), (to_x, to_y) = piece
-    return min(x, to_x), min(y, to_y), max(x, to_x), max(y, to_y)
+def along(one: Area, other: Area) -> bool:
+    """Return whether two pieces of ways cannot be told apart for a stretch."""
+    width = min(one[2], other[2]) - max(one[0], other[0])
+    height = min(one[3], other[3]) - max(one[1], other[1])
+    return min(width, height) > -ROUNDED and max(width, height) > 1
 
 
-def mistakes(laid: Layout, ways: Sequence[tuple[int, int]]) -> Iterator[str]:
-    """Yield what must never be: boxes over boxes, ways through boxes, loose ends, slanted ways."""
-    boxes = laid.boxes
-    for (a, one), (b, other) in combinations(enumerate(boxes), 2):
+def mistakes(picture: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what must never be: boxes over boxes, ways through boxes or along each other, loose ends, slants."""
+    boxes = boxes_of(picture)
+    for (a, one), (b, other) in combinations(boxes.items(), 2):
         if overlap(one, other):
-            yield f"box {a} lies over box {b}"
-    for (source, target), way in zip(ways, laid.ways, strict=True):
-        name = f"the way from {source} to {target}"
-        if not touches(boxes[source], way[0]) or not touches(boxes[target], way[-1]):
+            yield f"{a} lies over {b}"
+    pieces: list[tuple[int, Area]] = []
+    for number, edge in enumerate(picture["edges"]):
+        name = f"the way from {edge['source']} to {edge['target']}"
+        ends = (boxes[edge["source"]], edge["points"][0]), (
+            boxes[edge["target"]],
+            edge["points"][-1],
+        )
+        if not all(touches(box, end) for box, end in ends):
             yield f"{name} has a loose end"
-        for piece in pairwise(way):
-            left, top, right, bottom = covered(piece)
-            if not _same(left, right) and not _same(top, bottom):
-                yield f"{name} is slanted"
-            if left == right and top == bottom:
-                yield f"{name} stands still"
-            for number, box in enumerate(boxes):
-                if _runs_through(covered(piece), box):
-                    yield f"{name} runs through {number}"
-    for left, top, right, bottom in [*boxes, *map(covered, _pieces(laid))]:
-        if min(left, top) < 0 or right > laid.width or bottom > laid.height:
+        for (x, y), (to_x, to_y) in pairwise(edge["points"]):
+            piece = min(x, to_x), min(y, to_y), max(x, to_x), max(y, to_y)
+            width, height = piece[2] - piece[0], piece[3] - piece[1]
+            if min(width, height) >= ROUNDED or max(width, height) == 0:
+                yield f"{name} is slanted, or stands still"
+            for block, (left, top, right, bottom) in boxes.items():
+                within = left + ROUNDED, top + ROUNDED, right - ROUNDED, bottom - ROUNDED
+                if overlap(piece, within):
+                    yield f"{name} runs through {block}"
+            if any(along(piece, other) for its, other in pieces if its != number):
+                yield f"{name} lies along another"
+            pieces.append((number, piece))
+    for left, top, right, bottom in [*boxes.values(), *(piece for _, piece in pieces)]:
+        if min(left, top) < 0 or right > picture["width"] or bottom > picture["height"]:
             yield "something lies outside"
 
 
 def touches(box: Area, point: Point) -> bool:
     """Return whether a point is on the edge of a box, but not in a corner."""
-    left, top, right, bottom = box
-    x, y = point
-    on_side = (_same(x, left) or _same(x, right)) and top < y < bottom
-    return on_side or ((_same(y, top) or _same(y, bottom)) and left < x < right)
-
-
-def lying_together(laid: Layout) -> Iterator[tuple[Piece, Piece]]:
-    """Yield the pieces of different ways that cannot be told apart for a stretch."""
-    pieces = [(number, piece) for number, way in enumerate(laid.ways) for piece in pairwise(way)]
-    for (number, one), (its_number, other) in combinations(pieces, 2):
-        if number == its_number:
-            continue
-        a, b = covered(one), covered(other)
-        if _same(a[1], a[3]) and _same(b[1], b[3]) and _same(a[1], b[1]):
-            together = min(a[2], b[2]) - max(a[0], b[0])
-        elif _same(a[0], a[2]) and _same(b[0], b[2]) and _same(a[0], b[0]):
-            together = min(a[3], b[3]) - max(a[1], b[1])
-        else:
-            continue
-        if together > 1:
-            yield one, other
-
-
-def _pieces(laid: Layout) -> Iterator[Piece]:
-    for way in laid.ways:
-        yield from pairwise(way)
-
-
-def _runs_through(piece: Area, box: Area) -> bool:
-    """Return whether a piece of a way has a point within a box, its edges aside."""
-    return (
-        piece[0] < box[2] - 0.11
-        and piece[2] > box[0] + 0.11
-        and piece[1] < box[3] - 0.11
-        and piece[3] > box[1] + 0.11
-    )
-
-
-def _same(one: float, other: float) -> bool:
-    return abs(one - other) < 0.11  # a page gets them rounded
+    (left, top, right, bottom), (x, y) = box, point
+    on_side = min(abs(x - left), abs(x - right)) < ROUNDED and top < y < bottom
+    return on_side or (min(abs(y - top), abs(y - bottom)) < ROUNDED and left < x < right)

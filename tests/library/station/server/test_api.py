@@ -7,10 +7,13 @@ import json
 from pathlib import Path
 
 import pytest
+from openapi_spec_validator import validate
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.commands import Malformed
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
+from pluto_fleet.station.web.reads import DESCRIPTION
+from station_interface.made import made
 
 from .asking import OURS, AStation, asked, request, said, without
 
@@ -199,3 +202,14 @@ def test_where_others_may_listen_a_browser_is_told_nothing_that_it_would_not_hee
     assert reply.status == 200
     assert "Cross-Origin-Opener-Policy" not in dict(reply.headers)
     assert "X-Frame-Options" in dict(reply.headers)
+
+
+@pytest.mark.parametrize(("file", "text"), made().items(), ids=[file.name for file in made()])
+def test_what_is_made_from_the_types_of_the_wire_is_current(file: Path, text: str) -> None:
+    """`python -m station_interface` makes it anew."""
+    assert file.read_text(encoding="utf-8") == text
+
+
+def test_the_description_is_valid_openapi_and_is_served() -> None:
+    validate(json.loads(DESCRIPTION.read_text(encoding="utf-8")))
+    assert asked()("GET", "/api/openapi.json").body == DESCRIPTION.read_bytes()

@@ -42,11 +42,6 @@ def test_at_the_usual_port_a_name_has_none() -> None:
     assert status(Guard(host="127.0.0.1", port=80), {"host": "localhost"}, Access.READ) is None
 
 
-def test_the_pages_themselves_need_no_token() -> None:
-    assert status(EVERYWHERE, {"host": "ward.example"}, Access.PAGE) is None
-    assert status(LOOPBACK, {"host": "rebound.example:8765"}, Access.PAGE) == 403
-
-
 def test_the_token_is_known_to_who_knows_it_and_shows_nowhere() -> None:
     assert role_by(EVERYWHERE, "sesame") == "fly"
     assert role_by(EVERYWHERE, "poppy") == "watch"

@@ -54,15 +54,6 @@ def talk(ask: Asked, line: ALine, headers: dict[str, str] = OURS) -> ALine:
     return line
 
 
-def test_each_question_is_answered_once() -> None:
-    line = talk(asked(), ALine(SEEN, {**SEEN, "flight": "a"}))
-    assert [json.loads(text) for text in line.heard] == [
-        {"version": 1, "flight": ""},
-        {"version": 2, "flight": "a"},
-    ]
-    assert line.closed is None
-
-
 @pytest.mark.parametrize("headers", [{}, without(origin="null"), without("origin", "x-pluto")])
 def test_a_page_of_another_site_is_not_let_in(headers: dict[str, str]) -> None:
     ask = asked()

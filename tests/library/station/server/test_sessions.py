@@ -18,7 +18,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.station.plan.plan import MissionPlan
+from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.web.http import Reply
 from tests.library.files.an_app import APP, OWN
 from tests.library.station.jumping import run
@@ -41,8 +41,8 @@ EVERYWHERE = {
 
 def whole(folder: Path, app: App, **guard: Any) -> Asked:
     """Return a station with a map, a plan and a library of plans, at which every command can be done."""
-    plan = MissionPlan(app, default_fleet(app), None, now=lambda: 0.0)
-    station = AStation(map=ward(folder), plan=plan)
+    station = AStation(app, StationConfig(folder=folder, fleet=default_fleet(app), faults={}))
+    station.map = ward(folder)
     station.library = library(folder, station.plan)
     return asked(station, **guard)
 

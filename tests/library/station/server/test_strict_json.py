@@ -39,16 +39,12 @@ MUCH = 1_000_000
     [
         '"' + '\\"' * (MUCH // 2),
         '"' * MUCH,
-        '"\\' * (MUCH // 2),
         "[" * MUCH,
         '{"a":' * (MUCH // 5),
-        '"' + "\\" * MUCH,
-        "1" * MUCH,
         "1." + "0" * MUCH + "e",
         '"' + "\\ud800" * (MUCH // 6) + '"',
-        "[" + "{}," * (MUCH // 3),
     ],
-    ids=range(10),
+    ids=range(6),
 )
 def test_much_nonsense_is_found_out_as_fast_as_it_is_read(text: str) -> None:
     with pytest.raises(Malformed):
