@@ -77,6 +77,19 @@ def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
     assert recovery.result() is False
 
 
+def test_one_whose_motors_are_cut_is_told_nothing_when_its_flight_is_broken_off(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """To hover is a command too, and would turn its motors on."""
+    field, told = Field(), list[str]()
+    monkeypatch.setattr(type(field.navigation), "break_off", lambda _, drone: told.append(drone))
+    link = field.gateway.link(1)
+    cut(field, "cf1")
+    for drone in ("cf1", "cf2"):
+        link.break_off(drone)
+    assert told == ["cf2"]
+
+
 class Kept(Field):
     """A field whose gateways keep their ledger on the disk."""
 
