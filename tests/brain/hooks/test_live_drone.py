@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from asyncio import wait_for
 from collections.abc import Callable
+from contextlib import suppress
 from functools import partial, wraps
 
 import pytest
@@ -178,6 +180,29 @@ def test_an_answer_that_never_comes_ends_with_the_flight(
     monkeypatch.setattr(SimulatedNavigation, "read", never)
     assert "crashed at" in reason(grip, real=real, apart=0.5)
     assert over == ["range.front"]
+
+
+def test_a_question_that_its_hook_gives_up_is_called_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The drone is not kept busy with it while the action goes on."""
+    over: list[str] = []
+    seen: list[str] = []
+
+    async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
+        try:
+            await Future[None]()
+        finally:
+            over.append(name)
+        return 0.0
+
+    async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
+        with suppress(TimeoutError):
+            await wait_for(context.live(drone).read("range.front"), 0.01)
+        await context.sleep(0.05)
+        seen.extend(over)
+
+    monkeypatch.setattr(SimulatedNavigation, "read", never)
+    assert flown(grip, real=True).completed
+    assert seen == ["range.front"]
 
 
 def test_which_hooks_can_wait() -> None:

@@ -68,6 +68,21 @@ def twice(step: Step) -> Body:
     return (replace(step, arms=(one, replace(two, places=(*two.places, *one.places)))),)
 
 
+def of_a_status(step: Step) -> Body:
+    """Ask in one arm for a place and for a status."""
+    if not isinstance(step, Switch) or not step.enters:
+        return (step,)
+    one, two = step.arms
+    return (replace(step, arms=(replace(one, statuses=(Status.STANDBY,)), two)),)
+
+
+def of_no_place(step: Step) -> Body:
+    """Add an arm that asks for nothing."""
+    if not isinstance(step, Switch) or not step.enters:
+        return (step,)
+    return (replace(step, arms=(*step.arms, replace(step.arms[0], places=()))),)
+
+
 def asked_before(step: Step) -> Body:
     """Ask for a mission's status in front of the loop, where some have come to no block yet."""
     if not isinstance(step, Loop):
@@ -108,6 +123,8 @@ def test_the_plans_that_are_spoilt_here_are_good(plan: Plan) -> None:
         (changed(swapped), "no edge leads|astray"),
         (changed(unasked), "from interrupted at allocate no edge leads UNEXECUTED to create"),
         (changed(twice), "two arms are for"),
+        (changed(of_a_status), "a switch needs two arms"),
+        (changed(of_no_place), "a switch needs two arms"),
         (changed(asked_before), "interrupted at allocate is asked for its status"),
         (changed(forgetful, ASKS), "astray that second lies behind"),
         (changed(of_no_entry, CASES), "no way leads an interrupted mission to allocate"),
