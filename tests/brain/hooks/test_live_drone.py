@@ -158,41 +158,44 @@ def test_what_no_drone_can_be_set_to_is_the_hooks_fault(name: str, value: float,
     assert says in reason(grip)
 
 
-@pytest.mark.parametrize("real", [False, True])
-def test_an_answer_that_never_comes_ends_with_the_flight(
-    monkeypatch: pytest.MonkeyPatch, real: bool
-) -> None:
-    """Something else fails the trip: the question is called off, and keeps no drone."""
+def unanswered(
+    monkeypatch: pytest.MonkeyPatch,
+    asked: Callable[[SimulatedNavigation, str], object] = lambda navigation, drone: None,
+) -> list[str]:
+    """Let no drone answer when it is asked; return the questions that are called off."""
     over: list[str] = []
 
-    async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
-        self.strike(drone, Failure.CRASH)
+    async def never(navigation: SimulatedNavigation, drone: str, name: str) -> float:
+        asked(navigation, drone)
         try:
             await Future[None]()
         finally:
             over.append(name)
         return 0.0
 
+    monkeypatch.setattr(SimulatedNavigation, "read", never)
+    return over
+
+
+@pytest.mark.parametrize("real", [False, True])
+def test_an_answer_that_never_comes_ends_with_the_flight(
+    monkeypatch: pytest.MonkeyPatch, real: bool
+) -> None:
+    """Something else fails the trip: the question is called off, and keeps no drone."""
+
     async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
         await context.sleep(0.01)
         await context.live(drone).read("range.front")
 
-    monkeypatch.setattr(SimulatedNavigation, "read", never)
+    over = unanswered(monkeypatch, lambda navigation, it: navigation.strike(it, Failure.CRASH))
     assert "crashed at" in reason(grip, real=real, apart=0.5)
     assert over == ["range.front"]
 
 
 def test_a_question_that_its_hook_gives_up_is_called_off(monkeypatch: pytest.MonkeyPatch) -> None:
     """The drone is not kept busy with it while the action goes on."""
-    over: list[str] = []
+    over = unanswered(monkeypatch)
     seen: list[str] = []
-
-    async def never(self: SimulatedNavigation, drone: str, name: str) -> float:
-        try:
-            await Future[None]()
-        finally:
-            over.append(name)
-        return 0.0
 
     async def grip(drone: Drone, trip: apps.Trip, context: Context) -> None:
         with suppress(TimeoutError):
@@ -200,7 +203,6 @@ def test_a_question_that_its_hook_gives_up_is_called_off(monkeypatch: pytest.Mon
         await context.sleep(0.05)
         seen.extend(over)
 
-    monkeypatch.setattr(SimulatedNavigation, "read", never)
     assert flown(grip, real=True).completed
     assert seen == ["range.front"]
 
