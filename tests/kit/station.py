@@ -19,6 +19,7 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 from urllib.error import HTTPError
+from urllib.parse import urlencode
 from urllib.request import Request, urlopen
 
 import pytest
@@ -70,8 +71,87 @@ def compiled_app(name: str, folder: Path) -> App:
     )
 
 
-@dataclass(slots=True, kw_only=True)
-class Station:
+class Asked:
+    """A station as tests ask it behind its page's back, however it is reached."""
+
+    folder: Path
+
+    def _ask(self, method: str, path: str, given: object = None) -> tuple[int, Any]:
+        raise NotImplementedError
+
+    def get(self, path: str, **query: str) -> Any:
+        """Return what there is to read at an address."""
+        return self._ask("GET", f"{path}?{urlencode(query)}" if query else path)[1]
+
+    def post(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
+        """Command something; return the status and the answer."""
+        return self._ask("POST", path, given)
+
+    def put(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
+        """Put something there; return the status and the answer."""
+        return self._ask("PUT", path, given)
+
+    def tell(self, what: str, **given: object) -> str:
+        """Command something under a name of its own; return what is said."""
+        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+        assert status == 200, answer
+        return str(answer["said"])
+
+    def refused(self, what: str, **given: object) -> str:
+        """Command what cannot be done now; return why."""
+        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
+        assert status == 409, answer
+        return str(answer["said"])
+
+    def plan(self, missions: list[dict[str, Any]]) -> list[Any]:
+        """Give it a plan; return the problems of that."""
+        revision = self.get("/api/plan")["revision"]
+        status, answer = self.put("/api/plan", {"revision": revision, "missions": missions})
+        assert status == 200, answer
+        problems: list[Any] = answer["problems"]
+        return problems
+
+    @property
+    def missions(self) -> list[dict[str, Any]]:
+        """The missions of its plan."""
+        missions: list[dict[str, Any]] = self.get("/api/plan")["missions"]
+        return missions
+
+    def now(self) -> dict[str, Any]:
+        """Return the newest that all pages are shown, whole: at once, as to one who has seen another flight."""
+        live: dict[str, Any] = self.get("/api/live", flight="none", seen="0", log="0", results="0")
+        return live
+
+    @property
+    def phase(self) -> str:
+        """What goes on, in the station's word."""
+        return str(self.now()["state"]["phase"])
+
+    def statuses(self) -> dict[str, str]:
+        """Return how the missions stand that fly or have flown."""
+        return {row["name"]: row["status"] for row in self.now()["missions"]}
+
+    def mission(self, name: str) -> dict[str, Any]:
+        """Return what is shown of a mission."""
+        return next(row for row in self.now()["missions"] if row["name"] == name)
+
+    def drone(self, id: str) -> dict[str, Any]:
+        """Return what is shown of a drone."""
+        return next(row for row in self.now()["drones"] if row["id"] == id)
+
+    def in_the_air(self, above: float = 0.5) -> list[str]:
+        """Return the drones that are seen to be so many metres up."""
+        return [row["id"] for row in self.now()["drones"] if (row["z"] or 0.0) > above]
+
+    def audit(self) -> list[dict[str, Any]]:
+        """Return the commands that were heard, a refused one too."""
+        file = self.folder / "station" / "audit.log"
+        lines = file.read_text("utf-8").splitlines() if file.exists() else []
+        return [json.loads(line) for line in lines]
+
+
+@dataclass(kw_only=True)
+class Station(Asked):
     """An app's `serve`, over all its lives: one folder, one port."""
 
     app: App
@@ -178,80 +258,22 @@ class Station:
             counts += done_by_the_world(journal)
         return counts
 
-    def audit(self) -> list[dict[str, Any]]:
-        """Return the commands that were heard, a refused one too."""
-        file = self.folder / "station" / "audit.log"
-        lines = file.read_text().splitlines() if file.exists() else []
-        return [json.loads(line) for line in lines]
-
-    def get(self, path: str) -> Any:
-        """Ask the server behind the page's back."""
-        return self._ask(Request(self._at(path), headers=self._headers))[1]
-
-    def post(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
-        """Command the server behind the page's back; return its status and its answer."""
-        headers = {**self._headers, "Content-Type": "application/json"}
-        data = json.dumps(given).encode()
-        return self._ask(Request(self._at(path), data=data, headers=headers, method="POST"))
-
-    def put(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
-        """Put something there behind the page's back."""
-        headers = {**self._headers, "Content-Type": "application/json"}
-        data = json.dumps(given).encode()
-        return self._ask(Request(self._at(path), data=data, headers=headers, method="PUT"))
-
-    def plan(self, missions: list[dict[str, Any]]) -> list[Any]:
-        """Give it a plan; return the problems of that."""
-        revision = self.get("/api/plan")["revision"]
-        status, answer = self.put("/api/plan", {"revision": revision, "missions": missions})
-        assert status == 200, answer
-        problems: list[Any] = answer["problems"]
-        return problems
-
-    @property
-    def missions(self) -> list[dict[str, Any]]:
-        """The missions of its plan."""
-        missions: list[dict[str, Any]] = self.get("/api/plan")["missions"]
-        return missions
-
-    def tell(self, what: str, **given: object) -> str:
-        """Command something under a name of its own; return what is said."""
-        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
-        assert status == 200, answer
-        return str(answer["said"])
-
     @property
     def url_to_watch(self) -> str:
         """Where the page is for those who command nothing, token and all."""
         token = (self.folder / "station" / "watch_token").read_text(encoding="ascii")
         return f"{self.url.partition('#')[0]}#token={token}"
 
-    def now(self) -> dict[str, Any]:
-        """Return the newest that all pages are shown, whole: at once, as to one who has seen another flight."""
-        live: dict[str, Any] = self.get("/api/live?flight=none&seen=0&log=0&results=0")
-        return live
-
-    @property
-    def phase(self) -> str:
-        """What goes on, in the station's word."""
-        return str(self.now()["state"]["phase"])
-
-    def statuses(self) -> dict[str, str]:
-        """Return how the missions stand that fly or have flown."""
-        return {row["name"]: row["status"] for row in self.now()["missions"]}
-
-    def _at(self, path: str) -> str:
-        return f"http://127.0.0.1:{self.port}{path}"
-
-    @property
-    def _headers(self) -> dict[str, str]:
-        headers = {"X-Pluto": "1"}
+    def _ask(self, method: str, path: str, given: object = None) -> tuple[int, Any]:
+        headers = {"X-Pluto": "1", "Content-Type": "application/json"}
         _, _, token = self.url.partition("#token=")
-        return {**headers, "Authorization": f"Bearer {token}"} if token else headers
-
-    def _ask(self, request: Request) -> tuple[int, Any]:
+        if token:
+            headers["Authorization"] = f"Bearer {token}"
+        data = None if given is None else json.dumps(given).encode()
+        url = f"http://127.0.0.1:{self.port}{path}"
         try:
-            with urlopen(request, timeout=PATIENCE) as answer:
+            asked = Request(url, data=data, headers=headers, method=method)
+            with urlopen(asked, timeout=PATIENCE) as answer:
                 return answer.status, json.loads(answer.read())
         except HTTPError as refused:
             with refused:

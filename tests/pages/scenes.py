@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any
 
 from playwright.sync_api import Page, expect
 
@@ -194,8 +193,8 @@ def crowded(page: Page, station: Station) -> Iterator[str]:
     yield "crowd-trips"
     station.tell("start")
     open_page(page, "Monitor")
-    until(lambda: len(in_the_air(station)) > 20, "many are in the air")
-    station.tell("mishap", drone=in_the_air(station)[0]["id"], kind="crash")
+    until(lambda: len(station.in_the_air(1.0)) > 20, "many are in the air")
+    station.tell("mishap", drone=station.in_the_air(1.0)[0], kind="crash")
     expect(page.locator(".name.bad")).to_be_visible()
     yield "crowd-monitor"
     lists(page, "Drones")
@@ -207,19 +206,9 @@ def lists(page: Page, name: str) -> None:
     page.get_by_role("tablist", name="Lists beside the map").get_by_role("tab", name=name).click()
 
 
-def in_the_air(station: Station) -> list[dict[str, Any]]:
-    """Return the rows of the drones that are up."""
-    return [row for row in station.now()["drones"] if (row["z"] or 0) > 1]
-
-
-def mission(station: Station, name: str) -> dict[str, Any]:
-    """Return a mission's row."""
-    return next(row for row in station.now()["missions"] if row["name"] == name)
-
-
 def trip_of(station: Station, name: str) -> int | None:
     """Return which trip a drone of the mission flies, from 0; None: it has no drone."""
-    row = mission(station, name)
+    row = station.mission(name)
     current: int | None = row["current"]
     return current if row["drone"] else None
 
@@ -229,8 +218,8 @@ def drone_of(station: Station, name: str) -> str:
     up: list[str] = []
 
     def has() -> bool:
-        found = mission(station, name)["drone"]
-        up[:] = [row["id"] for row in in_the_air(station) if row["id"] == found]
+        found = station.mission(name)["drone"]
+        up[:] = [id for id in station.in_the_air(1.0) if id == found]
         return bool(up)
 
     until(has, f"{name} flies")

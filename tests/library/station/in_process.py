@@ -9,9 +9,9 @@ import signal
 from collections.abc import AsyncGenerator, Callable, Collection, Coroutine, Iterable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
-from itertools import count
 from pathlib import Path
 from typing import Any, TypeVar
+from urllib.parse import parse_qsl
 
 import pytest
 
@@ -36,6 +36,7 @@ from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.http import Reply
 from tests.kill.judge import done_by_the_world
 from tests.kit.apps import EXAMPLES, example, fly_straight
+from tests.kit.station import Asked
 
 from .jumping import AtOnce, JumpingLoop
 from .server.asking import OURS, request
@@ -44,8 +45,6 @@ T = TypeVar("T")
 
 PATIENCE = 3_000
 """Looks until something that does not happen is called a failure."""
-NUMBERS = count()
-"""Of commands, whose names must differ."""
 A_MOMENT = 0.05
 """Seconds between two looks, of the loop's time."""
 
@@ -144,7 +143,7 @@ async def _ended(tasks: Collection[asyncio.Task[Any]]) -> None:
 
 
 @dataclass(kw_only=True)
-class Flown:
+class Flown(Asked):
     """A station over all its lives: one folder, asked as its pages do."""
 
     world: World
@@ -178,10 +177,13 @@ class Flown:
             missions = (files / "missions.toml").read_text("utf-8")
             plan.import_toml(missions, plan.revision, folder=files)
         self.life = Station(app, config, plan)
-        self.audit = config.own_folder / "audit.log"
-        guard = Guard(host="127.0.0.1", port=8765)
-        self.api = Api(self.life, guard, Audit(self.audit), clock=self.world.loop.time)
+        self.api = self.served(Guard(host="127.0.0.1", port=8765))
         self.world.run(self._begun())
+
+    def served(self, guard: Guard) -> Api:
+        """Serve this life to those whom a guard lets in."""
+        clock, log = self.world.loop.time, self.folder / "station" / "audit.log"
+        return Api(self.life, guard, Audit(log, clock=clock), clock=clock)
 
     async def _begun(self) -> None:
         self.life.begin()
@@ -207,18 +209,10 @@ class Flown:
         """Ask as a page does."""
         return self.world.run(self.api.answer(request(method, path, body, OURS, **query)))
 
-    def get(self, path: str, **query: str) -> Any:
-        """Return what there is to read at an address."""
-        return json.loads(self.ask("GET", path, **query).body)
-
-    def post(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
-        """Command something; return the status and the answer."""
-        reply = self.ask("POST", path, given)
-        return reply.status, json.loads(reply.body)
-
-    def put(self, path: str, given: dict[str, object]) -> tuple[int, Any]:
-        """Put something there."""
-        reply = self.ask("PUT", path, given)
+    def _ask(self, method: str, path: str, given: object = None) -> tuple[int, Any]:
+        address, _, query = path.partition("?")
+        asked = dict(parse_qsl(query, keep_blank_values=True))
+        reply = self.ask(method, address, b"" if given is None else given, **asked)
         return reply.status, json.loads(reply.body)
 
     def until(self, holds: Callable[[], object], what: str) -> None:
@@ -229,31 +223,9 @@ class Flown:
             self.world.run(asyncio.sleep(A_MOMENT))
         raise AssertionError(f"it never came about that {what}")
 
-    def now(self) -> dict[str, Any]:
-        """Return the newest that all pages are shown, whole."""
-        live: dict[str, Any] = self.get("/api/live", flight="", seen="0", log="0", results="0")
-        return live
-
-    @property
-    def phase(self) -> str:
-        """What goes on, in the station's word."""
-        return str(self.now()["state"]["phase"])
-
     def comes_to(self, phase: str) -> None:
         """Let time pass until this goes on."""
         self.until(lambda: self.phase == phase, f"the station is {phase}")
-
-    def tell(self, what: str, **given: object) -> str:
-        """Command something under a name of its own; return what is said."""
-        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
-        assert status == 200, answer
-        return str(answer["said"])
-
-    def refused(self, what: str, **given: object) -> str:
-        """Command what cannot be done now; return why."""
-        status, answer = self.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
-        assert status == 409, answer
-        return str(answer["said"])
 
     def flying(self) -> Flown:
         """Start the whole plan, and wait until something flies."""
@@ -261,25 +233,13 @@ class Flown:
         self.until(lambda: self.events("trip.launched"), "something flies")
         return self
 
-    def statuses(self) -> dict[str, str]:
-        """Return how the missions stand that fly or have flown."""
-        return {row["name"]: row["status"] for row in self.now()["missions"]}
-
-    def mission(self, name: str) -> dict[str, Any]:
-        """Return what is shown of a mission."""
-        return next(row for row in self.now()["missions"] if row["name"] == name)
-
-    def drone(self, id: str) -> dict[str, Any]:
-        """Return what is shown of a drone."""
-        return next(row for row in self.now()["drones"] if row["id"] == id)
-
     def ends(self) -> dict[str, Any]:
         """Return how the missions of the plan have ended."""
-        return {one["name"]: one["ended"] for one in self.get("/api/plan")["missions"]}
+        return {one["name"]: one["ended"] for one in self.missions}
 
     def keys(self) -> dict[str, str]:
         """Return the keys of the missions of the plan."""
-        return {one["name"]: one["key"] for one in self.get("/api/plan")["missions"]}
+        return {one["name"]: one["key"] for one in self.missions}
 
     def journals(self) -> list[Path]:
         """Return the journals of its flights, the first one first."""
@@ -300,7 +260,3 @@ class Flown:
         done = [(e["mission"], e["trip"], e["round"]) for e in self.events("trip.completed")]
         assert len(done) == len(set(done))
         assert set(done_by_the_world(self.journals()[-1]).values()) <= {1}
-
-    def audited(self) -> list[dict[str, Any]]:
-        """Return the commands that were heard, a refused one too."""
-        return [json.loads(line) for line in self.audit.read_text("utf-8").splitlines()]

@@ -20,18 +20,10 @@ def aloft(serve: Serve, visit: Visit) -> Iterator[tuple[Station, Page, str]]:
     station = put_in(serve("drugs_distribution", "--speed", "1"))
     page = visit(station)
     start(page)
-    until(lambda: in_the_air(station) != [], "one is in the air")
-    drone = in_the_air(station)[0]
+    until(lambda: station.in_the_air() != [], "one is in the air")
+    drone = station.in_the_air()[0]
     lists(page, "Drones").get_by_role("button", name=drone).click()
     yield station, page, drone
-
-
-def in_the_air(station: Station) -> list[str]:
-    return [str(one["id"]) for one in station.now()["drones"] if (one["z"] or 0) > 0.5]
-
-
-def status(station: Station, drone: str) -> str:
-    return next(str(one["status"]) for one in station.now()["drones"] if one["id"] == drone)
 
 
 def thumb(page: Page, drone: str) -> Locator:
@@ -58,9 +50,9 @@ def test_clicks_and_half_a_slide_drop_nothing_and_a_whole_one_does(
     slid(page, drone, 0.6)
     expect(thumb(page, drone)).to_have_attribute("aria-valuenow", "0")  # it goes back
     until(lambda: station.now()["state"]["time"] > before + 1, "what was done has been dealt with")
-    assert status(station, drone) != "LOST"
+    assert station.drone(drone)["status"] != "LOST"
     slid(page, drone, 1.0)
-    until(lambda: status(station, drone) == "LOST", "its motors are cut")
+    until(lambda: station.drone(drone)["status"] == "LOST", "its motors are cut")
     expect(page.get_by_role("region", name=f"Drone {drone}")).to_contain_text("Lost")
     expect(page.get_by_role("button", name="Bring back")).to_be_visible()
 
@@ -75,10 +67,10 @@ def test_a_key_that_repeats_drops_nothing_and_the_arrow_pressed_to_the_end_does(
         page.keyboard.down("ArrowRight")  # held down: all but the first are repeats
     page.keyboard.up("ArrowRight")
     expect(thumb(page, drone)).to_have_attribute("aria-valuenow", "20")
-    assert status(station, drone) != "LOST"
+    assert station.drone(drone)["status"] != "LOST"
     for _ in range(4):
         page.keyboard.press("ArrowRight")
-    until(lambda: status(station, drone) == "LOST", "its motors are cut")
+    until(lambda: station.drone(drone)["status"] == "LOST", "its motors are cut")
 
 
 @pytest.mark.long
@@ -91,7 +83,7 @@ def test_a_word_does_it_for_voices_and_screen_readers_and_another_word_does_not(
     word.fill("no")
     word.press("Enter")
     expect(word).to_have_value("")
-    assert status(station, drone) != "LOST"
+    assert station.drone(drone)["status"] != "LOST"
     word.fill("cut")
     word.press("Enter")
-    until(lambda: status(station, drone) == "LOST", "its motors are cut")
+    until(lambda: station.drone(drone)["status"] == "LOST", "its motors are cut")

@@ -34,15 +34,6 @@ def flying(serve: Serve, visit: Visit) -> Iterator[tuple[Station, Page]]:
     yield station, page
 
 
-def row(station: Station, kind: str, key: str, name: str) -> dict[str, Any]:
-    """Return what the station shows of a mission or a drone."""
-    return next(each for each in station.now()[kind] if each[key] == name)
-
-
-def mission(station: Station, name: str) -> dict[str, Any]:
-    return row(station, "missions", "name", name)
-
-
 def lists(page: Page, name: str) -> Locator:
     """Open one of the lists beside the map."""
     page.get_by_role("tablist", name="Lists beside the map").get_by_role("tab", name=name).click()
@@ -77,7 +68,7 @@ def test_a_mission_is_paused_goes_on_and_is_cancelled_at_the_second_press(
     page.get_by_role("button", name="Go on", exact=True).click()
     expect(row_of(page, "North arc")).not_to_contain_text("Paused")
     page.get_by_role("button", name="Cancel mission").click()
-    assert mission(station, "North arc")["status"] != "CANCELLED"
+    assert station.mission("North arc")["status"] != "CANCELLED"
     page.get_by_role("button", name="Really cancel mission?").click()
     expect(row_of(page, "North arc")).to_contain_text("Cancelled")
     expect(row_of(page, "South-east arc")).not_to_contain_text("Cancelled")
@@ -91,9 +82,9 @@ def test_a_trip_is_weighed_anew_and_another_left_out_while_the_mission_flies(
     opened(page, "South-west arc")
     page.get_by_role("button", name="Raise the priority of trip C").click()
     arc = "South-west arc"
-    until(lambda: priorities(mission(station, arc))["C"] == 1, "C is first")
+    until(lambda: priorities(station.mission(arc))["C"] == 1, "C is first")
     page.get_by_role("button", name="Skip trip D").click()
-    until(lambda: mission(station, arc)["total"] == 3, "one less is flown")
+    until(lambda: station.mission(arc)["total"] == 3, "one less is flown")
     expect(page.get_by_role("button", name="Skip trip D")).to_have_count(0)
 
 
@@ -152,16 +143,16 @@ def test_drones_are_retired_brought_back_let_fall_and_joined_by_others(
     its = card(page, "carrier2")
     its.get_by_role("button", name="Retire").click()
     expect(its).to_contain_text("Retired")
-    assert row(station, "drones", "id", "carrier2")["retired"]
+    assert station.drone("carrier2")["retired"]
     its.get_by_role("button", name="Bring back").click()
-    until(lambda: not row(station, "drones", "id", "carrier2")["retired"], "it is back")
+    until(lambda: not station.drone("carrier2")["retired"], "it is back")
     expect(its.get_by_role("button", name="Retire")).to_be_visible()
-    drone = mission(station, "North arc")["drone"]
-    until(lambda: (row(station, "drones", "id", drone)["z"] or 0.0) > 0.3, "it is in the air")
+    drone = station.mission("North arc")["drone"]
+    until(lambda: (station.drone(drone)["z"] or 0.0) > 0.3, "it is in the air")
     its = card(page, drone)
     its.get_by_text("Rehearse a mishap").click()
     its.get_by_role("button", name="It falls").click()
-    until(lambda: row(station, "drones", "id", drone)["status"] == "LOST", "it is lost")
+    until(lambda: station.drone(drone)["status"] == "LOST", "it is lost")
     drones = lists(page, "Drones")
     drones.get_by_text("Add a drone to this flight").click()
     drones.get_by_label("Its name").fill("late")

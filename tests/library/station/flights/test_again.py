@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
-
-from .conftest import Serve
 
 
 def test_what_was_not_completed_flies_again_alone_by_the_next_station_too(serve: Serve) -> None:

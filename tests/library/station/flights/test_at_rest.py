@@ -11,13 +11,11 @@ import pytest
 
 from pluto_fleet.gateway.starting import cut_directly
 from pluto_fleet.journal.place import gateway_folder
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
-
-from .conftest import Serve
 
 NEAR = 0.06
 """Metres: places are shown to the centimetre."""
-SLOW = {"speed": 3.0}
 
 
 def rows(station: Flown) -> list[dict[str, Any]]:
@@ -154,47 +152,26 @@ def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_broug
     station.until(lambda: station.drone(who)["status"] in well, "it is well")
 
 
-def in_the_air(station: Flown) -> list[str]:
-    station.tell("start")
-    station.until(lambda: any(row["z"] > 1 for row in rows(station)), "a drone is in the air")
-    return [row["id"] for row in rows(station) if row["z"] > 0.5]
-
-
-def test_a_drone_that_is_dropped_while_no_app_flies_it_is_lost_as_well(serve: Serve) -> None:
-    """The gateway brings all down after a crash of the station, and the motors of one are cut."""
-    station = serve(**SLOW)
-    [who, *_] = in_the_air(station)
-    station.kill()
-    station.start()
-    station.tell("cut-motors", drone=who)
-    station.until(lambda: station.drone(who)["status"] == "LOST", "it is seen")
-    comes_true(station)
-    station.tell("discard")
-    assert station.tell("start").endswith(f"without {who}, lost until brought back")
-
-
 def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason_and_place(
     serve: Serve,
 ) -> None:
-    """While no station runs, and after the flight was put away."""
-    station = serve(**SLOW)
-    in_the_air(station)
+    """While no station runs, or while one shows what its crash has broken off; both outlast that."""
+    station = serve(speed=3.0)
+    station.tell("start")
+    station.until(lambda: station.in_the_air(1.0), "a drone is in the air")
     first, second = (row["id"] for row in rows(station)[:2])
     folder = gateway_folder(station.journals()[-1])
 
-    def cut(drone: str) -> None:
-        station.world.run(asyncio.to_thread(cut_directly, folder, drone, 60.0))
-
     station.kill()
-    cut(first)
+    station.world.run(asyncio.to_thread(cut_directly, folder, first, 60.0))
     station.start()
     station.until(lambda: station.drone(first)["status"] == "LOST", "it is seen")
     comes_true(station)
     assert station.drone(first)["why"] == f"{first}'s motors were cut"
-    cut(second)
-    station.tell("discard")
+    station.tell("cut-motors", drone=second)
     station.until(lambda: station.drone(second)["status"] == "LOST", "it is seen")
     comes_true(station)
+    station.tell("discard")
     station.start()
     assert [row["id"] for row in rows(station) if row["status"] == "LOST"] == [first, second]
     assert station.tell("bring-back", drone=second).startswith(f"{second} is brought back")

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
-
-from .conftest import Serve
 
 FIRST = "Mission 1"
 

@@ -18,16 +18,13 @@ from jsonschema import Draft202012Validator
 from pluto_fleet.client import Outdated, Refused
 from pluto_fleet.client import Station as Client
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.web.api import Api
-from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
 from pluto_fleet.station.web.listening import listening, port_of
 from pluto_fleet.station.web.reads import DESCRIPTION
 from pluto_fleet.station.web.server import serve as serve_web
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
 from tests.paths import ROOT
-
-from .conftest import Serve
 
 PAGE = (ROOT / "docs" / "http.md").read_text("utf-8")
 DESCRIBED = json.loads(DESCRIPTION.read_text("utf-8"))
@@ -39,9 +36,7 @@ def on_a_port(station: Flown, **guard: Any) -> Iterator[str]:
     """Serve a station where programs can ask it; give its address."""
     with listening("127.0.0.1", 0) as listener:
         port = port_of(listener)
-        guarded = Guard(host="127.0.0.1", port=port, **guard)
-        clock = station.world.loop.time
-        api = Api(station.life, guarded, Audit(station.audit, clock=clock), clock=clock)
+        api = station.served(Guard(host="127.0.0.1", port=port, **guard))
         ready = asyncio.Event()
         serving = station.world.loop.create_task(serve_web(api, listener, ready.set))
         station.world.run(ready.wait())
@@ -83,7 +78,7 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
     with on_a_port(station) as url:
         by(station, lambda: program(url))
     assert said.getvalue() == output
-    assert "night shift" in [line.get("by") for line in station.audited()]
+    assert "night shift" in [line.get("by") for line in station.audit()]
 
 
 def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:

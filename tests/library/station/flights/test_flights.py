@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
 from typing import Any
 
 import pytest
 
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.lock import Lock
+from pluto_fleet.station.session import FlightSession
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
-
-from .conftest import Serve
 
 
 def alerts(station: Flown, kind: str) -> list[dict[str, Any]]:
@@ -199,3 +200,36 @@ def test_what_could_not_be_written_down_is_not_shown_to_have_happened(
 
 def _no_room(store: Any, rows: object) -> None:
     raise JournalError(f"{store.path}: the journal cannot be written: no room")
+
+
+def test_a_mistake_in_what_is_shown_leaves_no_page_waiting_and_the_flight_flies_on(
+    serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    station, complaints = serve().flying(), list[object]()
+    station.world.loop.set_exception_handler(lambda _, about: complaints.append(about))
+    with monkeypatch.context() as wrong:
+        wrong.setattr(FlightSession, "look", lambda *_: 1 / 0)
+        assert station.now()["state"]["phase"] == "flying"
+        station.comes_to("over")
+    assert complaints
+    station.completes_all_once()
+
+
+def test_a_page_that_has_seen_all_is_answered_when_something_changes_or_in_a_second(
+    serve: Serve,
+) -> None:
+    station = serve()
+    seen, loop = int(station.now()["version"]), station.world.loop
+
+    async def answered(change: bool) -> float:
+        """Return how long a page waits, if something changes soon or nothing does."""
+        begun = loop.time()
+        asked = asyncio.ensure_future(station.life.newer("", seen, 0, 0))
+        await asyncio.sleep(0.1)
+        if change:
+            station.life.plan.example(station.life.plan.revision)
+        await asked
+        return loop.time() - begun
+
+    assert station.world.run(answered(change=False)) == pytest.approx(1.1, abs=0.1)
+    assert station.world.run(answered(change=True)) == pytest.approx(0.2, abs=0.1)

@@ -3,44 +3,44 @@
 from __future__ import annotations
 
 import os
-import shutil
 import signal
+from collections.abc import Callable, Iterator
 from dataclasses import replace
-from itertools import count
-from typing import Any
 
 import pytest
 
-from tests.kit.station import Station, until
+from tests.kit.station import Station, Stations, until
+from tests.paths import EXAMPLES
 
-from .conftest import Run
-
-NUMBERS = count()
-
-
-def said(station: Station, what: str, **given: object) -> str:
-    """Command something; return what is said, done or not."""
-    _, answer = station.post(f"/api/{what}", {"id": f"test-{next(NUMBERS)}", **given})
-    return str(answer["said"])
+Run = Callable[..., Station]
 
 
-def comes_to(station: Station, phase: str) -> None:
-    until(lambda: station.phase == phase, f"the station is {phase}")
+@pytest.fixture
+def run(stations: Stations) -> Iterator[Run]:
+    """Run stations of one example as processes; leave none behind."""
+    begun: list[Station] = []
+    missions = os.fspath(EXAMPLES / "drugs_distribution" / "missions.toml")
 
+    def run(*options: str) -> Station:
+        speed = () if "--crtp-sim" in options else ("--speed", "30")
+        options = ("--missions", missions, *speed, *options)
+        begun.append(stations.fresh("drugs_distribution", *options))
+        begun[-1].start()
+        return begun[-1]
 
-def drones(station: Station) -> list[dict[str, Any]]:
-    found: list[dict[str, Any]] = station.now()["drones"]
-    return found
+    yield run
+    for station in begun:
+        station.end()
 
 
 def flying(station: Station) -> Station:
-    assert said(station, "start") == "3 missions started"
-    until(lambda: any((row["z"] or 0.0) > 0.5 for row in drones(station)), "something flies")
+    assert station.tell("start") == "3 missions started"
+    until(lambda: station.in_the_air() != [], "something flies")
     return station
 
 
 def completes_all_once(station: Station) -> None:
-    comes_to(station, "over")
+    until(lambda: station.phase == "over", "the flight is over")
     assert set(station.statuses().values()) == {"COMPLETED"}
     assert set(station.done().values()) <= {1}
 
@@ -56,7 +56,7 @@ def test_a_killed_station_shows_what_was_interrupted_and_a_resume_completes_all_
     station.start()
     assert address in station.said()  # open pages keep their access
     assert station.phase == "interrupted"
-    said(station, "resume")
+    station.tell("resume")
     completes_all_once(station)
 
 
@@ -90,16 +90,6 @@ def test_ctrl_c_lands_all_drones_and_says_so(run: Run) -> None:
 
 @pytest.mark.long
 @pytest.mark.process
-def test_a_station_whose_folder_is_gone_ends_and_says_what_it_could_not_write(run: Run) -> None:
-    station = run()
-    shutil.rmtree(station.folder)
-    station.stop()
-    assert "left: cannot be written: No such file or directory" in station.said()
-    assert "internal error" not in station.said()
-
-
-@pytest.mark.long
-@pytest.mark.process
 def test_no_other_station_serves_from_the_same_folder_nor_at_the_same_port(run: Run) -> None:
     station = run()
     with pytest.raises(AssertionError, match="another station is being served from there"):
@@ -119,16 +109,16 @@ def test_simulated_crazyflies_join_and_begin_the_next_flight_where_the_last_one_
     """They are connected like real ones; mishaps are not for them."""
     pytest.importorskip("cflib")
     station = flying(run("--crtp-sim", "2"))
-    why = said(station, "mishap", drone="cf1", kind="crash")
+    why = station.refused("mishap", drone="cf1", kind="crash")
     assert why == "mishaps happen to drones that --sim simulates, and to no others"
     category = station.get("/api/app")["drones"][0]["category"]
-    said(station, "join", drone="cf9", category=category, home=[10.0, 4.0])
-    until(lambda: drones(station)[-1]["status"] in ("FREE", "BUSY"), "cf9 is connected")
-    said(station, "stop", how="land")
-    comes_to(station, "stopped")
-    before = {row["id"]: (row["x"], row["y"]) for row in drones(station)}
-    said(station, "discard")
-    said(station, "start")
+    station.tell("join", drone="cf9", category=category, home=[10.0, 4.0])
+    until(lambda: station.drone("cf9")["status"] in ("FREE", "BUSY"), "cf9 is connected")
+    station.tell("stop", how="land")
+    until(lambda: station.phase == "stopped", "all have landed")
+    before = {row["id"]: (row["x"], row["y"]) for row in station.now()["drones"]}
+    station.tell("discard")
+    station.tell("start")
     until(lambda: station.now()["missions"] != [], "the drones have been asked where they are")
-    for row in drones(station):
+    for row in station.now()["drones"]:
         assert (row["x"], row["y"]) == pytest.approx(before[row["id"]], abs=0.3)

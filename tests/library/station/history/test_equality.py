@@ -15,7 +15,7 @@ from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.frames import Shown
 from pluto_fleet.station.history.recording import MOVES_EVERY, MOVING
 from tests.kit.apps import NAMES
-from tests.library.station.flights.conftest import Serve
+from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
 
 SPEED = 20

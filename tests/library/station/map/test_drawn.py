@@ -79,14 +79,6 @@ def test_what_is_drawn_stands_in_the_fleet_file(tmp_path: Path) -> None:
     assert load_fleet(tmp_path / "fleet.toml", APP).landmarks == drawn.landmarks
 
 
-def test_what_is_the_same_is_no_change(tmp_path: Path) -> None:
-    """Nothing is written, and no page is told."""
-    drawn = ward(tmp_path)
-    before = (tmp_path / "fleet.toml").stat().st_mtime_ns
-    change(drawn, places=[BED])
-    assert (drawn.revision, (tmp_path / "fleet.toml").stat().st_mtime_ns) == (0, before)
-
-
 def test_a_file_that_was_changed_by_hand_counts(tmp_path: Path) -> None:
     """A page that has not seen that is told; what does not concern the map is no conflict."""
     drawn = ward(tmp_path)

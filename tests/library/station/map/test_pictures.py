@@ -86,13 +86,6 @@ def test_both_points_come_to_lie_where_they_are(
     assert there == pytest.approx([a + metres * r for a, r in zip(at, ray, strict=True)], abs=1e-6)
 
 
-def test_a_turned_picture_is_turned_clockwise() -> None:
-    """What leads to the right in it leads down on the map, if it is turned by 90 degrees."""
-    laid = calibration("x", (100.0, 100.0), (0, 100), (100, 100), 10.0, at=(3, 3), towards=(3, 0))
-    assert laid.turn == pytest.approx(90.0)
-    assert on_map(laid, (100.0, 100.0), (0.0, 0.0)) == pytest.approx((13.0, 3.0))
-
-
 @pytest.mark.parametrize(("second", "metres"), [((1.0, 0.0), 3.0), ((9.0, 9.0), 0.0)])
 def test_what_says_nothing_of_a_length_is_refused(
     second: tuple[float, float], metres: float

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
-from random import Random
 from typing import Any
 
 import pytest
@@ -14,7 +12,6 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.actions import Action, Parameter
-from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.quantities import Type
@@ -23,7 +20,7 @@ from pluto_fleet.station.plan.plan import MissionPlan
 from tests.kit import apps
 from tests.kit.apps import EXAMPLES
 from tests.library.files.an_app import APP, PLAIN
-from tests.library.station.plan.drawing import FLEET, a_plan, drawn, mission
+from tests.library.station.plan.drawing import FLEET, drawn, mission
 from tests.trials.examples import example, fleet_of
 
 NAMES = sorted(path.parent.name for path in EXAMPLES.glob("*/app.pluto"))
@@ -67,40 +64,8 @@ def test_parameters_of_every_type_are_given() -> None:
     assert missions[0].trips[0].parameters.keys() == {kind.name.lower() for kind in Type}
 
 
-def test_who_can_only_carry_carries() -> None:
-    """Twice."""
-    carrier = Category(name="carrier", actions=frozenset({"pick_item", "release_item"}))
-    app = apps.changed(PLAIN, categories=(carrier,))
-    missions, _ = shown(app, replace(FLEET, drones=of_category("carrier"))).launchable()
-    assert [[trip.action for trip in one.trips] for one in missions] == [
-        ["pick_item", "release_item"]
-    ] * 2
-
-
 def of_category(name: str) -> tuple[Any, ...]:
     return tuple(replace(drone, category=name) for drone in FLEET.drones)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_any_map_with_room_around_its_docks_has_its_example(seed: int) -> None:
-    """Its places may be flown to, and lie apart."""
-    chance = Random(f"map/{seed}")
-    width, depth = (5 * 40 ** chance.random() for _ in range(2))
-    side, x, y = (chance.uniform(0.01, 0.5), *(chance.uniform(0, 0.9) for _ in range(2)))
-    corners = ((x, y), (x + side, y), (x + side, y + side), (x, y + side))
-    area = tuple((a * width, b * depth) for a, b in corners)
-    space = Airspace(size=(width, depth), no_fly=(area,))
-    room = [(dx, dy) for dx in (-1.0, 0.0, 1.0) for dy in (-1.0, 0.0, 1.0)]
-    at = (0.0, 0.0, 0.0)
-    while any(space.problem((at[0] + dx, at[1] + dy, 0.0)) for dx, dy in room):
-        at = (chance.uniform(0, width), chance.uniform(0, depth), 0.0)
-    drones = tuple(replace(drone, home=at) for drone in FLEET.drones)
-    plan = a_plan(fleet=replace(FLEET, airspace=space, drones=drones))
-    plan.example(plan.revision)
-    missions, _ = plan.launchable()
-    for one in missions:
-        assert all(space.problem(trip.target) is None for trip in one.trips)
-        assert all(a.target != b.target for a, b in pairwise(one.trips))
 
 
 def test_where_nothing_can_be_done_there_is_none() -> None:

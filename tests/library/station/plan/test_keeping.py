@@ -195,21 +195,6 @@ def flown(keep: Path | None = None) -> MissionPlan:
     return plan
 
 
-def test_start_leaves_out_what_was_completed_until_all_was_or_it_is_chosen() -> None:
-    plan = flown()
-    assert plan.launchable()[1] == ["mission-two", "mission-six"]
-    assert plan.launchable(["mission-two"])[1] == ["mission-two"]
-    assert plan.launchable(["mission-one"])[1] == ["mission-one"]
-    with pytest.raises(BadInput, match='no mission of the plan has the key "nowhere"'):
-        plan.launchable(["nowhere"])
-    plan.launched(["mission-two", "mission-six"])
-    assert plan.launchable()[1] == []  # what was completed does not fly beside them by itself
-    with pytest.raises(BadInput, match='"mission-two" belongs to the flight that is under way'):
-        plan.launchable(["mission-two"])
-    plan.settle({"mission-two": "COMPLETED", "mission-six": "COMPLETED"})
-    assert len(plan.launchable()[1]) == 3
-
-
 def test_a_mission_that_is_drawn_anew_has_not_been_completed_but_its_name_changes_nothing() -> None:
     plan = flown()
     one, two, six = (mission(f"mission-{name}") for name in ("one", "two", "six"))

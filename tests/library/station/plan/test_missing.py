@@ -49,10 +49,6 @@ def test_what_was_picked_and_not_released_is_picked_again(
     assert missing(failed(drawn(long("mission-one")), mission_one=done)) == {"mission-one": again}
 
 
-def ways(total: Any, key: str) -> int:
-    return sum(one == key for one in total)
-
-
 def test_what_cannot_be_flown_again_alone_is_refused_in_words(tmp_path: Path) -> None:
     keys = ("mission-one", "mission-two", "mission-six")
     plan = a_plan(tmp_path / "plan.json")

@@ -105,15 +105,6 @@ def told(plan: MissionPlan) -> int:
     return len(problems)
 
 
-def test_it_is_told_once_it_is_known() -> None:
-    """What can be seen at once is told at once."""
-    unread = mission("mission-two", trip("trip-two", target=None))
-    plan = drawn(mission("mission-one", FAR), unread, fleet=WALLED)
-    assert told(plan) == 1
-    asyncio.run(plan.examined())
-    assert told(plan) == 2
-
-
 def test_what_has_changed_is_asked_again() -> None:
     """By itself, and not because others have changed."""
     plan = drawn(mission("mission-one", FAR), mission("mission-two"), fleet=WALLED)
@@ -124,14 +115,6 @@ def test_what_has_changed_is_asked_again() -> None:
     assert [one[0] for one in said(plan)] == ["mission-two"]
     plan.replace(plan.revision, [mission("mission-one", FAR)])
     assert [one[0] for one in said(plan)] == ["mission-one"]
-
-
-def test_start_does_not_wait() -> None:
-    """What is not known then is found out then."""
-    plan = drawn(mission("mission-one", FAR), fleet=WALLED)
-    with pytest.raises(BadInput, match="finds no permitted way"):
-        plan.launchable()
-    assert told(plan) == 1
 
 
 def test_drawing_meanwhile_is_waited_for() -> None:

@@ -116,30 +116,9 @@ def test_a_mission_comes_after_one_that_is_started_with_it_or_flies_or_was_compl
     assert after(KEYS[1]) is None
 
 
-def test_missions_to_fly_are_new_ones_each_time() -> None:
-    """Flying them changes them."""
-    plan = drawn(mission())
-    (first,), _ = plan.launchable()
-    first.trips.clear()
-    (second,), _ = plan.launchable()
-    assert len(second.trips) == 1
-
-
 def test_a_journal_that_was_found_says_what_flies() -> None:
     """Against what the plan said: the station may have ended between the one and the other."""
     plan = drawn(*map(mission, KEYS))
     plan.launched(["mission-one"])
     plan.adopt(["mission-two", "gone"])
     assert plan.launchable()[1] == ["mission-one"]
-
-
-def test_marks_are_changes_that_all_pages_see() -> None:
-    """And what is marked already is no change."""
-    plan = drawn(mission())
-    before = plan.revision
-    plan.launched(["mission-one"])
-    plan.launched(["mission-one", "unknown-key"])
-    assert plan.revision == before + 1
-    plan.unlock()
-    plan.unlock()
-    assert plan.revision == before + 2

@@ -77,11 +77,6 @@ def test_what_was_done_beside_its_target_says_where() -> None:
     assert "another drone is at its place" in feed.console()
 
 
-def test_a_quantity_that_was_not_named_is_the_usual_one() -> None:
-    found = told("measure", 21.0, dict(UNITS))
-    assert found["values"] == [{"quantity": "temperature", "value": 21.0, "unit": "°C"}]
-
-
 def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a_parameter() -> (
     None
 ):
@@ -131,9 +126,3 @@ def test_a_photo_has_an_address_where_its_camera_has_left_a_picture() -> None:
         assert isinstance(found, dict)
         value: Any = found["value"]
         assert (found["kind"], value["sees"], value["picture"]) == ("photo", ["bloom"], picture)
-
-
-def test_a_long_text_is_downloaded_whole_and_shown_in_part() -> None:
-    page, downloaded = shown("x" * 100_000)
-    assert downloaded == "x" * 100_000
-    assert len(str(page)) < 2_000

@@ -62,9 +62,3 @@ def test_a_photo_is_the_ground_that_it_shows() -> None:
     [ring] = feature["geometry"]["coordinates"]
     assert ring[0] == ring[-1]
     assert sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2 == pytest.approx(2.0)
-
-
-def test_coordinates_of_the_map_are_not_passed_off_as_degrees() -> None:
-    found = geojson(a_flight(), "field")
-    assert found["type"] == "FeatureCollection"
-    assert "metres of the map" in str(found["pluto"])
