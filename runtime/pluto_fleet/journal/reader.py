@@ -217,6 +217,7 @@ class Reader:
             for suffix in ("", "-wal"):
                 shutil.copyfile(beside(self._path, suffix), beside(copy, suffix))
         except OSError as error:
+            self._copy.cleanup()
             raise errors.cannot_open(self._path, error) from None
         return copy
 

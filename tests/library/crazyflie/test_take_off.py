@@ -7,11 +7,15 @@ import asyncio
 import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
 from pluto_fleet.crtp.supervisor import Supervisor
 from pluto_fleet.drones.errors import NotReady, Rejected
-from tests.kit.unthreaded import the_air
+from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar
+
+ENDLESS = {"least_voltage": 0.0}
+"""Options of one that flies on with an empty battery."""
 
 
 async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: Crazyflie) -> None:
@@ -22,6 +26,29 @@ async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: C
     told = [command.what for command in one.commands if command.what != "setpoints end"]
     assert told[:4] == ["arm", "takeoff", "land", "down"]
     assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
+
+
+@pytest.mark.parametrize(
+    "one",
+    [
+        {"build": Build(id="cf1", home=(1.0, 2.0, 0.0), auto_arm=arms), "options": ENDLESS}
+        for arms in (False, True)
+    ],
+    indirect=True,
+    ids=["on request", "by itself"],
+)
+@pytest.mark.parametrize("every", [0.05, pytest.param(0.01, marks=pytest.mark.long)])
+async def test_it_takes_off_however_long_ago_it_has_landed(
+    every: float, one: Hangar, cf: Crazyflie
+) -> None:
+    """Some 3 s after a landing the firmware disarms by itself: a take-off must outlive that at any moment."""
+    pauses = [0.0, *(2.9 + every * number for number in range(round(0.3 / every) + 1)), 6.0]
+    for pause in pauses:
+        await passes(pause)
+        await cf.takeoff(0.3, FAST)
+        assert one.position[2] == pytest.approx(0.3, abs=0.15), pause
+        await cf.land(0.5)
+        assert not one.flies and not one.drone.supervisor.locked, pause
 
 
 class OnRequest(Supervisor):

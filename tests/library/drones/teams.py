@@ -28,33 +28,11 @@ SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
 FIELD = Airspace(size=(10.0, 10.0), ceiling=3.0, no_fly=(((6, 6), (8, 6), (8, 8), (6, 8)),))
 
 
-class Flown:
-    """Some fake drones, and the team that they are."""
+class Asked:
+    """A kernel in real time, of which something is asked, and what was logged."""
 
-    def __init__(
-        self,
-        folder: Path,
-        drones: Sequence[FakeDrone],
-        wanted: Sequence[RequiredAction] = (),
-        feeding: LocalizationFeed | None = None,
-        category: Category = SCOUT,
-    ) -> None:
+    def __init__(self) -> None:
         self.kernel, self.log = RealTime(), list[str]()
-        self.drones = {drone.id: drone for drone in drones}
-        self.crafts = [
-            TeamDrone(id=drone.id, category=category, home=drone.home, navigation=drone)
-            for drone in drones
-        ]
-        self.team = Team(
-            self.kernel,
-            self.crafts,
-            FIELD,
-            folder=folder,
-            say=self.log.append,
-            wanted=wanted,
-            feeding=feeding,
-            clock=the_loop().time,
-        )
 
     async def do(self, command: Coroutine[Any, Any, T]) -> T:
         """Have the kernel do something, and return what came of it."""
@@ -78,12 +56,6 @@ class Flown:
             await self.do(command)
         return failed.value
 
-    async def up(self, drone: str = "cf1") -> FakeDrone:
-        """Let a drone take off, and return it."""
-        await self.do(self.team.drone_report(drone))
-        await self.do(self.team.takeoff(drone, 1.0))
-        return self.drones[drone]
-
     async def until(self, so: Callable[[], object], limit: float = 1000.0) -> float:
         """Wait until something is so, and return for how long that was."""
         loop = the_loop()
@@ -92,6 +64,41 @@ class Flown:
             assert loop.now - began < limit, f"not in {limit} s; the log: {self.log}"
             await asyncio.sleep(0.05)
         return loop.now - began
+
+
+class Flown(Asked):
+    """Some fake drones, and the team that they are."""
+
+    def __init__(
+        self,
+        folder: Path,
+        drones: Sequence[FakeDrone],
+        wanted: Sequence[RequiredAction] = (),
+        feeding: LocalizationFeed | None = None,
+        category: Category = SCOUT,
+    ) -> None:
+        super().__init__()
+        self.drones = {drone.id: drone for drone in drones}
+        self.crafts = [
+            TeamDrone(id=drone.id, category=category, home=drone.home, navigation=drone)
+            for drone in drones
+        ]
+        self.team = Team(
+            self.kernel,
+            self.crafts,
+            FIELD,
+            folder=folder,
+            say=self.log.append,
+            wanted=wanted,
+            feeding=feeding,
+            clock=the_loop().time,
+        )
+
+    async def up(self, drone: str = "cf1") -> FakeDrone:
+        """Let a drone take off, and return it."""
+        await self.do(self.team.drone_report(drone))
+        await self.do(self.team.takeoff(drone, 1.0))
+        return self.drones[drone]
 
 
 @asynccontextmanager

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
@@ -139,6 +140,20 @@ def test_rows_that_vanish_from_the_end_are_missed(tmp_path: Path) -> None:
     store.close()
 
 
+def test_without_its_tip_no_row_is_lost_and_its_epoch_grows_all_the_same(tmp_path: Path) -> None:
+    path = tmp_path / "J"
+    store = Store.create(path, HEADER)
+    store.append(["[1]", "[2]"])
+    store.close()
+    with closing(sqlite3.connect(path)) as database:
+        database.execute("UPDATE tip SET epoch = 0")
+        database.commit()
+    again = Store.open(path)
+    assert [row.text for row in again.read().rows] == ["[1]", "[2]"]
+    assert again.epoch > store.epoch
+    again.close()
+
+
 def test_a_damaged_snapshot_is_replaced_by_the_one_before_and_then_by_all_rows(
     tmp_path: Path,
 ) -> None:
@@ -186,21 +201,25 @@ def test_another_file_is_refused_and_left_as_it_is(
             f"PRAGMA user_version = {VERSION + 1}",
             f"its format is {VERSION + 1}, and pluto-fleet .* reads {VERSION}: install",
         ),
+        ("DROP TABLE snapshot", "its tables are not those of a journal"),
     ],
 )
 def test_a_database_that_is_another_is_refused_and_left_as_it_is(
     tmp_path: Path, statement: str, why: str
 ) -> None:
     path = tmp_path / "J"
-    if "PRAGMA" in statement:
+    if "CREATE" not in statement:
         Store.create(path, HEADER).close()
     with closing(sqlite3.connect(path)) as database:
         database.execute(statement)
         database.commit()
     content = path.read_bytes()
-    for opens in (Store.open, Reader):
-        with pytest.raises(JournalError, match=why):
-            opens(path)
+    with pytest.raises(JournalError, match=why):
+        Store.open(path)
+    with suppress(JournalError):  # what is damaged is read as far as it goes
+        reader = Reader(path)
+        assert re.search(why, str(reader.damaged))
+        reader.close()
     assert path.read_bytes() == content
 
 

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import os
+import sqlite3
 import subprocess
 import sys
-from collections.abc import Iterator
+import tempfile
+from collections.abc import Callable, Iterator
 from itertools import count
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,9 +20,10 @@ from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from tests.library.journal.appender import fill, text
-from tests.library.journal.damage import full_disk
+from tests.library.journal.damage import ROWS, closed, full_disk, killed
 from tests.paths import ROOT
 
+PAGE = 4096
 WHY = '[{"t": 0.0, "event": "log", "text": "no room"}]'
 
 
@@ -105,6 +109,95 @@ def test_where_there_is_too_little_room_no_part_of_a_journal_is_made(
     with full_disk(room), pytest.raises(JournalError, match="cannot be opened: the disk"):
         Store.open(path)
     assert os.listdir(tmp_path) == ["J"]
+
+
+def test_on_a_disk_that_stays_full_neither_a_snapshot_nor_a_last_word_is_taken(
+    tmp_path: Path,
+) -> None:
+    """Nothing that the journal took before is lost, and once there is room the last word is heard."""
+    path = tmp_path / "J"
+    store = Store.create(path, {"event": "header"})
+    store.append([text(1)])
+    with full_disk():
+        for _ in range(2):
+            with pytest.raises(JournalError, match="cannot be written: the disk"):
+                store.snapshot("state")
+        assert not store.last_words(WHY)
+    assert store.last_words(WHY)
+    assert store.read().snapshot is None
+    store.close()
+    assert rows_of(path) == [text(1), WHY]
+
+
+Refuses = Callable[[str], None]
+
+
+@pytest.fixture
+def refuses(monkeypatch: pytest.MonkeyPatch) -> Refuses:
+    """Let SQLite open nothing any more whose address ends so: it would have to write, and may not."""
+
+    def refuse(ending: str) -> None:
+        connect = sqlite3.connect
+
+        def connected(address: str, **options: Any) -> sqlite3.Connection:
+            if address.endswith(ending):
+                error = sqlite3.OperationalError()
+                error.sqlite_errorcode = sqlite3.SQLITE_CANTOPEN
+                raise error
+            return connect(address, **options)
+
+        monkeypatch.setattr(sqlite3, "connect", connected)
+
+    return refuse
+
+
+def test_a_new_journal_that_cannot_be_opened_leaves_nothing_behind(
+    tmp_path: Path, refuses: Refuses
+) -> None:
+    refuses("?mode=rw")
+    with pytest.raises(JournalError, match="cannot be made: it may not be opened"):
+        Store.create(tmp_path / "J", {})
+    assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize("log", [True, False])
+def test_where_nothing_may_be_written_all_rows_are_read_and_nothing_is_left(
+    log: bool, tmp_path: Path, refuses: Refuses, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of an app that was killed, from a copy; if there is no room for that either, it is said."""
+    path, copies = tmp_path / "J", tmp_path / "copies"
+    files = (killed if log else closed)(tmp_path)
+    for name, content in files.items():
+        (tmp_path / name).write_bytes(content)
+    copies.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(copies))
+    refuses("/J?mode=ro")
+    reader = Reader(path, follows=True)
+    assert [row.text for row in reader.rows()] == ROWS
+    reader.close()
+    assert (reader.damaged, os.listdir(copies)) == (None, [])
+    with full_disk(PAGE):
+        if log:
+            with pytest.raises(JournalError, match="cannot be opened: the disk is full"):
+                Reader(path)
+
+
+@pytest.mark.parametrize("meanwhile", [False, True])
+def test_where_files_cannot_be_linked_a_journal_takes_the_place_of_none_either(
+    meanwhile: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nor where another process has just made one of that name."""
+
+    def link(*_: object) -> None:
+        raise FileExistsError if meanwhile else PermissionError
+
+    monkeypatch.setattr(os, "link", link)
+    if meanwhile:
+        with pytest.raises(JournalError, match="there is a journal already"):
+            Store.create(tmp_path / "J", {})
+    else:
+        Store.create(tmp_path / "J", {}).close()
+    assert os.listdir(tmp_path) == ([] if meanwhile else ["J"])
 
 
 @pytest.fixture

@@ -90,6 +90,17 @@ def log_of(content: bytes) -> bytes:
     return bytes(32) + b"".join(pages)
 
 
+def test_a_journal_that_is_damaged_once_more_is_kept_once_more(tmp_path: Path) -> None:
+    path = tmp_path / "J"
+    closed(tmp_path)
+    for last, name in ((70, "J.damaged"), (40, "J.damaged-2")):
+        damaged = path.read_bytes().replace(b'"t": %d.0' % last, b'"t": 99.0')
+        path.write_bytes(damaged)
+        done = mend(path)
+        assert done is not None
+        assert (done.rows, done.kept.name, done.kept.read_bytes()) == (last - 1, name, damaged)
+
+
 def test_a_sound_journal_is_left_as_it_is(tmp_path: Path) -> None:
     content = closed(tmp_path)["J"]
     assert mend(tmp_path / "J") is None

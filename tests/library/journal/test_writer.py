@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from threading import Event
 
 import pytest
 
@@ -33,6 +34,29 @@ def test_rows_have_numbers_and_are_durable_in_order(store: Store) -> None:
     assert sorted(told) == told
     assert [found.text for found in store.read().rows] == [row(n) for n in range(1, 2001)]
     assert not failures
+    store.close()
+
+
+def test_a_snapshot_stands_for_the_rows_before_it_though_others_are_written_with_it(
+    store: Store,
+) -> None:
+    busy, written = Event(), Event()
+
+    def told(number: int) -> None:
+        busy.set()
+        assert written.wait(60)  # meanwhile more is added, and taken in one batch
+
+    writer = Writer(store, told, [].append)
+    writer.add(row(1))
+    assert busy.wait(60)
+    writer.add(row(2))
+    writer.snapshot("of two")
+    writer.add(row(3))
+    written.set()
+    writer.flush()
+    writer.close()
+    read = store.read()
+    assert (read.snapshot, [found.text for found in read.rows]) == ("of two", [row(3)])
     store.close()
 
 
