@@ -81,17 +81,6 @@ async def test_a_camera_that_is_not_there_fails_the_action(cf: Crazyflie) -> Non
         await cf.act("take_photo", {}, None)
 
 
-@drone(options={"measure": {"breaths": "bme.humidity", "lost": "no.such"}})
-async def test_a_quantity_is_read_from_the_variable_that_the_fleet_file_names(
-    cf: Crazyflie,
-) -> None:
-    """So a hook reads by one name from simulated drones and from real ones, and in any world."""
-    assert await cf.read("breaths") == pytest.approx(40.0)
-    for name in ("lost", "light"):
-        with pytest.raises(Rejected, match=f'measure = {{ {name} = "group.name" }}'):
-            await cf.read(name)
-
-
 async def test_variables_are_read_and_parameters_set(cf: Crazyflie) -> None:
     assert await cf.read("bme.humidity") == pytest.approx(40.0)
     assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)

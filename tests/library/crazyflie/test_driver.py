@@ -74,14 +74,6 @@ def test_an_option_that_cannot_be_used_is_named(given: dict[str, object], said: 
         options_of(given)
 
 
-def test_options_have_their_defaults() -> None:
-    options = options_of({"camera": "[::1]:5000", "decks": "bcFlow2"})
-    assert options.camera == ("::1", 5000) and options.decks == ("bcFlow2",)
-    assert options.sure_within == 0.07 and options.lost_beyond == pytest.approx(0.05**0.5)
-    assert options_of({"sure_within": 0.5}).lost_beyond == 0.5
-    assert options.least_voltage == 3.7 and options.grip is None and dict(options.measure) == {}
-
-
 def test_tables_are_kept_where_no_other_user_may_write(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

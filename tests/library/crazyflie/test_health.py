@@ -2,36 +2,15 @@
 
 from __future__ import annotations
 
-from math import isclose, nan
+from math import nan
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from pluto_fleet.crazyflie.health import AlarmDetector, BatteryGauge
+from pluto_fleet.crazyflie.health import AlarmDetector
 from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN
 from pluto_fleet.crazyflie.state import PositionConfidence, State, state_of
 from pluto_fleet.drones.protocol import BATTERY_LOW
-from pluto_fleet.lithium import level_at
 from tests.library.crazyflie.hangar import state
-
-FLYING = 1 << 4 | 1 << 8
-
-
-@given(volts=st.floats(2.5, 4.5), more=st.floats(0.0, 1.0))
-def test_a_battery_with_more_volts_is_fuller(volts: float, more: float) -> None:
-    assert 0.0 <= level_at(volts) <= level_at(volts + more) <= 1.0
-
-
-def test_volts_in_the_air_are_corrected_by_what_flying_costs() -> None:
-    battery = BatteryGauge()
-    battery.hear(state(0.0, volts=3.95))
-    resting = battery.level
-    for tick in range(1, 100):
-        battery.hear(state(tick / 10, volts=3.55, bits=FLYING))
-        assert isclose(battery.level, resting, abs_tol=0.02)
-    battery.hear(state(10.0, volts=3.9))
-    assert battery.level == level_at(3.9)
 
 
 def heard(states: list[State]) -> list[tuple[float, str]]:
@@ -44,11 +23,6 @@ def test_a_battery_is_low_when_it_is_so_for_three_seconds_and_told_once() -> Non
     assert heard(low) == [(3.0, BATTERY_LOW)]
     said = [state(tick / 10, volts=3.4, power=3) for tick in range(100)]
     assert heard(said) == [(3.0, BATTERY_LOW)]
-
-
-def test_a_short_burst_is_no_alarm() -> None:
-    burst = [state(tick / 10, volts=3.1 if tick % 20 else 3.3) for tick in range(100)]
-    assert heard(burst) == []
 
 
 def test_another_battery_can_be_low_again() -> None:

@@ -3,26 +3,15 @@
 from __future__ import annotations
 
 import asyncio
-from math import dist
 
 import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import Crashed, Locked, NotReady, Rejected
-from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED
+from pluto_fleet.drones.protocol import CRASHED, LOCKED
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
-
-
-async def test_lost_packets_are_sent_again(one: Hangar) -> None:
-    await one.let("loss", 0.05)
-    cf = await one.up()
-    for x in (1.5, 1.0):
-        await cf.go_to((x, 2.0, 0.5), FAST)
-        assert dist(one.position, (x, 2.0, 0.5)) < 0.12
-    await cf.land(FAST)
-    assert not one.flies
 
 
 async def test_a_drone_that_is_busy_is_a_refusal_and_is_disarmed(
@@ -52,18 +41,6 @@ async def test_a_drone_that_is_locked_says_so_and_what_to_do(one: Hangar, cf: Cr
     assert await cf.preflight() == ["it has locked its motors: switch it off and on"]
     with pytest.raises(Locked):
         await cf.takeoff(0.5, FAST)
-
-
-@drone(options={"least_voltage": 3.0})
-async def test_a_battery_that_is_low_for_three_seconds_is_told_once(
-    one: Hangar, up: Crazyflie
-) -> None:
-    await one.let("volts", 3.15)
-    event = await one.hears(BATTERY_LOW)
-    assert event.reason.startswith("its battery is down to 3.1")
-    assert 0.0 < up.telemetry.battery_level < 0.1
-    await up.land(FAST)
-    assert [event.kind for event in one.events] == [BATTERY_LOW]
 
 
 @drone(

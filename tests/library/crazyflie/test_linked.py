@@ -61,13 +61,6 @@ async def test_a_drone_whose_port_is_closed_is_a_lost_link(one: Hangar, cf: Craz
     assert await cf.preflight() == []
 
 
-async def test_an_empty_address_is_told_within_the_limit(one: Hangar) -> None:
-    await one.let("silent")
-    with pytest.raises(LinkLost, match=r"cf1 does not answer at udp://.*: nothing came in 5 s"):
-        await one.navigation.connect()
-    assert await one.navigation.preflight() == ["cf1 is not connected"]
-
-
 async def test_who_is_slow_to_tell_its_tables_is_connected_to_by_and_by(one: Hangar) -> None:
     await one.let("latency", 0.1)
     with pytest.raises(TimeoutError):
@@ -77,15 +70,6 @@ async def test_who_is_slow_to_tell_its_tables_is_connected_to_by_and_by(one: Han
     assert await cf.preflight() == []
     asked = [command.what for command in one.record.commands].count("asked")
     assert asked == 1  # the same connection went on
-
-
-async def test_closing_while_connecting_ends_that(one: Hangar) -> None:
-    await one.let("latency", 0.1)
-    with pytest.raises(TimeoutError):
-        async with asyncio.timeout(0.5):
-            await one.navigation.connect()
-    await one.navigation.close()
-    assert not [task for task in asyncio.all_tasks() if "cf1" in task.get_name()]
 
 
 @drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), protocol=10))
@@ -129,11 +113,6 @@ async def test_one_that_is_found_again_in_the_air_keeps_its_place(
     await one.let("silent", False)
     await up.connect()
     assert one.flies and len(one.did("set kalman.initialX")) == 1
-
-
-@drone(options={"starts_at_home": True})
-async def test_one_that_has_flown_already_keeps_its_place(one: Hangar, cf: Crazyflie) -> None:
-    assert one.commands == []
 
 
 async def test_without_a_uri_it_says_what_is_missing(folder: Path) -> None:

@@ -6,8 +6,8 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import Locked, NotReady
-from pluto_fleet.drones.protocol import BATTERY_LOW, LOCKED
+from pluto_fleet.drones.errors import NotReady
+from pluto_fleet.drones.protocol import BATTERY_LOW
 from pluto_fleet.lithium import volts_at
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
@@ -38,11 +38,6 @@ async def test_one_that_crashed_and_stands_flies_again_once_a_person_says_so(
     assert one.flies
 
 
-async def test_one_that_has_not_crashed_is_told_nothing(one: Hangar, cf: Crazyflie) -> None:
-    await cf.looked_after()
-    assert one.commands == []
-
-
 async def test_a_deck_that_fails_is_said_by_name(one: Hangar, cf: Crazyflie) -> None:
     await one.let("deck")
     await passes(TELLS)
@@ -51,13 +46,6 @@ async def test_a_deck_that_fails_is_said_by_name(one: Hangar, cf: Crazyflie) -> 
     with pytest.raises(NotReady, match="one of its decks reports a fault"):
         await cf.takeoff(0.5, FAST)
     assert not one.did("arm")
-
-
-async def test_a_deck_that_fails_in_the_air_is_why_it_locked(one: Hangar, up: Crazyflie) -> None:
-    await one.let("deck")
-    assert (await one.hears(LOCKED)).reason.startswith("one of its decks reports a fault, and")
-    with pytest.raises(Locked, match="as one of its decks reports a fault"):
-        await up.hold()
 
 
 @drone(build=TWO_CELLS)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 from math import dist, hypot
 
 import pytest
@@ -27,13 +26,6 @@ async def test_one_that_is_to_fly_faster_than_its_controller_follows_is_not_read
     assert not one.did("arm")
 
 
-@drone(speed=2.0)
-async def test_one_whose_controller_was_set_to_follow_faster_is_ready(cf: Crazyflie) -> None:
-    for axis in "xy":
-        await cf.write(f"posCtlPid.{axis}VelMax", 2.0)
-    assert await cf.preflight() == []
-
-
 @drone(speed=0.8)
 async def test_one_that_is_still_telling_its_parameters_is_waited_for(one: Hangar) -> None:
     """Over a busy radio they take longer than it takes to be sure where it is."""
@@ -43,15 +35,6 @@ async def test_one_that_is_still_telling_its_parameters_is_waited_for(one: Hanga
     one.drone.parameters.put("posCtlPid.yVelMax", 0.5)
     (reason,) = await cf.preflight()
     assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
-
-
-async def test_parameters_of_one_that_is_silent_are_not_waited_for(one: Hangar) -> None:
-    cf = one.navigation
-    await one.let("latency", 0.03)
-    await cf.connect()
-    await one.let("silent")
-    (reason,) = await asyncio.wait_for(cf.preflight(), 5.0)
-    assert "stopped answering" in reason
 
 
 async def test_a_course_is_as_slow_as_its_controller_though_more_is_asked_for(

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.drones.errors import LinkLost
@@ -80,31 +79,3 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
     for drone in air.drones.values():
         assert not drone.body.airborne and not drone.supervisor.locked
     assert left() == []
-
-
-@pytest.mark.long  # ten seconds in real time
-def test_a_dongle_that_hangs_holds_no_one_up(air: Ether, tmp_path: Path) -> None:
-    async def fly() -> None:
-        one = navigation(air.drones["cf1"].build, air.uris["cf1"], tmp_path)
-        await one.connect()
-        air.stalled = True
-        async with asyncio.timeout(PATIENCE):
-            with pytest.raises(LinkLost):
-                await one.read("pm.vbat")
-            with pytest.raises(LinkLost):
-                await one.connect()
-            await one.close()
-
-    with plugged_in(air):
-        asyncio.run(fly())
-
-
-def test_who_is_there_is_looked_for_at_all_addresses(air: Ether) -> None:
-    with plugged_in(air):
-        options = {"addresses": ["E7E7E7E701", "E7E7E7E703", "E7E7E7E7E7"]}
-        found = asyncio.run(Crazyflie.scan(options))
-        assert found == [air.uris["cf1"], air.uris["cf3"]]
-        assert eventually(lambda: not air.is_open, PATIENCE)  # a thread of cflib's closes it
-        air.unplugged = True
-        with pytest.raises(LinkLost, match="no Crazyradio is plugged in"):
-            asyncio.run(Crazyflie.scan(options))

@@ -18,16 +18,6 @@ ENDLESS = {"least_voltage": 0.0}
 """Options of one that flies on with an empty battery."""
 
 
-async def test_one_that_has_landed_is_disarmed_and_armed_anew(one: Hangar, cf: Crazyflie) -> None:
-    """It would disarm itself some seconds after the landing, in the midst of a take-off."""
-    for _ in range(2):
-        await cf.takeoff(0.5, FAST)
-        await cf.land(FAST)
-    told = [command.what for command in one.commands if command.what != "setpoints end"]
-    assert told[:4] == ["arm", "takeoff", "land", "down"]
-    assert told[4:] == ["disarm", "arm", "takeoff", "land", "down"]
-
-
 @pytest.mark.parametrize(
     "one",
     [
@@ -118,15 +108,6 @@ async def test_twice_cancelled_it_is_a_refusal(one: Hangar, cf: Crazyflie) -> No
         await cf.takeoff(0.5, FAST)
     await disarming
     assert not one.flies and len(one.did("takeoff")) == 2
-
-
-async def test_nothing_is_above_its_commander_when_it_takes_off(one: Hangar, up: Crazyflie) -> None:
-    """A set-point of a gamepad's, or of a script's that has ended, would stay above it for ever."""
-    await up.go_to((1.3, 2.0, 0.5), FAST)
-    await up.land(FAST)
-    told = [command.what for command in one.commands]
-    before, after = told[: told.index("takeoff")], told[told.index("takeoff") :]
-    assert "setpoints end" in before and "setpoints end" not in after
 
 
 async def test_one_that_another_program_steers_while_it_is_armed_takes_off(

@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import NotReady, PositionLost
+from pluto_fleet.drones.errors import PositionLost
 from pluto_fleet.drones.protocol import POSITION_LOST
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
@@ -23,15 +23,6 @@ async def test_one_that_is_unsure_for_a_moment_is_waited_for(one: Hangar, cf: Cr
     await one.let("unsure", False)
     await taking_off
     assert one.flies
-
-
-async def test_one_that_stays_unsure_does_not_fly_and_says_how_unsure_it_is(
-    one: Hangar, cf: Crazyflie
-) -> None:
-    await one.let("unsure")
-    with pytest.raises(NotReady, match=r"is not sure where it is: to 0\.71 m .* 0\.07 m for"):
-        await cf.takeoff(0.5, FAST)
-    assert not one.did("arm")
 
 
 @drone(options={"sure_within": 0.8})

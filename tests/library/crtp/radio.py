@@ -11,15 +11,12 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from random import Random
 from threading import Event, Lock, Thread
 
 import pytest
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.faults import Value, let
 from pluto_fleet.crtp.flight_log import FlightLog
-from pluto_fleet.crtp.packets import LossyChannel
 
 _PACKET, _NO_ANSWER = 0.0008, 0.002
 """Seconds that a packet takes: with an answer, and until the radio gives up."""
@@ -45,7 +42,6 @@ class OnTheAir:
 
     def __init__(self, build: Build, number: int, record: FlightLog) -> None:
         self.drone = SimulatedCrazyflie(build, record, self._say)
-        self.air = LossyChannel(Random(f"radio/{build.seed}/{build.id}"))
         self.lock = Lock()
         self.where: Where = (_CHANNEL, _RATE, (0xE7, 0xE7, 0xE7, 0xE7, number))
         self._waiting: deque[bytes] = deque(maxlen=500)
@@ -88,7 +84,7 @@ class Ether:
         made = (OnTheAir(build, number, record) for number, build in enumerate(builds, 1))
         self._by_id: Mapping[str, OnTheAir] = {one.drone.build.id: one for one in made}
         self._by_place = {one.where: one for one in self._by_id.values()}
-        self.unplugged = self.stalled = False
+        self.unplugged = False
         self.is_open = False
         """Whether cflib has the dongle open."""
         self._over = Event()
@@ -104,16 +100,10 @@ class Ether:
         """The drones by their ids."""
         return {id: one.drone for id, one in self._by_id.items()}
 
-    def let(self, id: str, name: str, value: Value = True) -> None:
-        """Let something go wrong with one of them, as in `pluto_fleet.crtp.faults`."""
-        one = self._by_id[id]
-        with one.lock:
-            let(one.drone, one.air, name, value)
-
     def sent(self, where: Where, packet: Sequence[int], retries: int) -> Ack:
         """Let the radio send a packet; return what comes back."""
         one = self._by_place.get(where)
-        if one is None or not one.drone.answers or one.air.loses():
+        if one is None or not one.drone.answers:
             time.sleep(_NO_ANSWER)
             return Ack(False, retry=retries)
         time.sleep(_PACKET)
@@ -124,8 +114,8 @@ class Ether:
         self._thread.start()
 
     def end(self) -> None:
-        """Let it stand still; a dongle that hangs says at last that it is gone."""
-        self.unplugged, self.stalled = True, False
+        """Let it stand still, and the dongle be gone."""
+        self.unplugged = True
         self._over.set()
         self._thread.join()
 
@@ -182,8 +172,6 @@ class Dongle:
 
     def send_packet(self, data: Sequence[int]) -> Ack | None:
         """Send a packet; None: there is no dongle any more."""
-        while self.ether.stalled:
-            time.sleep(_TICK)
         if self.ether.unplugged:
             time.sleep(_TICK)
             return None

@@ -7,7 +7,7 @@ import struct
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crtp.logs import MOST_BLOCKS, Logs
+from pluto_fleet.crtp.logs import MOST_BLOCKS
 from pluto_fleet.crtp.packets import Errno, Port, packed
 from pluto_fleet.crtp.params import parameters
 from tests.library.crtp.bench import Bench
@@ -40,13 +40,6 @@ def test_a_block_holds_26_bytes_and_there_are_16_of_them() -> None:
     assert created(bench, 99, "stateEstimate.x") == Errno.OK
 
 
-def test_numbers_that_a_type_cannot_say_are_its_last() -> None:
-    logs = Logs({"a.b": ("B", lambda: 300.0)})
-    logs.take(1, bytes([CREATE, 1, 1, 0, 0]), 0.0)
-    logs.take(1, bytes([START, 1, 1]), 0.0)
-    assert [raw[-1] for raw in logs.due(0.0)] == [255]
-
-
 def number_of(name: str) -> bytes:
     return struct.pack("<H", [one.name for one in parameters()].index(name))
 
@@ -56,17 +49,6 @@ def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:
     answer = bench.told(Port.PARAMETERS, 3, b"\0led\0bitmask\0\x08\xff")
     assert answer == b"\0led\0bitmask\0\0"
     assert bench.sent[-1].data == b"\1" + number_of("led.bitmask") + b"\xff"
-
-
-def test_a_persistent_parameter_says_so_and_outlives_a_restart() -> None:
-    bench, light = Bench(), number_of("ring.ledIntensity")
-    assert bench.told(Port.PARAMETERS, 3, b"\7" + light) == b"\7" + light + b"\0\1"
-    bench.told(Port.PARAMETERS, 2, light + b"\x07")
-    bench.told(Port.PARAMETERS, 3, b"\3" + light)
-    bench.drone.restart()
-    bench.passes(1.1)
-    assert bench.told(Port.PARAMETERS, 1, light) == light + b"\0\x07"
-    assert bench.told(Port.PARAMETERS, 3, b"\x08" + light) == b"\x08" + light + b"\0\x64"
 
 
 @given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
-from pluto_fleet.crtp.battery import CHARGE
 from pluto_fleet.crtp.packets import Port
 from pluto_fleet.crtp.server import collide
-from pluto_fleet.shared.domain.motion import CRAZYFLIE, charged
-from tests.library.crtp.bench import CF1, Bench, hovering
+from tests.library.crtp.bench import Bench, hovering
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
 BUSY, WRONG_STATE = 16, 1
@@ -43,29 +39,6 @@ def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
     assert bench.drone.info() == 0x201
     assert bench.takeoff() == BUSY and bench.land() == BUSY
     assert bench.arm() and bench.takeoff() == 0
-
-
-def test_a_takeoff_just_before_the_disarming_is_accepted_and_then_cancelled() -> None:
-    bench = hovering()
-    bench.lands()
-    bench.passes(4.97)
-    assert bench.has(ARMED) and bench.takeoff() == 0
-    bench.passes(0.1)
-    assert bench.drone.info() == 0x200 and bench.z == 0.0
-    bench.passes(3.0)
-    assert bench.drone.info() == 0x201 and bench.z == 0.0
-
-
-def test_what_makes_no_sense_now_is_answered_so_and_changes_nothing() -> None:
-    bench = Bench()
-    bench.arm()
-    bench.takeoff()
-    assert bench.takeoff(2.0) == WRONG_STATE
-    bench.passes(3.0)
-    assert bench.land() == 0
-    assert bench.land() == WRONG_STATE
-    bench.passes(2.1)
-    assert [command.what for command in bench.commands].count("down") == 1
 
 
 def test_to_land_on_the_ground_is_answered_as_done_and_starts_the_motors() -> None:
@@ -105,15 +78,6 @@ def test_an_emergency_stop_locks_it_until_it_is_restarted() -> None:
     bench.let("fetch")
     bench.passes(1.5)
     assert not bench.has(LOCKED) and bench.arm()
-
-
-def test_a_watchdog_that_is_fed_once_must_be_fed_on() -> None:
-    bench = hovering()
-    assert bench.told(Port.SUPERVISOR, 1, b"\4") is None
-    bench.passes(0.9)
-    assert not bench.has(LOCKED)
-    bench.passes(0.3)
-    assert bench.has(LOCKED)
 
 
 def test_two_that_touch_in_the_air_tumble_and_one_that_stands_there_does_not() -> None:
@@ -166,22 +130,3 @@ def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_empty_some_time
     bench.passes(60.0)
     assert not bench.drone.on and bench.z == 0.0
     assert bench.told(15, 0, b"hello") is None
-
-
-@pytest.mark.parametrize("shuts_down", [False, True])
-def test_a_battery_of_3_volts_switches_it_off_only_where_its_build_does_that(
-    shuts_down: bool,
-) -> None:
-    bench = hovering(replace(CF1, shuts_down=shuts_down, flight=4200.0))
-    bench.let("volts", 2.99)
-    bench.passes(4.0)
-    assert bench.drone.on
-    bench.passes(2.0)
-    assert bench.drone.on is not shuts_down
-
-
-def test_a_pad_charges_what_stands_on_it() -> None:
-    bench = Bench(replace(CF1, level=0.5))
-    bench.passes(60.0)
-    assert bench.drone.battery.level == pytest.approx(charged(0.5, 60.0, CHARGE, CRAZYFLIE.taper))
-    assert bench.drone.battery.state == 1

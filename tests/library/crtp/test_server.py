@@ -110,14 +110,6 @@ def first_picture(camera: str) -> bytes:
         return data.read(len(frames(0)))
 
 
-def test_a_way_from_rest_to_rest_peaks_at_2_19_times_its_mean_speed() -> None:
-    way = profile(AxisState(0.0), 3.0, 2.0)
-    assert way.at(0.0) == AxisState(0.0)
-    assert way.at(2.0) == AxisState(3.0)
-    assert way.at(1.0).position == pytest.approx(1.5)
-    assert way.at(1.0).velocity == pytest.approx(2.1875 * 1.5)
-
-
 def test_a_way_begins_as_the_last_one_was_left() -> None:
     left = profile(AxisState(0.0), 3.0, 2.0).at(0.8)
     begun = profile(left, 1.0, 1.5)

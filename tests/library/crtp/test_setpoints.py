@@ -44,17 +44,6 @@ def test_once_setpoints_are_released_commands_are_flown_again(setpoint: Packet) 
     assert bench.z == pytest.approx(1.0, abs=0.05)
 
 
-def test_going_on_sending_setpoints_flies_it() -> None:
-    bench = Bench()
-    bench.arm()
-    for _ in range(60):
-        bench.told(*POSITION)
-        bench.passes(0.1)
-    assert bench.x == pytest.approx(2.0, abs=0.05)
-    assert bench.z == pytest.approx(0.4, abs=0.05)
-    assert not bench.has(ACTIVE)
-
-
 def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint() -> None:
     bench = hovering()
     bench.let("setpoint", 1.0)

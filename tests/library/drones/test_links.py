@@ -77,42 +77,12 @@ async def test_a_drone_that_was_switched_off_and_on_has_landed(tmp_path: Path) -
         assert await flown.do(team.reach("cf1"))
 
 
-async def test_a_roll_call_tries_a_lost_drone_once_more_and_does_not_hang(tmp_path: Path) -> None:
-    """However its navigation hangs."""
-    async with flying(tmp_path) as flown:
-        drone, team = flown.drones["cf1"], flown.team
-        await flown.do(team.drone_report("cf1"))
-        drone.goes_silent()
-        drone.hangs = drone.clings = {"connect"}
-        await flown.until(lambda: not team.vehicles["cf1"].linked)
-        before = the_loop().now
-        report = await flown.do(team.drone_report("cf1"))
-        assert the_loop().now - before <= 17
-        assert not report.reached
-
-
 async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path) -> None:
     """Its battery must be empty by then: it is not waited for to come down."""
     async with flying(tmp_path) as flown:
         drone, seen = await flown.up(), flown.team.telemetry["cf1"]
         drone.goes_silent()
         assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
-
-
-async def test_a_link_that_is_lost_in_the_take_off_leaves_a_drone_in_the_air(
-    tmp_path: Path,
-) -> None:
-    """It has not said that it flies, but it may."""
-    drone = FakeDrone()
-    drone.hangs = {"takeoff"}
-    async with flying(tmp_path, drone) as flown:
-        seen = flown.team.telemetry["cf1"]
-        await flown.do(flown.team.drone_report("cf1"))
-        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
-        await flown.until(lambda: not seen.landed, 1)
-        drone.goes_silent()
-        await flown.until(lambda: rises.is_set, 2)
-        assert await flown.until(lambda: seen.landed) > 400
 
 
 async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:

@@ -116,11 +116,6 @@ def test_a_name_that_no_package_offers_is_told_with_those_that_are(installed: In
         load_localization("lighthouse")
 
 
-def test_a_module_must_be_installed() -> None:
-    assert "PYTHONPATH" in refused("no_such_module_here:Drone")
-    assert '"tests.library.drones.nowhere"' in refused("tests.library.drones.nowhere:Drone")
-
-
 def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -209,10 +204,6 @@ def test_everything_that_a_class_lacks_is_told_at_once() -> None:
     ]
 
 
-def test_half_of_what_belongs_together_is_not_enough() -> None:
-    assert "it has act but no why_not: both belong together" in refused(f"{HERE}:Half")
-
-
 def test_who_is_there_is_asked_of_the_class() -> None:
     assert load_navigation(f"{HERE}:Looking") == classes.Looking
     assert "its scan must be a staticmethod" in refused(f"{HERE}:Shy")
@@ -235,15 +226,6 @@ def test_what_cannot_be_made_says_whose_it_is_and_ends_nothing(
     monkeypatch.setattr(classes.Good, "__init__", end)
     with pytest.raises(BadInput, match=f"not be made for cf1: {type(error).__name__}: {error}"):
         make_navigation(f"{HERE}:Good", SETUP)
-
-
-@pytest.mark.usefixtures("quick")
-def test_what_a_module_raises_commands_no_terminal(installed: Installed) -> None:
-    """Nor does it fill one: another author wrote it."""
-    installed.write(author=f"raise RuntimeError('\\x1b[31mred\\n' + 9999 * 'very ')\n{CLASSES}")
-    said = refused(f"{installed.author}:Drone")
-    assert said.isprintable()
-    assert len(said) < 500
 
 
 # A fleet file is data: what it names is looked up, and not run to find out whether it is there

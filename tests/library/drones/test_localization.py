@@ -144,17 +144,6 @@ async def test_a_drone_that_never_hears_does_not_know_where_it_is() -> None:
         assert scene.feeding.silent("cf2") is None
 
 
-async def test_a_drone_that_cannot_hear_is_told_of_once_and_tried_again() -> None:
-    async with Scene() as scene:
-        scene.cf1.broken = True
-        await scene.sees(("cf1", (1, 1, 1)))
-        await scene.sees(("cf1", (1, 1, 1)))
-        scene.cf1.broken = False
-        await scene.sees(("cf1", (2, 2, 2)))
-        assert scene.cf1.heard == [(2, 2, 2)]
-        assert scene.said == ["cf1 could not be told where it is: OSError: no radio"]
-
-
 @pytest.mark.parametrize(
     ("end", "why"), [(None, "it ended"), (OSError("unplugged"), "OSError: unplugged")]
 )

@@ -11,19 +11,16 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_fleet, real_of
-from pluto_fleet.files.crtp_fleet import as_crtp_fleet, missing_categories
+from pluto_fleet.files.crtp_fleet import as_crtp_fleet
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
-from pluto_fleet.jobs.reports import DroneReport
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Drone, Point
 from pluto_fleet.shared.hooks.plain_data import trip_data
-from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
-from tests.kit.living import Living, enterable
 
 FLEET = FleetFile(
     airspace=Airspace(),
@@ -108,36 +105,6 @@ def test_no_two_stand_ins_stand_at_one_place() -> None:
     assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
     with pytest.raises(BadInput, match="--crtp-sim 50: this map has room for"):
         as_crtp_fleet(small, 50)
-
-
-def test_leaving_out_a_whole_category_is_told() -> None:
-    """Hooks may ask for its drones when all others are in the air."""
-    carrier = replace(FLEET.drones[1], id="c", category="carrier")
-    fleet = replace(FLEET, drones=(*FLEET.drones, carrier))
-    assert missing_categories(fleet, 3) is None
-    assert missing_categories(fleet, 5) is None
-    assert missing_categories(fleet, 2) == (
-        "no carrier flies: --crtp-sim 2 takes only 2 of the fleet file's 3 drones, from its top"
-    )
-
-
-def test_a_fleet_of_which_no_drone_is_ready_does_not_set_out(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """The reasons of all are told, and the journal stays as it was."""
-    report = SimulatedNavigation.drone_report
-
-    async def unready(self: SimulatedNavigation, drone: str) -> DroneReport:
-        return replace(await report(self, drone), problems=("its battery is too low: 3.5 V",))
-
-    monkeypatch.setattr(SimulatedNavigation, "drone_report", unready)
-    living = Living(enterable(), apps.mission("North", apps.trip("A", 1.0)))
-    whole = living.life.control.whole
-    assert whole is not None
-    living.kernel.run(whole)
-    with pytest.raises(BadInput, match=r"no drone is ready to fly\ncf1: its battery is too low"):
-        whole.result()
-    assert living.events == []
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.drones.errors import LinkLost, Rejected
-from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -250,17 +250,6 @@ async def test_what_befalls_a_drone_later_was_not_looked_after(
         assert "looked after" not in drone.told
 
 
-async def test_a_drone_that_says_its_link_is_gone_is_believed(tmp_path: Path) -> None:
-    """Without waiting for silence."""
-    async with flying(tmp_path) as flown:
-        drone = await flown.up()
-        the_loop().call_later(1, drone.happens, LINK_LOST, "the dongle is gone")
-        failure, why = await fails(flown)
-        assert failure is Failure.LINK
-        assert why == "cf1 lost its link at (1, 1): the dongle is gone"
-        assert await flown.do(flown.team.reach("cf1"))
-
-
 async def test_what_happens_on_the_ground_fails_no_flight(tmp_path: Path) -> None:
     """Preflight will say whether it matters; a person who carries a drone tilts it."""
     async with flying(tmp_path) as flown:
@@ -295,13 +284,3 @@ async def test_a_landing_that_does_not_succeed_is_tried_again(tmp_path: Path) ->
         await flown.until(lambda: any("was to land" in line for line in flown.log))
         drone.raises = {}
         await flown.until(lambda: not drone.motors, 10)
-
-
-async def test_the_log_says_when_it_was_not_watched(tmp_path: Path) -> None:
-    """And a drone that told all the time has not lost its link for that."""
-    async with flying(tmp_path) as flown:
-        await flown.up()
-        the_loop().call_later(1, the_loop().advance, 2.5)
-        hovers = flown.begin(flown.team.hold("cf1"))
-        await flown.until(lambda: "kept from watching" in " ".join(flown.log), 10)
-        assert not hovers.is_set

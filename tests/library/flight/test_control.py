@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 
 import pytest
@@ -125,20 +124,6 @@ def spraying(repeat: str, *others: apps.Mission) -> Living:
     return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))
 
 
-ANSWERS = [("done", ["1", "2"]), ("not-done", ["1", "1", "2"])]
-
-
-@pytest.mark.parametrize(("answer", "flights"), ANSWERS)
-def test_a_person_decides_and_the_mission_goes_on(answer: str, flights: list[str]) -> None:
-    living = spraying("once", apps.mission("b", apps.trip("long", 15, 15)))
-    living.crash(10.0)
-    living.at(15.0, lambda: living.life.control.decide("a", answer))
-    assert living.run() == ["COMPLETED", "COMPLETED"]
-    assert [
-        trip for trip in names(living.named("trip.launched"), "trip") if trip != "long"
-    ] == flights
-
-
 def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:
     living = spraying("safe")
     living.crash(10.0)
@@ -155,16 +140,3 @@ def test_after_a_stop_nothing_else_is_done() -> None:
         with pytest.raises(BadInput, match="everything was stopped: resume the journal first"):
             command("a")
     assert living.kernel.run(living.life.control.stopped)
-
-
-def test_a_probe_is_asked_when_a_mission_is_paused_during_its_own_action(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(
-        sys.modules[__name__], "spray_done", lambda drone, trip: True, raising=False
-    )
-    living = spraying("once")
-    living.at(10.0, lambda: living.life.control.pause("a"))
-    living.at(60.0, lambda: living.life.control.go_on("a"))
-    assert living.run() == ["COMPLETED"]
-    assert names(living.named("trip.launched"), "trip") == ["1", "2"]

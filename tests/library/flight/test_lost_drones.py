@@ -108,22 +108,6 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
         fleet.life.control.whole.result()
 
 
-def test_a_battery_that_charges_slowly_is_waited_for() -> None:
-    """A category's charging time is what is expected; what counts is the battery."""
-    fleet = living("a", homes=1)
-    body = fleet.navigation.bodies["cf1"]
-    slow = replace(body.drone.category, flight_time=21.0, charge_time=12_000.0)
-    body.drone = replace(body.drone, category=slow)
-    assert fleet.run() == ["COMPLETED"]
-    (low,) = fleet.named("drone.charging")
-    missing = 0.2 - float(str(low["battery"]))
-    assert missing > 0
-    passes(fleet, float(str(low["t"])) + missing * 12_000 - 1)
-    assert drone(fleet).status is DroneStatus.CHARGING
-    passes(fleet, fleet.kernel.now + 12)
-    assert drone(fleet).status is DroneStatus.FREE
-
-
 def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

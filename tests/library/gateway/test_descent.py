@@ -7,7 +7,6 @@ from math import dist, hypot
 import pytest
 
 from pluto_fleet.jobs.reports import Down, JobState
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.time.kernel import FLEET
@@ -105,17 +104,6 @@ def test_it_goes_on_without_the_brain() -> None:
     fleet_report = fly(field.kernel, new.fleet_report())
     assert all(report.landed for report in fleet_report.drones.values())
     assert list(fleet_report.jobs) == [Task().id]
-
-
-def test_one_that_cannot_follow_keeps_no_other_up() -> None:
-    """A drone crashes on its way; the others are down all the same."""
-    field = Field(faults=Faults(crash=1))
-    link = field.gateway.link(1)
-    for drone in field.drones:
-        link.fly(Task(id=drone.id, drone=drone.id), lambda _: None)
-    field.advance(3)
-    brought_down(field, Down.HOME)
-    assert all_landed(field)
 
 
 def test_no_drone_lands_on_another_or_where_it_may_not() -> None:

@@ -225,19 +225,6 @@ def test_a_drone_that_flies_gets_no_second_job() -> None:
     assert [str(error) for error in heard] == ["cf1 flies already, for North field/A/0/1"]
 
 
-def test_without_a_ledger_nothing_is_kept_of_what_is_over() -> None:
-    """A plain simulation is over when it is over."""
-    field = Field()
-    gateway = type(field.gateway)(field.kernel, field.navigation, field.drones, field.airspace)
-    link = gateway.link(1)
-    link.fly(Task(), lambda _: None)
-    link.fly(Task(id="other", drone="cf2"), lambda _: None)
-    field.advance(14)
-    link.break_off("cf2")
-    field.advance(100)
-    assert fly(field.kernel, link.fleet_report()).jobs == {}
-
-
 def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     """It is the brain's, and no failed flight."""
     field = Field()

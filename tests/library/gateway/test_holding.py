@@ -7,7 +7,6 @@ import subprocess
 import sys
 from contextlib import ExitStack
 from pathlib import Path
-from threading import Timer
 
 import pytest
 
@@ -23,16 +22,6 @@ def test_a_second_process_is_refused_and_told_who_holds_the_drone(tmp_path: Path
     said = "is commanded by process {} already"
     with _holder(tmp_path, RADIO) as first, pytest.raises(DroneInUse, match=said.format(first.pid)):
         _hold(tmp_path, cf1=RADIO)
-
-
-@pytest.mark.long
-def test_a_process_that_is_just_leaving_is_waited_for(tmp_path: Path) -> None:
-    """A gateway whose drones are down closes its links, and then lets go."""
-    with _holder(tmp_path, RADIO) as first:
-        assert first.stdin is not None
-        Timer(0.05, first.stdin.close).start()
-        with lock_drones({"cf1": RADIO}, tmp_path, patience=20.0):
-            assert first.wait() == 0
 
 
 @pytest.mark.parametrize(

@@ -76,16 +76,6 @@ def test_a_damaged_line_is_not_believed(tmp_path: Path) -> None:
         assert not damaged.is_whole or len(list(damaged.entries())) == 2  # its last end of line
 
 
-def flown_and_forgotten() -> tuple[Field, list[object]]:
-    """Fly a job and lose its line, and then the gateway."""
-    field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
-    field.advance(50)
-    field.gateway.crash()
-    field.ledger.forget(Task().id)
-    return field, heard
-
-
 @pytest.mark.parametrize(
     ("damaged", "epoch", "known", "begun"),
     [

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 import signal
-import sys
 from pathlib import Path
 
 import pytest
 
 from pluto_fleet.gateway import remote, starting
-from pluto_fleet.gateway.process import LOG, NO_ROOM, main
+from pluto_fleet.gateway.process import LOG, main
 from pluto_fleet.gateway.starting import (
     connect,
     cut_directly,
@@ -22,7 +21,6 @@ from pluto_fleet.gateway.starting import (
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from pluto_fleet.process.ipc import line
-from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.time.kernel import FLEET
@@ -217,27 +215,6 @@ def test_a_gateway_that_cannot_begin_says_why(tmp_path: Path) -> None:
         (tmp_path / "world.jsonl").mkdir()
         with pytest.raises(BadInput, match=r"the gateway ended before it was ready: .*world.jsonl"):
             await brain.linked()
-
-    played(tmp_path, play)
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("code", "why"),
-    [
-        (9, "was ready, with exit code 9, and said nothing$"),
-        (NO_ROOM, "the gateway cannot begin: the disk is full; make room"),
-    ],
-)
-def test_a_gateway_that_says_nothing_does_not_refer_to_its_log(
-    tmp_path: Path, code: int, why: str
-) -> None:
-    """Its exit code says why it ended; and it is not started again and again."""
-
-    async def play(_: Brain) -> None:
-        kernel, silent = RealTime(), (sys.executable, "-c", f"raise SystemExit({code})")
-        with pytest.raises(BadInput, match=why):
-            await connect(tmp_path, settings(), kernel, 1, command=silent)
 
     played(tmp_path, play)
 

@@ -14,11 +14,6 @@ MAP = Airspace(size=(8.0, 6.0), no_fly=(((2, 2), (5, 2), (5, 4), (2, 4)), ((6, 0
 places = st.tuples(st.floats(0, 8), st.floats(0, 6), st.floats(0, 3))
 
 
-def test_where_it_is_when_it_may() -> None:
-    """Straight below, to the last digit."""
-    assert free_spot(MAP, (1.2345678901, 1.0, 2.0), [], 0.5) == (1.2345678901, 1.0, 0.0)
-
-
 @given(places, st.lists(places, max_size=6))
 def test_it_is_permitted_and_apart_from_all_others(
     point: tuple[float, float, float], taken: list[tuple[float, float, float]]

@@ -109,16 +109,3 @@ def test_real_time_takes_the_same_events_in_the_same_order() -> None:
         return seen
 
     assert asyncio.run(main()) == ["FLIGHT 0", "FLIGHT 1", "TIMER 0"]
-
-
-def test_in_real_time_a_blocking_hook_does_not_hold_the_others_up() -> None:
-    async def main() -> tuple[object, bool]:
-        import threading
-
-        kernel, thread = RealTime(), threading.get_ident()
-        task = kernel.spawn(kernel.call_hook(threading.get_ident), 0, "hook")
-        return await kernel.run(task), thread == task.result()
-
-    ident, same_thread = asyncio.run(main())
-    assert isinstance(ident, int)
-    assert not same_thread

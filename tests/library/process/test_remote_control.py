@@ -7,7 +7,6 @@ import errno
 import json
 import socket
 import stat
-from asyncio import StreamReader, StreamWriter
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
@@ -22,7 +21,6 @@ from pluto_fleet.process.ipc import (
     NotRunning,
     address_in,
     ask,
-    listening,
     publish,
 )
 from pluto_fleet.shared.domain.errors import BadInput
@@ -162,23 +160,6 @@ def test_without_an_app_it_is_said_that_none_is_there(note: Path) -> None:
     assert not note.exists()
     with pytest.raises(NotRunning):
         ask(note, {}, 5)
-
-
-@pytest.mark.parametrize(
-    "answer", [b"", b"[]\n", b'{"ok": true, "said": 1}\n', b"\xff" * (2 * MAX_LINE), b"half"]
-)
-def test_an_answer_that_makes_no_sense_leaves_one_in_doubt(note: Path, answer: bytes) -> None:
-    async def strange(reader: StreamReader, writer: StreamWriter) -> None:
-        await reader.readline()
-        writer.write(answer)
-        writer.close()
-
-    async def scenario() -> None:
-        async with listening(note, strange):
-            with pytest.raises(AnswerLost):
-                await asyncio.to_thread(ask, note, {}, 5.0)
-
-    asyncio.run(scenario())
 
 
 def test_an_app_that_ends_first_leaves_one_in_doubt(note: Path) -> None:

@@ -6,7 +6,7 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 
 import pytest
 
@@ -65,21 +65,6 @@ def test_a_worker_that_dies_is_told_with_its_task() -> None:
     with pytest.raises(WorkerDied) as died:
         list(in_workers(dies(lambda: os.kill(os.getpid(), signal.SIGKILL)), range(12), 2))
     assert (died.value.place, died.value.how) == (4, "was killed by SIGKILL")
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("no_worker_left")
-def test_who_stops_early_leaves_no_worker() -> None:
-    """Though it would go on for a minute."""
-
-    def work_on(number: int) -> None:
-        if number:
-            signal.pause()
-
-    work = in_workers(work_on, [0, 1, 2], 3)
-    assert isinstance(work, Generator)
-    next(work)
-    work.close()
 
 
 ENDED = """

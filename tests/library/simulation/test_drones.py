@@ -54,19 +54,6 @@ def test_a_cancelled_drone_hovers_where_it_is() -> None:
     assert navigation.flown("cf1") == pytest.approx(1.2 + 2.5 + 1)
 
 
-def test_an_item_is_carried_from_pick_to_release() -> None:
-    """Who carries what is known at any time."""
-    kernel, navigation = hovering()
-    fly(kernel, navigation.act("cf1", "pick_item", {}, PILLS))
-    assert navigation.carrying("cf1") is PILLS
-    assert navigation.carrying("cf2") is None
-    fly(kernel, navigation.land("cf1"))
-    assert navigation.carrying("cf1") is PILLS
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
-    fly(kernel, navigation.act("cf1", "release_item", {}, Item(name="pills", mass=0.004)))
-    assert navigation.carrying("cf1") is None
-
-
 @pytest.mark.parametrize(
     ("before", "action", "item", "reason"),
     [

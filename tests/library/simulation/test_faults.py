@@ -87,28 +87,6 @@ def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
     assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
 
 
-def test_a_lost_link_brings_the_drone_down_by_itself() -> None:
-    """It lands below where it was, takes no commands, and flies home when the link is back."""
-    kernel, navigation = at_home(Faults(link=1), seed=2)
-    telemetry = navigation.telemetry["cf1"]
-    error = failure(kernel, flight(navigation))
-    moment, (x, y, z) = kernel.now, telemetry.location
-    assert error.failure is Failure.LINK
-    assert (x, y, z) == pytest.approx(place_at(moment))
-    assert not telemetry.landed
-    fly(kernel, kernel.sleep(z / 0.3 / 2))
-    assert telemetry.location == pytest.approx((x, y, z / 2))
-    fly(kernel, kernel.sleep(z / 0.3 / 2 + 0.001))
-    assert telemetry.landed
-    assert telemetry.battery_level == pytest.approx(1 - (moment + z / 0.3) / 420)
-    assert failure(kernel, navigation.go_to("cf1", FAR)).failure is Failure.LINK
-    assert fly(kernel, navigation.recover("cf1"))
-    home = (x - 1) ** 2 + (y - 1) ** 2
-    assert kernel.now == pytest.approx(moment + 20 + 2 * CLIMB + home**0.5 / 0.5)
-    assert telemetry.location == pytest.approx(HOME)
-    assert telemetry.landed
-
-
 def test_a_mishap_comes_even_without_commands() -> None:
     """A drone that was left hovering falls when its battery is empty, and says so later."""
     kernel, navigation = hovering(battery_level=0.02)
@@ -117,26 +95,6 @@ def test_a_mishap_comes_even_without_commands() -> None:
     assert telemetry.location == HOME
     assert telemetry.landed
     assert failure(kernel, navigation.land("cf1")).failure is Failure.BATTERY
-
-
-def test_what_goes_wrong_ends_with_the_landing() -> None:
-    """The next flight, without an order, goes well; so does the rest of one that is on its way."""
-    kernel, navigation = at_home(Faults(crash=1, action=1))
-    drawn = draw(Faults(crash=1, action=1), 1, *order(seconds=9999))
-    assert drawn.crash is not None
-    assert drawn.crash > 100
-
-    async def short() -> None:
-        await navigation.takeoff("cf1", 1.2, order(seconds=9999))
-        await navigation.land("cf1")
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.act("cf1", "measure", {}, None)
-        await navigation.takeoff("cf1", 1.2, order(seconds=9999))
-        await navigation.takeoff("cf1", 1.2, None)
-        await navigation.act("cf1", "measure", {}, None)
-        await navigation.land("cf1")
-
-    fly(kernel, short())
 
 
 @given(st.integers(0, 300), st.floats(0, 80), st.floats(0.005, 1))

@@ -83,21 +83,6 @@ def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
     ]
 
 
-def test_what_was_put_down_is_not_aboard(tmp_path: Path) -> None:
-    """And a drone that was switched off has forgotten what it did before."""
-    field = Kept(tmp_path)
-    link = field.gateway.link(1)
-    link.fly(Task(), lambda _: None)
-    field.advance(20)
-    link.fly(Task(id="release", action="release_item"), lambda _: None)
-    field.advance(20)
-    field.navigation.reboot("cf1")
-    field = field.later(tmp_path, 1)
-    assert field.navigation.carrying("cf1") is None
-    report = fly(field.kernel, field.navigation.drone_report("cf1"))
-    assert (report.boot, report.done, report.reached) == (1, {}, False)
-
-
 def test_a_line_that_was_never_finished_was_never_done(tmp_path: Path) -> None:
     """The next deed is written over it."""
     field = Kept(tmp_path)
@@ -140,16 +125,6 @@ def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     error = failure(field.kernel, field.navigation.takeoff("cf1", 1.2))
     assert error.failure is what
     assert fly(field.kernel, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
-
-
-def test_what_was_drawn_to_go_wrong_goes_wrong_all_the_same(tmp_path: Path) -> None:
-    """Looked at or not, at its own moment."""
-    field = Kept(tmp_path, faults=Faults(crash=1))
-    field.gateway.link(1).fly(Task(), lambda _: None)
-    field.advance(0)
-    field = field.later(tmp_path, 30)
-    assert field.navigation.telemetry["cf1"].landed
-    assert failure(field.kernel, field.navigation.takeoff("cf1", 1)).failure is Failure.CRASH
 
 
 def test_how_long_ago_it_was_depends_on_no_clock_that_can_be_set() -> None:

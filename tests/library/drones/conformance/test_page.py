@@ -11,8 +11,6 @@ from pathlib import Path
 import pytest
 
 import pluto_fleet
-from pluto_fleet.drones import errors, plugins
-from pluto_fleet.drones.conformance.contract import NavigationContract
 from tests.paths import ROOT
 
 DOCS = ROOT / "docs"
@@ -52,28 +50,3 @@ def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
     )
     assert "1 passed, 1 skipped" in done.stdout, done.stdout + done.stderr
     assert "silence is not given" in done.stdout
-
-
-def test_the_page_has_every_method_that_is_called() -> None:
-    groups = [plugins.NAVIGATION_METHODS, *plugins.CAPABILITIES, plugins.LOCALIZATION_METHODS]
-    for method in [method for group in groups for method in group]:
-        called = f"{method.name}({', '.join(method.takes)})"
-        if method.shape is plugins.CallStyle.PROPERTY:
-            called = method.name
-        assert f"`{called}`" in PAGE or f"`await {called}`" in PAGE or f"def {method.name}(" in PAGE
-
-
-def test_the_page_has_every_failure() -> None:
-    for error in errors.NavigationError.__subclasses__():
-        assert f"`{error.__name__}`" in PAGE
-        assert f'`"{error.failure}"`' in PAGE
-
-
-def test_the_page_has_all_that_an_author_may_give() -> None:
-    given = re.findall(r"`(\w+)(?: = True|\(.*?\))?`", PAGE.partition("it also tries")[2])
-    names = [
-        name
-        for name in vars(NavigationContract.__mro__[1])
-        if not name.startswith("_") and name not in ("rest", "connect_limit", "make")
-    ]
-    assert sorted({*names} - {*given}) == []
