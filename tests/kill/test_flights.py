@@ -142,17 +142,6 @@ def test_a_stop_counts_although_the_gateway_dies_meanwhile(new_flight: NewFlight
 
 
 @pytest.mark.long
-def test_a_journal_that_is_deleted_in_flight_ends_it(new_flight: NewFlight) -> None:
-    """As a full disk does: the drones land, it says why, and nothing names what is not there."""
-    flight = launched(new_flight(5.0))
-    flight.journal.unlink()
-    assert flight.see_through() == 2
-    assert f"{flight.journal}: it was deleted while the flight was being written" in flight.lives[0]
-    assert "resume" not in flight.lives[0]
-    assert all_are_down(flight) and no_process_is_left(flight)
-
-
-@pytest.mark.long
 def test_what_was_not_seen_a_person_decides(painting: Flight) -> None:
     """An action of the app's own was cut short: it is done once more."""
     begun = painting.folder / "begun"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
@@ -15,8 +14,9 @@ from pluto_fleet.drones.team import Team
 from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
+from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.unthreaded import in_virtual_time, the_air
 from tests.library.crazyflie.hangar import FAST, navigation
 from tests.library.drones.teams import FIELD, Asked
@@ -28,16 +28,6 @@ QUICK = Category(name="quick", speed=FAST, flight_time=420, charge_time=1200)
 HOMES = {id: (2.0 * at + 1.0, 1.0, 0.0) for at, id in enumerate(("well", "away", "tumbler"))}
 OPTIONS = {"measure": {"temperature": "bme.temp"}}
 FAILS = {"away": Failure.LINK, "tumbler": Failure.CRASH}
-
-
-@dataclass
-class Craft:
-    """A drone as the gateway knows it."""
-
-    id: str
-    home: Point
-    index: int
-    category: Category = QUICK
 
 
 async def fly(folder: Path) -> None:
@@ -52,7 +42,10 @@ async def fly(folder: Path) -> None:
     ]
     say, clock = asked.log.append, the_air().time
     team = Team(asked.kernel, drones, FIELD, folder=folder, say=say, clock=clock)
-    crafts = [Craft(one.id, one.home, index) for index, one in enumerate(builds)]
+    crafts = [
+        SimulatedDrone(id=one.id, category=QUICK, home=one.home, index=index)
+        for index, one in enumerate(builds)
+    ]
     gateway = Gateway(asked.kernel, team, crafts, FIELD, apart=0.5, slack=CRAZYFLIE.slack)
     team.begin()
     link = gateway.link(1)

@@ -14,15 +14,6 @@ from pluto_fleet.process import locks
 CAMERA = "127.0.0.1:5000"
 
 
-def test_it_has_a_camera_a_gripper_and_a_sensor_for_any_quantity() -> None:
-    """Also for one that was not asked for when it is made."""
-    options = options_of(fitted({}, CAMERA))
-    assert options.camera == ("127.0.0.1", 5000)
-    assert options.grip is not None
-    assert options.variable_of("temperature") == "bme.temp"
-    assert options.variable_of("drawn in flight") == "sim.measured"
-
-
 def test_what_the_file_names_and_it_lacks_it_has_otherwise() -> None:
     """A deck of one's own is no reason not to take off."""
     options = options_of(

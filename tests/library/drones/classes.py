@@ -37,16 +37,6 @@ class Good(FakeDrone):
         """Hover."""
 
 
-class Simple:
-    """It has what it must have, and no more."""
-
-    def __init__(self, setup: DroneSetup) -> None: ...
-
-    connect, preflight, takeoff, go_to = Good.connect, Good.preflight, Good.takeoff, Good.go_to
-    land, hold, emergency_stop, close = Good.land, Good.hold, Good.emergency_stop, Good.close
-    telemetry, events = Good.telemetry, Good.events
-
-
 class Holder:
     """Classes may stand in classes."""
 
@@ -87,12 +77,6 @@ class Lazy:
 
     async def events(self) -> list[DroneEvent]:
         return []
-
-
-class Half(Simple):
-    """It acts, and cannot say what it cannot do."""
-
-    async def act(self, action: str, parameters: Mapping[str, object], item: object) -> None: ...
 
 
 class Looking(Good):

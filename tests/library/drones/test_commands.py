@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
-from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Category, Item
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import flying
@@ -82,22 +82,6 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
         assert drone.told == []
 
 
-async def test_a_drone_without_the_hardware_of_the_plan_is_not_handed_out(tmp_path: Path) -> None:
-    """After the report it is waited for until it has been mended."""
-    drone, wanted = FakeDrone(), [RequiredAction(action="take_photo", parameters={})]
-    drone.lacks = {"take_photo"}
-    async with flying(tmp_path, drone, wanted=wanted) as flown:
-        report = await flown.do(flown.team.drone_report("cf1"))
-        assert report.problems == ("cf1 cannot take_photo",)
-        assert await flown.do(flown.team.reach("cf1"))
-        with pytest.raises(FlightFailed, match="cf1 is not ready: cf1 cannot take_photo"):
-            flown.team.begins("cf1", None, 0.0)
-        fetched = flown.begin(flown.team.fetched("cf1"))
-        the_loop().call_later(60, drone.lacks.clear)
-        assert await flown.until(lambda: fetched.is_set) > 59
-        assert fetched.result()
-
-
 async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
     """What is left in the battery is said."""
     drone = FakeDrone()
@@ -140,20 +124,6 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
         await flown.do(flown.team.land("cf1"))
         assert drone.told == ["hold", "land"]
         assert seen.landed
-
-
-async def test_who_stands_on_the_ground_is_not_sent_anywhere(tmp_path: Path) -> None:
-    """It must take off first."""
-    async with flying(tmp_path) as flown:
-        team = flown.team
-        await flown.do(team.drone_report("cf1"))
-        for command in (
-            team.go_to("cf1", (3, 1, 1)),
-            team.hold("cf1"),
-            team.act("cf1", "measure", {}, None, None),
-        ):
-            assert "must take off first" in str(await flown.failure(command))
-        assert flown.drones["cf1"].told == []
 
 
 async def test_what_is_aboard_outlives_the_gateway(tmp_path: Path) -> None:

@@ -133,17 +133,6 @@ async def test_a_drone_that_takes_long_to_hear_keeps_no_other_and_hears_the_late
         assert len(scene.cf1.heard) == 2
 
 
-async def test_a_drone_that_never_hears_does_not_know_where_it_is() -> None:
-    """However often it is seen."""
-    async with Scene() as scene:
-        scene.cf1.free.clear()
-        await scene.sees(("cf1", (1, 1, 1)))
-        scene.now += 1.5
-        await scene.sees(("cf1", (1, 1, 1)), ("cf2", (1, 1, 1)))
-        assert scene.feeding.silent("cf1") == "no position from eyes for 1.5 s"
-        assert scene.feeding.silent("cf2") is None
-
-
 @pytest.mark.parametrize(
     ("end", "why"), [(None, "it ended"), (OSError("unplugged"), "OSError: unplugged")]
 )

@@ -18,6 +18,7 @@ from pluto_fleet.jobs.telemetry import Publisher
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.future import Future
+from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.drones import FakeDrone
 from tests.library.drones.teams import FIELD, Flown, flying
 from tests.library.gateway.flights import Task
@@ -27,15 +28,6 @@ PATIENCE = 6.0
 NO_DRONES = RealFleet(drones=(), localization="own", localization_options={})
 
 
-class Craft:
-    """A drone as the gateway knows it."""
-
-    def __init__(self, flown: Flown, index: int) -> None:
-        drone = flown.crafts[index]
-        self.id, self.home, self.category = drone.id, drone.home, drone.category
-        self.index = index
-
-
 @asynccontextmanager
 async def commanded(
     folder: Path, count: int, patience: float | None = None
@@ -43,7 +35,10 @@ async def commanded(
     """Begin a gateway over some fake drones, and query the drones."""
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
     async with flying(folder, *drones) as flown:
-        crafts = [Craft(flown, index) for index in range(count)]
+        crafts = [
+            SimulatedDrone(id=one.id, category=one.category, home=one.home, index=index)
+            for index, one in enumerate(flown.crafts)
+        ]
         gateway = Gateway(
             flown.kernel,
             flown.team,

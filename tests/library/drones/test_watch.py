@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.errors import LinkLost, Rejected
+from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
@@ -206,20 +206,6 @@ async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought
         team.mended("cf1")
         assert await flown.do(team.reach("cf1"))
         await flown.do(team.takeoff("cf1", 1.0))
-
-
-async def test_a_drone_that_does_not_hear_that_it_was_looked_after_is_told_again(
-    tmp_path: Path,
-) -> None:
-    """It is being switched off and on, say: that its link is lost is not noticed at once."""
-    async with fallen(tmp_path) as (drone, team, flown):
-        assert not await flown.do(team.reach("cf1"))
-        drone.raises["looked_after"] = LinkLost("it stopped answering")
-        team.mended("cf1")
-        assert await flown.do(team.reach("cf1"))
-        del drone.raises["looked_after"]
-        assert await flown.do(team.fetched("cf1"))
-        assert drone.told.count("looked after") == 1
 
 
 async def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:

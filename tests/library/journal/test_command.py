@@ -201,14 +201,3 @@ def test_what_comes_is_printed_as_it_comes_until_it_is_interrupted(path: Path) -
     following.send_signal(signal.SIGINT)
     out, err = following.communicate(timeout=30)
     assert (following.returncode, out, err) == (0, "", "")
-
-
-@pytest.mark.long
-def test_it_ends_when_it_is_not_read_any_more_though_nothing_happens(path: Path) -> None:
-    following = follow(path)
-    assert following.stdout is not None
-    following.stdout.readline()
-    following.stdout.close()
-    following.stdout = None
-    _, err = following.communicate(timeout=30)
-    assert (following.returncode, err) == (141, "")

@@ -7,7 +7,7 @@ import sqlite3
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -198,36 +198,3 @@ def test_where_files_cannot_be_linked_a_journal_takes_the_place_of_none_either(
     else:
         Store.create(tmp_path / "J", {}).close()
     assert os.listdir(tmp_path) == ([] if meanwhile else ["J"])
-
-
-@pytest.fixture
-def mounted(tmp_path: Path) -> Iterator[Path]:
-    """A file system of its own."""
-    disk = tmp_path / "disk"
-    disk.mkdir()
-    mount = ["mount", "-t", "tmpfs", "tmpfs", str(disk)]
-    if subprocess.run(mount, capture_output=True, check=False).returncode != 0:
-        pytest.skip("a file system can be mounted here by root alone")
-    yield disk
-    subprocess.run(["umount", disk], check=True)
-
-
-@pytest.mark.long
-def test_in_a_folder_that_may_only_be_read_a_journal_is_read_and_nothing_else(
-    mounted: Path,
-) -> None:
-    """Of an app that was killed: its log is still there."""
-    process = appender(mounted / "J")
-    assert process.stdout is not None
-    process.stdout.readline()
-    process.kill()
-    process.communicate()
-    (mounted / "J-shm").unlink()
-    subprocess.run(["mount", "-o", "remount,ro", mounted], check=True)
-    assert rows_of(mounted / "J")
-    with pytest.raises(
-        JournalError, match=r"cannot be made: .*; name another place with --journal"
-    ):
-        Store.create(mounted / "another", {})
-    with pytest.raises(JournalError, match="the journal cannot be opened"):
-        Store.open(mounted / "J")

@@ -24,20 +24,6 @@ def advance(kernel: VirtualTime, seconds: float) -> None:
     fly(kernel, kernel.sleep(seconds))
 
 
-def test_commands_return_when_they_are_done() -> None:
-    """A climb at 0.3 m/s, five metres at the category's speed, and down again."""
-    kernel, navigation = at_home()
-    telemetry = navigation.telemetry["cf1"]
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
-    assert (kernel.now, telemetry.location, telemetry.landed) == (4, (1, 1, 1.2), False)
-    fly(kernel, navigation.go_to("cf1", (4, 5, 1.2)))
-    assert (kernel.now, telemetry.location) == (14, (4, 5, 1.2))
-    fly(kernel, navigation.land("cf1"))
-    assert (kernel.now, telemetry.location, telemetry.landed) == (18, (4, 5, 0), True)
-    assert navigation.flown("cf1") == pytest.approx(1.2 + 5 + 1.2)
-    assert navigation.flown("cf2") == 0
-
-
 def test_a_cancelled_drone_hovers_where_it_is() -> None:
     """Half-way is where it stays, draining, until it is told otherwise."""
     kernel, navigation = at_home()
@@ -72,21 +58,6 @@ def test_what_a_gripper_cannot_do_fails(
     assert error.failure is Failure.ACTION
     assert str(error) == f"{action} failed: {reason} at (1, 1)"
     assert navigation.carrying("cf1") is before
-
-
-def test_a_drone_on_the_ground_refuses_to_fly_on() -> None:
-    """It must take off first; landing again does nothing."""
-    kernel, navigation = at_home()
-    for command in (
-        navigation.go_to("cf1", (2, 2, 1)),
-        navigation.act("cf1", "measure", {}, None),
-        navigation.hold("cf1"),
-    ):
-        error = failure(kernel, command)
-        assert error.failure is Failure.REFUSED
-        assert str(error) == "cf1 is on the ground at (1, 1): it must take off first"
-    fly(kernel, navigation.land("cf1"))
-    assert kernel.now == 0
 
 
 def test_no_drone_is_commanded_twice_at_once() -> None:

@@ -12,7 +12,6 @@ from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.shared.time.virtual import VirtualTime
-from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.library.simulation.flights import (
     CLIMB,
     HOME,
@@ -60,31 +59,6 @@ def test_a_crash_comes_at_its_moment(seed: int) -> None:
     assert not fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(moment)
     assert failure(kernel, navigation.takeoff("cf1", 1.2, None)).failure is Failure.CRASH
-
-
-@pytest.mark.parametrize("late", [0.5, 20.0])
-@given(seed=st.integers(0, 200))
-def test_a_flight_goes_wrong_after_its_take_off_however_late_that_is(
-    late: float, seed: int
-) -> None:
-    """A command is on its way for a while: what is drawn comes so long after the drone has left."""
-    kernel, navigation = at_home(Faults(link=1), seed=seed)
-    drawn = draw(Faults(link=1), seed, *order()).link
-    assert drawn is not None
-    navigation.bodies["cf1"].begin(draw(Faults(link=1), seed, *order()), kernel.now)
-    fly(kernel, kernel.sleep(late))
-
-    async def flight() -> None:
-        await SimulatedNavigation.takeoff(navigation, "cf1", 1.2)
-        await navigation.go_to("cf1", FAR)
-        await navigation.act("cf1", "take_photo", {}, None)
-
-    assert failure(kernel, flight()).failure is Failure.LINK
-    assert kernel.now == pytest.approx(late + drawn)
-    assert fly(kernel, navigation.reach("cf1"))
-    telemetry = navigation.telemetry["cf1"]
-    assert telemetry.landed
-    assert telemetry.location == pytest.approx((*place_at(drawn)[:2], 0.0))
 
 
 def test_a_mishap_comes_even_without_commands() -> None:
