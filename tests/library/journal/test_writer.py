@@ -46,7 +46,7 @@ def test_a_snapshot_stands_for_the_rows_before_it_though_others_are_written_with
         busy.set()
         assert written.wait(60)  # meanwhile more is added, and taken in one batch
 
-    writer = Writer(store, told, [].append)
+    writer = Writer(store, told, list[JournalError]().append)
     writer.add(row(1))
     assert busy.wait(60)
     writer.add(row(2))
