@@ -60,17 +60,6 @@ def test_an_order_says_all_that_is_needed_to_carry_it_out() -> None:
     brain.close()
 
 
-def test_what_was_taken_is_not_returned_again() -> None:
-    """Neither orders nor events."""
-    brain = charged()
-    brain.begin([{"trips": [trip()]}], 0.0)
-    assert len(settled(brain, 0.0)) == 1
-    assert brain.orders() == []
-    assert kinds(brain) == ["mission.created", "trip.allocated", "trip.launched"]
-    assert brain.events() == []
-    brain.close()
-
-
 def test_several_messages_of_one_instant_are_all_known_before_drones_are_given() -> None:
     """The drone that stands first in the fleet serves the mission that waits longest."""
     brain = charged(2, apps.app(apps.flow()), after_trip="stay")
@@ -190,20 +179,4 @@ def test_a_silent_brain_keeps_no_events() -> None:
     brain.begin([{"trips": [trip()]}], 0.0)
     assert len(settled(brain, 0.0)) == 1
     assert brain.events() == []
-    brain.close()
-
-
-def test_telemetry_is_exact_between_two_messages() -> None:
-    """A leg and a battery are told once, and known at every instant."""
-    brain = charged()
-    leg = [[1.0, 0.5, 1.2], [5.0, 0.5, 1.2], 2.0, 10.0]
-    told = {"leg": leg, "battery": [0.9, 2.0, -0.01], "landed": False}
-    brain.tell({"telemetry": {"cf1": told}}, 2.0)
-    brain.advance(6.0)
-    (known,) = brain.drones().values()
-    assert known["at"] == [3.0, 0.5, 1.2]
-    assert known["battery"] == pytest.approx(0.86)
-    brain.tell({"telemetry": {"cf1": {"battery": 0.5}}}, 7.0)
-    (known,) = brain.drones().values()
-    assert (known["at"], known["battery"], known["landed"]) == ([3.5, 0.5, 1.2], 0.5, False)
     brain.close()

@@ -22,12 +22,12 @@ from plutoc.registry import STD, Blocks, blocks_of
 from plutoc.source import Source
 from plutoc.syntax.parse import read
 from tests.equivalence import coverage
-from tests.equivalence.flows import NOTHING, Overrides, Package, packaged
+from tests.equivalence.flows import Package, packaged
 from tests.equivalence.fly import Record, difference, record
 from tests.equivalence.worlds import TIMES, World, random_world
 from tests.kit.graphs import others
 from tests.kit.graphs.graph import random_source
-from tests.kit.shrink import TRIES, shrunk, simpler, smaller_sources
+from tests.kit.shrink import shrunk, simpler, smaller_sources
 
 WORLDS = 3
 """For each graph. What is learnt in one about how long trips take is used in the next."""
@@ -38,18 +38,6 @@ INSTALLED = Blocks(
 )
 Planner = Callable[[Checked], Plan]
 plainly: Planner = partial(planned, optimise=False)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Contender:
-    """What is held against the plain package."""
-
-    planner: Planner = planned
-    overrides: Overrides = field(default_factory=lambda: NOTHING)
-    """Functions that its flow gets in place of the runtime's."""
-
-
-OURS = Contender()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -130,7 +118,7 @@ def blamed(finding: Finding) -> str:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reference:
-    """A graph, and how its plain package flies: what each contender is held against."""
+    """A graph, and how its plain package flies: what others are held against."""
 
     text: str
     checked: Checked
@@ -141,22 +129,22 @@ class Reference:
 
 @lru_cache(maxsize=150)
 def reference(name: str) -> Reference:
-    """Draw a graph and fly it; contenders that follow each other find the same."""
+    """Draw a graph and fly it; who asks once more finds the same."""
     text, checked, rng, refused = drawn(name)
     plain = plainly(checked)
     flights = tuple(_worlds(packaged(plain), checked, rng))
     return Reference(text=text, checked=checked, refused=refused, plain=plain, flights=flights)
 
 
-def one_graph(name: str, contender: Contender = OURS) -> Tally:
-    """Draw a graph and hold the contender against the plain package in all its worlds."""
+def one_graph(name: str, planner: Planner = planned) -> Tally:
+    """Draw a graph and hold the package of a planner against the plain package in all its worlds."""
     known = reference(name)
-    text, other = known.text, contender.planner(known.checked)
+    text, other = known.text, planner(known.checked)
     tally = Tally(graphs=1, refused=known.refused)
     tally.seen.update(coverage.of_graph(known.plain, other))
-    if contender is OURS:
+    if planner is planned:
         tally.findings += _malformed(name, text, known.plain)
-    package = packaged(other, contender.overrides)
+    package = packaged(other)
     for world, plainly_flown in known.flights:
         said = difference(plainly_flown, record(package, world))
         if plainly_flown.broken:
@@ -192,17 +180,16 @@ def _worlds(plain: Package, checked: Checked, rng: Random) -> Iterator[tuple[Wor
                 yield entered, record(plain, entered)
 
 
-def differs(text: str, world: World, contender: Contender = OURS) -> str | None:
+def differs(text: str, world: World) -> str | None:
     """Return the first difference of a source in a world, if it is sound and there is one."""
     checked = sound(text)
     if checked is None:
         return None
     plain = record(packaged(plainly(checked)), world)
-    other = packaged(contender.planner(checked), contender.overrides)
-    return difference(plain, record(other, world))
+    return difference(plain, record(packaged(planned(checked)), world))
 
 
-def smallest(finding: Finding, contender: Contender = OURS, tries: int = TRIES) -> Finding:
+def smallest(finding: Finding) -> Finding:
     """Return a smaller source and world that leave two traces all the same."""
     if finding.world is None:
         return finding
@@ -215,21 +202,12 @@ def smallest(finding: Finding, contender: Contender = OURS, tries: int = TRIES) 
 
     def shows(case: tuple[str, World]) -> bool:
         try:
-            found = differs(*case, contender)
+            found = differs(*case)
         except (TypeError, KeyError, AttributeError):  # the world speaks of what is no more
             return False
         if found is not None:
             said.append(found)
         return found is not None
 
-    text, world = shrunk((finding.text, finding.world), smaller, shows, tries)
+    text, world = shrunk((finding.text, finding.world), smaller, shows)
     return replace(finding, text=text, world=world, said=said[-1])
-
-
-def first_finding(contender: Contender, first: int, graphs: int) -> Finding | None:
-    """Return what shows first that a contender is not the plain package, within so many graphs."""
-    for number in range(first, first + graphs):
-        found = one_graph(f"1/{number}", contender).findings
-        if found:
-            return found[0]
-    return None

@@ -22,9 +22,6 @@ from tests.kit.graphs import others
 PACKAGE = "equivalent"
 BLOCKS = "_runtime.blocks."
 
-Overrides = Mapping[str, Callable[..., object]]
-"""Functions that a flow gets in place of those that it imports, by their names."""
-NOTHING: Overrides = {}
 Siblings = Mapping[str, SimpleNamespace | ModuleType]
 
 
@@ -35,25 +32,23 @@ class Package:
     graph: Graph
     model: ModuleType
     flow: CodeType
-    overrides: Overrides
 
     def app(self, hooks: SimpleNamespace, *, patient: bool = False) -> App:
         """Return the app with these hooks; who is patient lets it do as much at once as it likes."""
         siblings: Siblings = {"hooks": hooks, "model": self.model}
         patience = None if patient else Patience()
-        app = _module("flow", self.flow, siblings, self.overrides, patience).APP
+        app = _module("flow", self.flow, siblings, patience).APP
         assert isinstance(app, App)
         return app
 
 
-def packaged(plan: Plan, overrides: Overrides = NOTHING) -> Package:
+def packaged(plan: Plan) -> Package:
     """Return the package of a plan."""
     graph = plan.checked.graph
     return Package(
         graph=graph,
         model=_model(model_file(graph)),
         flow=compile(flow_file(plan), "flow.py", "exec"),
-        overrides=overrides,
     )
 
 
@@ -62,14 +57,13 @@ def _model(text: str) -> ModuleType:
     """Return the classes of an app: few apps differ in them."""
     name = f"{PACKAGE}.model"
     sys.modules[name] = ModuleType(name)  # dataclasses look their module up
-    return _module("model", compile(text, "model.py", "exec"), {}, NOTHING)
+    return _module("model", compile(text, "model.py", "exec"), {})
 
 
 def _module(
     name: str,
     code: CodeType,
     siblings: Siblings,
-    overrides: Overrides,
     patience: Patience | None = None,
 ) -> ModuleType:
     def found(target: str, wanted: Sequence[str]) -> object:
@@ -77,7 +71,7 @@ def _module(
             return SimpleNamespace(**{one: siblings[one] for one in wanted})
         if target in siblings:
             return siblings[target]
-        return _of_the_runtime(target, wanted, overrides, patience)
+        return _of_the_runtime(target, wanted, patience)
 
     return in_memory(f"{PACKAGE}.{name}", code, found)
 
@@ -118,9 +112,7 @@ class InMemory(InspectLoader):
         return self.code
 
 
-def _of_the_runtime(
-    target: str, wanted: Sequence[str], overrides: Overrides, patience: Patience | None
-) -> object:
+def _of_the_runtime(target: str, wanted: Sequence[str], patience: Patience | None) -> object:
     """Return what a generated module imports from `_runtime`, from where it is at home."""
     if target.startswith(f"{BLOCKS}{others.PACKAGE}."):
         home = others.__name__
@@ -133,7 +125,6 @@ def _of_the_runtime(
     for one in wanted:
         if not hasattr(module, one):
             import_module(f"{home}.{one}")
-        given = overrides.get(one, getattr(module, one))
-        steps = patience is not None and target.startswith(BLOCKS)
-        found[one] = patience.counted(given) if patience and steps else given
+        given = getattr(module, one)
+        found[one] = patience.counted(given) if patience and target.startswith(BLOCKS) else given
     return SimpleNamespace(**found)

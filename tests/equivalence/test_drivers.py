@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from random import Random
 
-from tests.equivalence.campaign import OURS, drawn
+from plutoc.compile import planned
+from tests.equivalence.campaign import drawn
 from tests.equivalence.drivers import in_real_time, seen
 from tests.equivalence.flows import packaged
 from tests.equivalence.fly import record
@@ -18,7 +19,7 @@ def test_real_time_takes_simultaneous_events_in_the_order_of_virtual_time() -> N
     events = 0
     for number in range(GRAPHS):
         text, checked, rng, _ = drawn(f"drivers/{number}")
-        package = packaged(OURS.planner(checked))
+        package = packaged(planned(checked))
         for _ in range(2):
             world = random_world(Random(rng.random()), package.graph)
             virtual = record(package, world, patient=False)

@@ -59,11 +59,6 @@ def check(
     return err
 
 
-def test_the_plain_plan_is_fine(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    """What the others are made of."""
-    assert check(tmp_path, MISSIONS.encode(), FLEET.encode(), capfd) == ""
-
-
 PLAIN_FLEET = '[[drone]]\nid = "a"\nhome = [1, 1]\n'
 
 

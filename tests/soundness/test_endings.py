@@ -4,18 +4,13 @@ from __future__ import annotations
 
 from random import Random
 
-import pytest
-
-from plutoc.check import statuses
 from plutoc.check.model import Checked
 from plutoc.compile import analyse
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
-from tests.kit.sections import given
 from tests.soundness.app import App
 from tests.soundness.endings import End, endings
 from tests.soundness.randoms import looping_app
-from tests.soundness.test_endless import ENDLESS, HEAD
 
 
 def accepted(app: App) -> Checked | None:
@@ -45,14 +40,3 @@ def test_what_is_accepted_ends_with_hooks_that_never_change_their_mind() -> None
 
 def test_it_ends_by_the_driver_of_real_flights_as_well() -> None:
     assert len(flown(range(10), real=True)) > 3
-
-
-def test_a_loop_that_should_have_been_refused_would_be_seen(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """Through a modifier, by the number of its calls; and of repeaters alone, that no hook is in."""
-    monkeypatch.setattr(statuses, "endless_loops", lambda steps: ())
-    for name in ("two repeaters that lead to each other", "a hook between changes nothing"):
-        text = f"{HEAD}{given(ENDLESS)[name]}\n}}\n"
-        checked, _ = analyse(Source(path="app.pluto", text=text))
-        assert End.HANGS in endings(checked, 0)

@@ -1,4 +1,4 @@
-"""The examples in memory, on the runtime in place: as they are, or with a mistake in them."""
+"""The examples and other apps in memory, on the runtime in place: tests can plant mistakes in that."""
 
 from __future__ import annotations
 
@@ -22,8 +22,6 @@ from tests.kit.apps import EXAMPLES
 if TYPE_CHECKING:
     from pluto_fleet.app import App
 
-Overrides = Mapping[str, Callable[..., object]]
-
 
 @lru_cache
 def checked(name: str) -> Checked:
@@ -32,9 +30,9 @@ def checked(name: str) -> Checked:
     return analyse(Source(path.name, path.read_text(encoding="utf-8")))[0]
 
 
-def example(name: str, overrides: Overrides | None = None) -> App:
-    """Return an example's app, with functions in place of others."""
-    package = packaged(planned(checked(name)), overrides or {})
+def example(name: str) -> App:
+    """Return an example's app."""
+    package = packaged(planned(checked(name)))
     hooks = SimpleNamespace(**vars(_hooks(name, package)))
     return described(package.app(hooks, patient=True))
 
@@ -54,7 +52,7 @@ WAITING = """
 """An app whose trips wait for their delays."""
 
 
-def app_of(text: str, hooks: Overrides | None = None) -> App:
+def app_of(text: str, hooks: Mapping[str, Callable[..., object]] | None = None) -> App:
     """Return the app of a source, with the hooks that it needs."""
     package = packaged(planned(analyse(Source("app.pluto", text))[0]))
     return described(package.app(SimpleNamespace(**(hooks or {})), patient=True))

@@ -17,11 +17,9 @@ from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.recorder import Recorder
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
-from pluto_fleet.shared.flow import restore, standing
-from pluto_fleet.shared.flow.promises import Promises
+from pluto_fleet.shared.flow import standing
 from pluto_fleet.shared.flow.restore import Restorer
 from pluto_fleet.shared.hooks import plain_data
-from pluto_fleet.trials.record import TrialRecord
 
 Plant = Callable[[pytest.MonkeyPatch], None]
 
@@ -132,20 +130,6 @@ def what_may_have_been_done_is_done_again(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(suspending, "outcome_of", found)
 
 
-@mutant("calls itself attempt", seed=4)
-def a_flight_that_was_interrupted_counts(patch: pytest.MonkeyPatch) -> None:
-    really = reconcile.for_brain
-
-    def for_brain(app: Any, record: Any) -> Any:
-        todo = record["todo"]
-        if record["interrupted"] and todo:
-            again = {**todo[0], "attempt": todo[0].get("attempt", 1) + 1}
-            record = {**record, "todo": [again, *todo[1:]]}
-        return really(app, record)
-
-    patch.setattr(recovery, "for_brain", for_brain)
-
-
 @mutant("results were there", seed=6, example="alfalfa")
 def results_are_lost_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
     really = Restorer.go_on
@@ -167,52 +151,3 @@ def a_stopped_missions_carrier_is_given_away(patch: pytest.MonkeyPatch) -> None:
 @mutant("before that was on record")
 def a_drone_leaves_before_that_is_on_record(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(Recorder, "when_durable", lambda self, call: call())
-
-
-@mutant("waits until")
-def a_stop_eats_up_delays(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr("pluto_fleet.journal.fold.shift_delays", lambda *_: None)
-
-
-@mutant("before it is", seed=4)
-def one_of_several_is_enough_to_begin_after(patch: pytest.MonkeyPatch) -> None:
-    really = Promises.in_time
-
-    async def in_time(self: Promises, run: Any) -> Any:
-        promises = run.mission.promises
-        run.mission.promises = {**promises, "after": [*promises.get("after", ())][:1]}
-        return await really(self, run)
-
-    patch.setattr(Promises, "in_time", in_time)
-
-
-@mutant("and is not late")
-def nobody_is_late(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(Promises, "watch", lambda *_: None)
-
-
-@mutant("is late once more", seed=8)
-def a_mission_is_late_again_after_a_crash(patch: pytest.MonkeyPatch) -> None:
-    really = standing.update
-
-    def update(app: Any, mission: Any, record: Any) -> Any:
-        return really(app, mission, {**record, "late": False})
-
-    patch.setattr(restore, "update", update)
-
-
-@mutant(".")
-def a_completed_trip_is_flown_again(patch: pytest.MonkeyPatch) -> None:
-    """It was completed right before the crash."""
-    really, really_read = Records.take, TrialRecord.records
-
-    def take(self: Records, event: Any) -> None:
-        if event["event"] != "trip.completed":
-            really(self, event)
-
-    def read(self: TrialRecord, *given: Any) -> Records:
-        with pytest.MonkeyPatch.context() as inner:
-            inner.setattr(Records, "take", take)
-            return really_read(self, *given)
-
-    patch.setattr(TrialRecord, "records", read)

@@ -16,7 +16,7 @@ from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.alone.ideal import IdealDrones
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
+from pluto_fleet.shared.domain.model import AfterTrip, Drone, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from tests.equivalence.fly import alone as by_itself
@@ -118,24 +118,6 @@ def test_what_is_beyond_the_map_is_refused_before_take_off() -> None:
     assert sky.drone.flown(sky.now) == 0.0
 
 
-def test_a_battery_drains_in_the_air_and_charges_at_home() -> None:
-    """It is empty after its flight time, and full again after its charge time."""
-    weak = Category(name="scout", flight_time=20.0, charge_time=100.0, reserve=0.0)
-    hold = OwnAction(name="wait", hook=wait_long)
-    tested = apps.app(apps.flow(), categories=[weak], actions=[hold])
-    mission = apps.mission("a", apps.trip("1", 1.0, action="wait"))
-    outcome = fly(tested, [mission], apps.fleet())
-    assert "ran out of battery" in mission.reason
-    assert apps.times(outcome, "trip.failed") == [20.0]
-    (charging,) = apps.events(outcome, "drone.charging")
-    assert (charging["t"], charging["battery"]) == (20.0 + CARRYING_HOME, 0.0)
-    assert charging["at"] == [0.5, 0.5, 0.0]
-
-
-async def wait_long(drone: Drone, trip: Trip, context: Context) -> None:
-    await context.sleep(1000.0)
-
-
 @pytest.mark.parametrize(
     ("what", "reason", "status"),
     [
@@ -176,59 +158,6 @@ def test_a_drone_that_is_told_to_break_off_hovers_and_reports_nothing() -> None:
     landing = sky.order("land")
     assert sky.told() == {"done": landing, "value": None}
     assert sky.drone.landed
-
-
-def test_an_order_that_is_cancelled_leaves_the_drone_hovering() -> None:
-    """And nothing is told of it; what it does not do cannot be cancelled."""
-    sky = Sky(seed=0)
-    way_up = sky.order("home")
-    assert sky.told(1.0) == {}
-    sky.order("cancel", order=way_up + 100)
-    assert sky.told(2.0) == {}
-    sky.order("cancel", order=way_up)
-    assert sky.told(5.0) == {}
-    assert sky.drone.location == pytest.approx((0.5, 0.5, 0.6))
-    assert not sky.drone.landed
-
-
-def test_a_drone_that_has_crashed_is_lost() -> None:
-    """It lies where it fell, and cannot be brought home."""
-    sky = Sky(Faults(crash=1.0))
-    sky.fly(stops=[(4.0, 0.5, 1.2)])
-    assert sky.told()["failure"] == "CRASH"
-    assert sky.told() == {}
-    recovery = sky.order("recover")
-    assert sky.told() == {"done": recovery, "value": False}
-    assert (sky.drone.landed, sky.drone.location[2]) == (True, 0.0)
-    sky.order("home")
-    assert sky.told()["reason"].startswith("cf1 crashed at")
-
-
-def test_the_outage_counts_from_the_loss_and_ends_on_the_ground() -> None:
-    """From high up the landing takes longer than the outage: recovery waits for it."""
-    for height in (1.2, 9.9):
-        sky = Sky(Faults(link=1.0), seed=5)
-        sky.fly(stops=[(0.5, 0.5, height), (19.0, 0.5, height)])
-        assert sky.told()["failure"] == "LINK"
-        lost, high = sky.now, sky.drone.location[2]
-        recovery = sky.order("recover")
-        assert sky.told()["done"] == recovery
-        way = sky.drone.flown(sky.now)
-        assert way > 0.0 and sky.drone.landed
-        assert sky.now >= lost + max(OUTAGE, high / 0.3)
-
-
-def test_what_is_aboard_is_lost_with_a_drone_and_taken_off_at_home() -> None:
-    """A crash loses it; who has come home has nothing aboard any more."""
-    for faults, left in ((Faults(), True), (Faults(crash=1.0), False)):
-        sky = Sky(faults)
-        sky.drone.carries = apps.pick("p", 1.0).item
-        sky.fly(stops=[(4.0, 0.5, 1.2)])
-        sky.told()
-        assert (sky.drone.carries is not None) is left
-        sky.order("recover")
-        sky.told()
-        assert sky.drone.carries is None
 
 
 def test_a_flight_that_is_broken_off_as_it_is_ordered_leaves_no_ground() -> None:

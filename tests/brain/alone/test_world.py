@@ -27,13 +27,6 @@ def test_far_from_everything_there_is_the_background() -> None:
     assert world.measure("gas", (1, 1, 1), 0) == 0
 
 
-def test_a_background_of_ones_own_counts() -> None:
-    """A fleet file changes one background and leaves the others."""
-    world = World(1, MAP, WorldData(background={"pm10": 15.0}))
-    assert world.measure("pm10", (1, 1, 1), 0) == pytest.approx(15, abs=0.2)
-    assert world.measure("temperature", (1, 1, 1), 0) == pytest.approx(21, abs=0.2)
-
-
 def test_a_source_is_highest_in_its_middle() -> None:
     """It adds its peak there, and e^-½ of it a radius away; other quantities do not notice."""
     world = World(1, MAP, WorldData(sources=(DUST,)))
@@ -109,8 +102,3 @@ def test_a_world_is_made_up_where_none_is_described() -> None:
     assert all(0 <= x <= 20 and 0 <= y <= 10 for x, y in places)
     assert World(5, MAP).features == data.features
     assert invented(6, MAP) != data
-
-
-def test_a_huge_map_does_not_take_for_ever() -> None:
-    """There is a limit to what is made up."""
-    assert len(invented(1, Airspace(size=(500, 500))).features) == 10_000

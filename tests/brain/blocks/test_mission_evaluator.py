@@ -23,12 +23,6 @@ def judged(hook: object, *trips: apps.Trip, **more: Any) -> apps.SimulationResul
     return apps.fly(tested, apps.mission("m", *(trips or (apps.trip("A", 3.0),)), **more))
 
 
-def test_a_good_mission_is_completed_and_its_log_is_shown() -> None:
-    outcome = judged(lambda mission, results: Verdict(log=("all is well",)))
-    assert outcome.completed
-    assert outcome.log == ["all is well"]
-
-
 @pytest.mark.parametrize("made", [list, tuple, deque, UserList])
 def test_a_verdict_takes_lists_and_other_sequences(made: Any) -> None:
     """As its types say: for trips to fly again, for new ones and for lines."""
@@ -43,16 +37,6 @@ def test_a_verdict_takes_lists_and_other_sequences(made: Any) -> None:
     assert outcome.completed
     assert outcome.log == ["once more", "done"]
     assert [trip.name for trip in outcome.missions[0].completed_trips] == ["A", "B"]
-
-
-def test_trips_to_redo_fly_again_as_a_further_attempt() -> None:
-    def once_more(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
-        first = [r.trip for r in results.new if r.attempt == 1]
-        return Verdict(ok=not first, redo=tuple(first))
-
-    outcome = judged(once_more, apps.trip("A", 3.0), apps.trip("B", 4.0))
-    assert outcome.completed
-    assert [e["attempt"] for e in apps.events(outcome, "trip.launched")] == [1, 1, 2, 2]
 
 
 def test_added_trips_fly_and_are_not_repeated_by_a_further_round() -> None:
@@ -249,20 +233,3 @@ def test_a_trip_that_no_drone_of_the_fleet_can_fly_is_told_with_what_each_lacks(
     ]
     assert outcomes[0].missions[0].reason.endswith("cannot be flown: scout cannot measure")
     assert outcomes[1].completed
-
-
-def test_an_evaluator_that_raises_fails_its_mission_and_no_other() -> None:
-    def broken(mission: Mission[apps.Trip], results: Results[Any, Any]) -> Verdict:
-        if mission.name == "bad":
-            raise KeyError("no such photo")
-        return Verdict()
-
-    outcome = apps.flown(
-        apps.mission("bad", apps.trip("A", 2.0)),
-        apps.mission("good", apps.trip("A", 9.0)),
-        evaluator=broken,
-    )
-    bad, good = outcome.missions
-    assert bad.reason == "hook broken raised KeyError: 'no such photo'"
-    assert "Traceback" in outcome.log[0]
-    assert good.status is Status.COMPLETED

@@ -19,7 +19,6 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData
 from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.shared.domain.motion import (
-    CLIMB_SPEED,
     CRAZYFLIE,
     MOST,
     SHORTEST,
@@ -37,7 +36,6 @@ STEPS = 400
 TIGHT = 0.995
 """The least share of one of its bounds that each leg reaches: none is slower than it must be."""
 
-distances = st.floats(0.0, 200.0)
 speeds = st.floats(0.05, 5.0)
 overheads = st.floats(0.0, 5.0)
 smooth = st.builds(
@@ -76,33 +74,6 @@ def test_a_smooth_leg_is_as_quick_as_its_bounds_allow(
     assert seconds >= SHORTEST
     assert peak >= TIGHT * limit or push >= TIGHT * MOST or seconds == SHORTEST
     assert motion.leg(metres, speed) == pytest.approx(motion.pace * seconds)
-
-
-def test_a_smooth_leg_begins_and_ends_at_rest() -> None:
-    """The second half mirrors the first; in the middle it is fastest."""
-    assert (smoothly(0.0), smoothly(0.5), smoothly(1.0)) == (0.0, 0.5, 1.0)
-    for part in (0.01, 0.2, 0.3, 0.45):
-        assert smoothly(1 - part) == pytest.approx(1 - smoothly(part))
-    assert smoothly(0.01) < 1e-6
-    flown = [smoothly(n / STEPS) for n in range(STEPS + 1)]
-    steps = [b - a for a, b in pairwise(flown)]
-    assert min(steps) >= 0.0
-    assert steps.index(max(steps)) in (STEPS // 2 - 1, STEPS // 2)
-
-
-@given(motions, distances, distances, speeds)
-def test_a_longer_way_takes_no_less(motion: Motion, one: float, other: float, speed: float) -> None:
-    """Up, down and across."""
-    less, more = sorted((one, other))
-    for takes in (motion.leg, motion.climb, motion.sink):
-        assert takes(less, speed) <= takes(more, speed)
-
-
-@given(distances, speeds)
-def test_straight_legs_take_nothing_beside(metres: float, speed: float) -> None:
-    """At the category's speed, and up and down at one and the same."""
-    assert STRAIGHT.flies(metres, speed) == STRAIGHT.leg(metres, speed) == metres / speed
-    assert STRAIGHT.rises(metres, speed) == STRAIGHT.lands(metres, speed) == metres / CLIMB_SPEED
 
 
 # Charges

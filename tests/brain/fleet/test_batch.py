@@ -104,8 +104,3 @@ def test_without_it_one_would_wait_for_all(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(batch, "OLD", 1e9)
     since, without = crowd(earliest_deadline, [18.0], TIRELESS)["far 0"]
     assert without > got + LONGEST
-
-
-def test_half_an_hour_is_old() -> None:
-    """Plans that must charge leave trips for so long on purpose."""
-    assert HALF_AN_HOUR == 1_800.0

@@ -17,9 +17,7 @@ from pluto_fleet.shared.domain.model import AfterTrip, Category, Point
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
-from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
-from pluto_fleet.shared.hooks.context import Context
 from tests.deadlines import SHARE, TIRELESS, missed
 from tests.kit import apps
 from tests.kit.living import Living, enterable
@@ -54,10 +52,6 @@ def test_the_earliest_goes_first_and_one_without_goes_last() -> None:
     assert [name for name, _ in flown] == ["c", "d", "b", "a"]
     assert flown[0][1] == "due in 300 s"
     assert flown[3][1] == "no deadline"
-
-
-def test_of_equals_it_is_the_one_that_came_first() -> None:
-    assert [name for name, _ in order({"a": 300.0, "b": 300.0, "c": 300.0})] == ["a", "b", "c"]
 
 
 def test_a_higher_priority_comes_before_any_deadline() -> None:
@@ -150,21 +144,6 @@ def test_a_drone_that_is_lost_keeps_no_trip_waiting() -> None:
     assert flown[0] == ("m0", "cf1", 0.0)
     assert [drone for _, drone, _ in flown[1:]] == ["cf2"] * 2
     assert flown[1][2] == flight.times("drone.lost")[0]
-
-
-def test_a_drone_that_is_late_keeps_no_trip_waiting_for_long() -> None:
-    """No longer than twice the way of the other."""
-
-    async def slow(drone: object, trip: object, context: Context) -> None:
-        await context.sleep(500.0)
-
-    act = OwnAction(name="dig", hook=slow)
-    app = apps.app(apps.flow(policy=earliest_deadline), actions=(act,))
-    missions = [apps.mission("m0", apps.trip("A", 15.0, action="dig")), neighbours()[1]]
-    outcome = apps.fly(app, *missions, on=apps.fleet(NEAR, FAR, after=AfterTrip.NEXT))
-    (_, first, _), (_, second, then) = launched(outcome.events)
-    assert (first, second) == ("cf1", "cf2")
-    assert 0.0 < then < 2 * (16.0 - 0.5) / apps.SCOUT.speed + 1.0
 
 
 @settings(max_examples=10)

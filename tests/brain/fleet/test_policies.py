@@ -50,10 +50,6 @@ def test_a_drone_that_is_farther_away_than_an_able_one_is_not_asked() -> None:
     assert asked == ["cf2"]
 
 
-def test_without_drones_there_is_no_choice() -> None:
-    assert nearest(trip((0.0, 0.0, 0.0)), [], anyone) is None
-
-
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
 
 

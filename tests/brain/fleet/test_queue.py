@@ -36,11 +36,6 @@ def missions(*names: str, x: float = 3.0, **more: Any) -> list[apps.Mission]:
 # Who comes first
 
 
-def test_a_higher_priority_comes_first_then_arrival() -> None:
-    flown = apps.flown(*missions("a", "b"), *missions("c", priority=5))
-    assert chosen(flown) == ["c:cf1", "a:cf1", "b:cf1"]
-
-
 def test_one_that_comes_later_goes_before_those_of_a_lower_priority() -> None:
     late = missions("late", x=2.0, priority=1, delay=5.0)
     flown = apps.flown(*missions("a", "b", "c"), *late, clock=True)

@@ -25,44 +25,13 @@ from tests.brain.hand import settled
 from tests.kit import apps
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420)
-PLAIN = Airspace(cruise_height=1.2)
 WALL = Airspace(no_fly=(((8, 0), (9, 0), (9, 20), (8, 20)),))
-CLIMB = 1.2 / 0.3
-
-
-def test_a_flight_from_the_ground_climbs_first() -> None:
-    """A climb to cruise height, 5 m at half a metre a second, and the action."""
-    seconds = flight_seconds(SCOUT, PLAIN, (1, 1, 0), [(4, 5, 1.2)], 3)
-    assert seconds == pytest.approx(CLIMB + 10 + 3)
-
-
-def test_a_flight_from_the_air_does_not_climb() -> None:
-    """A drone that hovers goes straight there."""
-    assert flight_seconds(SCOUT, PLAIN, (1, 1, 2), [(1, 1, 1)], 0) == pytest.approx(2)
-
-
-def test_a_last_point_on_the_ground_is_landed_on() -> None:
-    """The landing counts from the height of the last stop."""
-    points = [(4, 5, 3.0), (1, 1, 0.0)]
-    assert flight_seconds(SCOUT, PLAIN, (4, 5, 3), points, 0) == pytest.approx(10 + 10)
-
-
-def test_no_points_is_no_flight() -> None:
-    """A drone that goes nowhere needs the action's time alone."""
-    assert flight_seconds(SCOUT, PLAIN, (1, 1, 0), [], 7) == 7
 
 
 def test_where_no_way_leads_takes_for_ever() -> None:
     """Behind a wall without an end there is nothing to wait for."""
     assert flight_seconds(SCOUT, WALL, (1, 1, 0), [(15, 1, 1.2)], 0) == inf
     assert needed(SCOUT, WALL, (1, 1, 0), [((15, 1, 1.2), 1)], (1, 1, 0)) is None
-
-
-def test_the_whole_trip_is_needed() -> None:
-    """There, each action, back, and down; the reserve is added elsewhere."""
-    stops = [((4.0, 5.0, 1.2), 2.0), ((4.0, 7.0, 1.2), 3.0)]
-    seconds = CLIMB + 10 + 2 + 4 + 3 + 2 * (3**2 + 6**2) ** 0.5 + CLIMB
-    assert needed(SCOUT, PLAIN, (1, 1, 0), stops, (1, 1, 0)) == pytest.approx(seconds / 420)
 
 
 def test_a_dock_charges_who_lands_near_enough() -> None:

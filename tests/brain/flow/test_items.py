@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.domain.status import Status
@@ -43,28 +42,6 @@ def test_a_failure_with_an_item_aboard_ends_the_mission_against_the_graph() -> N
     assert mission.status is Status.FAILED
     assert mission.reason == "knock failed: the door is shut, with pills aboard"
     assert outcome.count("trip.launched") == 2
-
-
-def test_a_failure_before_the_pick_is_retried() -> None:
-    seed = next(
-        seed
-        for seed in range(50)
-        if apps.flown(
-            apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
-            faults=Faults(action=0.3),
-            seed=seed,
-            attempts=3,
-        ).count("trip.failed")
-        == 1
-    )
-    outcome = apps.flown(
-        apps.mission("m", apps.pick("A", 3.0), apps.release("B", 9.0)),
-        faults=Faults(action=0.3),
-        seed=seed,
-        attempts=3,
-    )
-    failed_trip = apps.events(outcome, "trip.failed")[0]["trip"]
-    assert outcome.completed == (failed_trip == "A")
 
 
 def test_what_is_aboard_when_a_mission_ends_is_taken_off_before_the_drone_is_free() -> None:

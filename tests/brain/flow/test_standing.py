@@ -87,10 +87,3 @@ def test_the_log_has_the_traceback_of_a_policy_too() -> None:
     assert outcome.missions[0].reason == "policy broken raised ZeroDivisionError: by accident"
     assert 'raise ZeroDivisionError("by accident")' in log_of(outcome)
     assert log_of(outcome).endswith("in block allocate = DroneAllocator(policy: choose)")
-
-
-def test_nothing_is_told_where_nothing_went_wrong() -> None:
-    """The mission is completed, and the log is empty."""
-    outcome = fly(nothing, nothing)
-    assert outcome.missions[0].status is Status.COMPLETED
-    assert outcome.log == []

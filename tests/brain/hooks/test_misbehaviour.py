@@ -133,14 +133,6 @@ def test_a_modifier_that_leaves_nonsense_is_told_so(hook: Hook, says: str) -> No
     assert says in reason_of(hook)
 
 
-def test_a_modifier_may_name_a_place_without_a_height() -> None:
-    def elsewhere(mission: Any, context: Context) -> None:
-        mission.current.target = [4, 5]
-
-    outcome = apps.flown(apps.mission("m", apps.trip("A", 3.0)), prepare=elsewhere)
-    assert outcome.missions[0].completed_trips[0].target == (4, 5, 1.2)
-
-
 def test_a_modifier_that_takes_away_the_trip_in_flight_fails_its_mission() -> None:
     async def at_once(mission: Any, context: Context) -> None:
         if mission.name == "good":

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pluto_fleet.shared.domain.model import Mission, Result, ResultStore, Trip
-from pluto_fleet.shared.hooks.context import View, results_for
+from pluto_fleet.shared.hooks.context import View
 
 
 def test_every_result_is_found_again_however_many_there_are() -> None:
@@ -22,20 +22,3 @@ def test_every_result_is_found_again_however_many_there_are() -> None:
         given[-1],
         tuple(given[1:4]),
     )
-
-
-def test_an_evaluator_gets_what_is_new_since_it_was_asked() -> None:
-    store, ours, other = (
-        ResultStore(),
-        Mission[Any](name="a", trips=[]),
-        Mission[Any](name="b", trips=[]),
-    )
-    for value in range(4000):
-        mission = ours if value % 2 else other
-        mission.last_result = store.add(mission, None, 0, 1, value)
-    assert [result.value for result in results_for(store, ours).new] == list(range(1, 4000, 2))
-    assert not results_for(store, ours).new
-    ours.last_result = store.add(ours, None, 1, 1, "more")
-    asked = results_for(store, ours)
-    assert [result.value for result in asked.new] == ["more"]
-    assert len(asked.all) == 4001

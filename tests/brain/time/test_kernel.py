@@ -117,24 +117,6 @@ def test_an_error_that_is_not_awaited_stops_the_run() -> None:
         kernel.run(Future[None]())
 
 
-def test_an_error_reaches_the_awaiting_task() -> None:
-    kernel = VirtualTime()
-
-    async def broken() -> None:
-        raise ZeroDivisionError
-
-    async def awaiting() -> str:
-        try:
-            await kernel.spawn(broken(), 0, "broken")
-        except ZeroDivisionError:
-            return "caught"
-        return "missed"
-
-    task = kernel.spawn(awaiting(), 0, "awaiting")
-    kernel.run(task)
-    assert task.result() == "caught"
-
-
 def test_a_run_stops_at_its_time_and_can_go_on() -> None:
     kernel = VirtualTime()
     task = kernel.spawn(kernel.sleep(10), 0, "sleeper")

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -42,43 +39,3 @@ def test_a_name_that_is_too_long_is_told(words: str, command: Command) -> None:
     code, _, said = command(*words.replace("N", "n" * 300).split())
     assert code == 2
     assert "too long" in said and "internal" not in said
-
-
-SCRIPT = "import sys; from tests.library.files.an_app import APP; import pluto_fleet.cli as c; "
-
-
-def in_a_process(code: str, missions: Path, stdout: int) -> subprocess.CompletedProcess[str]:
-    path = f"import sys; sys.path[:0] = {sys.path!r}; "
-    argv = [sys.executable, "-c", path + SCRIPT + code, str(missions)]
-    return subprocess.run(argv, text=True, stdout=stdout, stderr=subprocess.PIPE, check=False)
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_a_closed_pipe_is_silent(missions: Path) -> None:
-    """The reader of the output knows that he has gone."""
-    code = "sys.exit(c.main(APP, ['simulate', sys.argv[1]]))"
-    read, write = os.pipe()
-    os.close(read)
-    done = in_a_process(code, missions, stdout=write)
-    os.close(write)
-    assert (done.returncode, done.stderr) == (141, "")
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_a_full_disk_is_told_once(missions: Path) -> None:
-    """And Python says nothing of its own at its end."""
-    with open("/dev/full", "w") as full:
-        code = "sys.exit(c.main(APP, ['simulate', sys.argv[1]]))"
-        done = in_a_process(code, missions, stdout=full.fileno())
-    assert done.returncode == 2
-    assert done.stderr == "alfalfa: the output cannot be written: No space left on device\n"
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_check_imports_no_event_loop(missions: Path) -> None:
-    """A command brings in only what it needs."""
-    code = "c.main(APP, ['check', sys.argv[1]]); sys.exit('asyncio' in sys.modules)"
-    assert in_a_process(code, missions, stdout=subprocess.DEVNULL).returncode == 0

@@ -1,7 +1,8 @@
-"""`drones`: who is there, and ready; nothing of it arms or moves a drone."""
+"""`drones`, and `fly --dry-run`: nothing of either arms or moves a drone; what they print is in sessions."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,12 +10,10 @@ import pytest
 
 from pluto_fleet.cli import drone_status
 from pluto_fleet.drones import localization
-from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.gateway.drone_lock import lock_drones
 from tests.library.cli import fake_drones
 from tests.library.cli.conftest import Command
 from tests.library.cli.fake_drones import ASKED, RECORD, THERE, at
-from tests.library.files.an_app import APP
 
 FAKE = f"{fake_drones.__name__}:Fake"
 
@@ -72,39 +71,6 @@ def test_drones_are_told_where_they_are_meanwhile(
     assert (code, f"no position from {fake_drones.__name__}:Mocap" in out) == (1, True)
 
 
-def test_one_drone_shows_which_it_is(fleet: Path, command: Command) -> None:
-    """Nothing else is asked of it."""
-    assert command("drones", "--fleet", fleet, "--identify", "cf1")[0] == 0
-    assert [("fake://1", what) for what in ("connect", "identify", "close")] == RECORD
-
-
-def test_a_fleet_file_is_made_of_those_that_answer(tmp_path: Path, command: Command) -> None:
-    """Homes are where they stand, or in a row; categories in turn; the app can read it."""
-    THERE["fake://5"] = at((-0.3, 1.0, 0.0))
-    THERE["fake://6"] = at((1.5, 2.1, 0.0))
-    THERE["fake://7"] = at((0.01, 0.0, 0.0))
-    path = tmp_path / "new.toml"
-    code, _, err = command("drones", "--navigation", FAKE, "--save", path)
-    assert code == 1  # one of them is not ready
-    assert err.endswith(f"{path}: 5 drones; look at each home before anything flies\n")
-    fleet = load_fleet(path, APP)
-    assert fleet.navigation == FAKE
-    assert [(one.id, one.category, one.home, one.uri) for one in fleet.drones] == [
-        ("cf1", "scout", (0.52, 0.48, 0.0), "fake://1"),
-        ("cf2", "carrier", (1.5, 2.0, 0.0), "fake://4"),
-        ("cf3", "scout", (2.0, 0.5, 0.0), "fake://5"),
-        ("cf4", "carrier", (3.0, 0.5, 0.0), "fake://6"),
-        ("cf5", "scout", (4.0, 0.5, 0.0), "fake://7"),
-    ]
-    assert "home = [2.0, 0.5]  # put it there: it said (-0.3, 1)" in path.read_text("utf-8")
-
-
-def test_no_file_is_overwritten(fleet: Path, command: Command) -> None:
-    """Not even looked at: it is said before any drone is asked."""
-    assert command("drones", "--navigation", FAKE, "--save", fleet)[0] == 2
-    assert RECORD == []
-
-
 def test_nothing_is_saved_where_no_drone_answers(tmp_path: Path, command: Command) -> None:
     """A fleet of none cannot fly."""
     THERE.clear()
@@ -113,3 +79,13 @@ def test_nothing_is_saved_where_no_drone_answers(tmp_path: Path, command: Comman
     assert (code, path.exists()) == (2, False)
     assert out == "no drone answers: are they switched on, and near?\n"
     assert err.endswith("not written, for no drone has answered\n")
+
+
+def test_a_dry_run_reaches_no_drone_and_writes_nothing(command: Command, tmp_path: Path) -> None:
+    """The fleet's navigation is not even made, and there is no journal."""
+    shutil.copytree(Path(__file__).parent / "sessions" / "dry_run", tmp_path / "plan")
+    plan = [tmp_path / "plan/m.toml", "--fleet", tmp_path / "plan/f.toml"]
+    before = sorted(tmp_path.rglob("*"))
+    assert command("fly", *plan, "--dry-run")[0] == 0
+    assert RECORD == []
+    assert sorted(tmp_path.rglob("*")) == before

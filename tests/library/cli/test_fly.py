@@ -80,12 +80,6 @@ def test_what_an_earlier_flight_has_left_is_not_taken_for_this_ones(
     assert not (tmp_path / "a.journal").exists()
 
 
-def test_a_plan_that_unflyable_trips_leaves_no_journal(tmp_path: Path, command: Command) -> None:
-    path = tmp_path / "new.journal"
-    assert command("fly", tmp_path / "none.toml", "--sim", "--journal", path)[0] == 2
-    assert not path.exists()
-
-
 def test_where_all_missions_have_ended_there_is_nothing_to_resume(
     journal: Write, command: Command
 ) -> None:
@@ -123,30 +117,12 @@ def test_a_journal_that_this_app_cannot_go_on_with_is_refused(
     assert events_of(path) == before
 
 
-def test_what_is_asked_in_another_apps_journal_is_not_told(
-    journal: Write, command: Command
-) -> None:
-    code, out, err = command("decide", journal(created("North", 0), app="wards"))
-    assert (code, out) == (2, "")
-    assert "this is a journal of wards" in err
-
-
 def test_a_flight_of_real_drones_is_not_resumed_with_simulated_ones(
     journal: Write, command: Command
 ) -> None:
     path = journal(created("North", 0), sim=False)
     said = f"{path}: its drones are real ones: go on without --sim\n"
     assert command("resume", path, "--sim") == (2, "", said)
-
-
-def test_without_a_name_the_newest_journal_is_resumed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, command: Command
-) -> None:
-    """And where there is none yet, one is told so."""
-    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path))
-    code, _, err = command("resume", "--sim")
-    assert code == 2
-    assert "journal" in err
 
 
 def test_two_processes_cannot_go_on_with_one_journal(journal: Write, command: Command) -> None:
@@ -188,17 +164,6 @@ def test_nothing_is_decided_in_a_damaged_journal(journal: Write, command: Comman
         assert "the journal is damaged: row 1 of 3 is not what was written" in err
 
 
-def test_decide_alone_lists_what_is_asked(journal: Write, command: Command) -> None:
-    """With the commands that answer."""
-    path = journal(created("North", 0), created("South", 1), LAUNCHED, DOUBT)
-    code, out, err = command("decide", path)
-    assert (code, err) == (0, "")
-    assert out.splitlines() == [
-        "North: was it done?",
-        *(f'  alfalfa decide {path} "North" {answer}' for answer in ("done", "not-done", "cancel")),
-    ]
-
-
 def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Command) -> None:
     path = journal(created("North", 0), LAUNCHED, DOUBT)
     code, out, err = command("decide", path, "North", "not-done")
@@ -208,14 +173,6 @@ def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Co
     assert (decided["event"], decided["mission"]) == ("mission.decided", "North")
     assert (decided["t"], decided["answer"]) == (5.0, "not-done")
     assert command("decide", path) == (0, "no mission waits for a person\n", "")
-
-
-def test_who_was_mistaken_may_decide_otherwise(journal: Write, command: Command) -> None:
-    """As long as nothing has come of it."""
-    path = journal(created("North", 0), LAUNCHED, DOUBT)
-    for answer in ("done", "not-done"):
-        assert command("decide", path, "North", answer)[0] == 0
-    assert [event.get("answer") for event in events_of(path)[-2:]] == ["done", "not-done"]
 
 
 @pytest.mark.parametrize(

@@ -10,35 +10,14 @@ import pytest
 
 from pluto_fleet.shared.alone import simulate as enough
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.run import Run
-from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
-from plutoc_blocks.mission_repeater.step import repeat_mission
-from plutoc_blocks.priority_manager.step import raise_priority
-from plutoc_blocks.trip_launcher.step import launch_trip
-from plutoc_blocks.trip_monitor.step import watch_trip
 from tests.kit import apps
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP, FieldMission
 from tests.trials.examples import WAITING, app_of
 
 WHY = 'mission "South" has set out 100 times for 1 trip, and nothing ends that; to fly on, say how'
-
-
-async def for_ever(run: Run[FieldMission]) -> Status:
-    """Fly each trip until it is done: there is no bound."""
-    status = create_mission(run, Status.UNEXECUTED)
-    while status is not Status.COMPLETED:
-        status = await allocate_drone(
-            run, status, block="allocate", policy=nearest, allocate_within=None
-        )
-        status = await watch_trip(run, launch_trip(run, status))
-        if status is Status.FAILED:
-            status = raise_priority(
-                run, status, max_attempts=0, priority=run.mission.current.priority
-            )
-    return status
 
 
 async def rests(run: Run[FieldMission]) -> Status:
@@ -48,7 +27,8 @@ async def rests(run: Run[FieldMission]) -> Status:
         await run.core.kernel.sleep(3_600.0)
 
 
-UNBOUNDED = apps.changed(APP, flow=for_ever)
+UNBOUNDED = apps.changed(APP, flow=apps.flow(attempts=0))
+"""It flies each trip until it is done: there is no bound."""
 NEVER = ("--fail", "action=100%")
 
 
@@ -76,16 +56,6 @@ def test_a_program_is_told_so_too(missions: Path, command: Command) -> None:
     assert "given_up" not in json.loads(command("simulate", missions, "--json")[1])
 
 
-@pytest.mark.long
-@pytest.mark.process
-def test_each_of_many_runs_is_given_up(missions: Path, command: Command) -> None:
-    """None of them counts as one that succeeded."""
-    code, out, _ = command("simulate", missions, *NEVER, "--runs", 2, app=UNBOUNDED)
-    assert code == 1
-    assert out.count(f"; given up: {WHY}") == 2
-    assert out.endswith("0 of 2 runs succeeded (0 %)\n")
-
-
 def test_who_says_how_long_is_obeyed(missions: Path, command: Command) -> None:
     """However often something sets out until then, and a mission that `--until` cuts has not failed."""
     flags = ("--until", "3 h", *NEVER)
@@ -109,21 +79,15 @@ def test_a_round_counts_anew(tmp_path: Path, command: Command) -> None:
 def test_rounds_that_were_not_planned_do_not_count_anew(tmp_path: Path, command: Command) -> None:
     """A hook that asks for one more round, each time, is no bound."""
 
-    async def one_more(run: Run[FieldMission]) -> Status:
-        status = create_mission(run, Status.UNEXECUTED)
-        while True:
-            status = await allocate_drone(
-                run, status, block="allocate", policy=nearest, allocate_within=None
-            )
-            status = await watch_trip(run, launch_trip(run, status))
-            run.mission.repeat += 1
-            status = repeat_mission(run, status, repeat=run.mission.repeat)
+    def one_more(mission: FieldMission, context: object) -> None:
+        mission.repeat += 1
 
+    flow = apps.flow(repeater=True, prepare=one_more)
     (tmp_path / "m.toml").write_text(
         '[[mission]]\nname = "South"\nrepeat = 2\n'
         '[[mission.trip]]\naction = "measure"\ntarget = [2, 3]\n'
     )
-    code, out, _ = command("simulate", tmp_path / "m.toml", app=apps.changed(APP, flow=one_more))
+    code, out, _ = command("simulate", tmp_path / "m.toml", app=apps.changed(APP, flow=flow))
     assert code == 1
     assert f"given up: {WHY}" in out
 

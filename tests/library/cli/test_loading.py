@@ -100,13 +100,3 @@ def test_an_app_can_be_stopped_with_anything_in_its_hooks(
     assert load_with("import no_such_module\n") == 2
     no_journal = "no.journal: there is no such journal" in capsys.readouterr().err
     assert no_journal is (command != "decide")
-
-
-def test_a_mistake_of_ours_is_not_blamed_on_the_hooks(
-    capsys: pytest.CaptureFixture[str],
-) -> None:
-    def load() -> App:
-        raise KeyError("ours")
-
-    assert start("tried", load, "tried", SEAM) == 70
-    assert "internal error" in capsys.readouterr().err

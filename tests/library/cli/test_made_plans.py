@@ -44,14 +44,6 @@ def test_of_very_many_areas_the_first_are_told(plan: Path, command: Command) -> 
     assert last.startswith("60 missions with 120 trips")
 
 
-def test_a_simulation_flies_plain_trips(plan: Path, command: Command) -> None:
-    code, out, _ = command("simulate", plan, "--json")
-    assert code == 0
-    missions = json.loads(out)["missions"]
-    assert [one["name"] for one in missions] == ["Bed 1", "Bed 2"]
-    assert missions[1]["completed_trips"] == ["1", "area 1.1", "area 1.2"]
-
-
 @pytest.mark.long
 @pytest.mark.process
 def test_a_journal_keeps_plain_missions(plan: Path, tmp_path: Path, command: Command) -> None:
@@ -106,24 +98,6 @@ def test_missions_at_one_spot_fly_at_the_same_time(spot: Path, command: Command)
         assert set(told) == {"t", "mission", "trip", "drone", "round", "attempt", "target", "at"}
         assert told["target"] == [4, 4, 1.2]
         assert told["at"] != told["target"]
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_a_flight_writes_it_into_its_journal(spot: Path, tmp_path: Path, command: Command) -> None:
-    """As it says it."""
-    journal = tmp_path / "j"
-    code, out, _ = command("fly", spot, "--sim", "--speed", "1000", "--journal", journal)
-    assert code == 0
-    assert out.count("another drone is at its place (cf") == 2
-    read = command("journal", journal)[1]
-    assert read.count("another drone is at its place (cf") == 2
-    told = [
-        event
-        for line in command("journal", journal, "--json")[1].splitlines()
-        if (event := json.loads(line))["event"] == "trip.beside"
-    ]
-    assert [one["mission"] for one in told] == ["2", "3"]
 
 
 def test_what_changes_something_is_done_just_there(spot: Path, command: Command) -> None:

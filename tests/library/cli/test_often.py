@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
 import sys
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from shlex import split
@@ -15,7 +13,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.cli import runs
-from pluto_fleet.cli.runs import percentile, run_of
+from pluto_fleet.cli.runs import run_of
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.trials.invariants import Items
@@ -24,35 +22,6 @@ from tests.library.cli.test_simulate import with_pollinate
 
 pytestmark = pytest.mark.process
 CRASHES = ("--fail", "crash=30%", "--seed", 10)
-
-
-@pytest.mark.long
-def test_few_runs_say_that_they_are_few(missions: Path, command: Command) -> None:
-    """And a single one has no percentiles at all."""
-    few = command("simulate", missions, "--runs", 3, *CRASHES)[1]
-    assert "Of 3 runs, p5 and p95 say little: fly 20 or more." in few
-    assert "p95" not in command("simulate", missions, "--runs", 1)[1]
-
-
-@pytest.mark.long
-def test_a_program_gets_percentiles_and_violations(missions: Path, command: Command) -> None:
-    """Beside what the summary had before."""
-    out = command("simulate", missions, "--runs", 6, *CRASHES, "--json")[1]
-    figures = json.loads(out)["summary"]
-    assert list(figures) == [
-        "runs",
-        "succeeded",
-        "success_rate",
-        "completed_missions",
-        "makespan_s",
-        "attempts",
-        "failed_trips",
-        "battery_level",
-        "failed_seeds",
-        "violations",
-    ]
-    assert figures["violations"] == []
-    assert 0 < figures["battery_level"]["p5"] <= figures["battery_level"]["p95"] < 1
 
 
 def twice(seed: int, outcome: SimulationResult, items: Items) -> Any:
@@ -82,27 +51,6 @@ def test_a_run_that_does_what_no_run_may_do_is_exit_70(
     assert words[2:] == [str(spaced), "--seed", "0", "--until", "7200", "--trace", "trace.jsonl"]
 
 
-def test_a_percentile_lies_between_two_neighbours() -> None:
-    """As far on the way as the share says."""
-    numbers: Sequence[float] = (0.0, 10.0, 20.0)
-    assert [percentile(numbers, share) for share in (0, 0.25, 0.5, 0.95, 1)] == [0, 5, 10, 19, 20]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("kind", [".svg", ".png"])
-def test_the_picture_is_the_same_each_time(
-    missions: Path, command: Command, tmp_path: Path, kind: str
-) -> None:
-    """No date, no chance: two of them are the same bytes."""
-    pytest.importorskip("matplotlib")
-    pictures = [tmp_path / f"{name}{kind}" for name in ("one", "two")]
-    for picture in pictures:
-        assert command("simulate", missions, "--runs", 4, *CRASHES, "--plot", picture)[0] in (0, 1)
-    one, two = (picture.read_bytes() for picture in pictures)
-    assert one == two
-    assert one.startswith(b"\x89PNG" if kind == ".png" else b"<?xml")
-
-
 @pytest.mark.long
 def test_without_matplotlib_nothing_flies(
     missions: Path, command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -113,21 +61,6 @@ def test_without_matplotlib_nothing_flies(
     code, out, err = command("simulate", missions, "--runs", 2, "--plot", tmp_path / "p.svg")
     assert (code, out) == (2, "")
     assert err.endswith('pip install "matplotlib>=3.8"\n')
-
-
-@pytest.mark.long
-@pytest.mark.parametrize(
-    ("name", "why"),
-    [("p.pdf", "an SVG or a PNG"), ("none/p.svg", "cannot be written: No such file")],
-)
-def test_a_picture_that_cannot_be_is_exit_2(
-    missions: Path, command: Command, tmp_path: Path, name: str, why: str
-) -> None:
-    """And says why."""
-    pytest.importorskip("matplotlib")
-    code, _, err = command("simulate", missions, "--runs", 2, "--plot", tmp_path / name)
-    assert code == 2
-    assert why in err
 
 
 def counts(state: list[int]) -> Any:

@@ -14,7 +14,6 @@ from pluto_fleet.report.progress import Progress
 from pluto_fleet.report.report import table
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.alone.faults import shares
-from pluto_fleet.shared.domain.text import duration, mass, number, quoted
 from pluto_fleet.shared.domain.trace import dumped
 
 
@@ -112,13 +111,6 @@ def test_the_bar_comes_only_after_a_while() -> None:
     assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
 
 
-def test_no_bar_where_it_is_not_seen() -> None:
-    """Not in a file, and not for ever so long."""
-    stream = io.StringIO()
-    Progress(stream, iter([0.0, 9.0]).__next__, shown=False).update(0.5, "x")
-    assert stream.getvalue() == ""
-
-
 def test_a_table_lines_up() -> None:
     """Words to the left, numbers to the right, no blanks at the end, nothing unprintable."""
     assert list(table(("a", "n"), [("long", "1"), ("\x1b", "23")], right=(1,))) == [
@@ -126,15 +118,3 @@ def test_a_table_lines_up() -> None:
         "long   1",
         "\\x1b  23",
     ]
-
-
-def test_numbers_are_written_for_people() -> None:
-    """Short, with their units."""
-    assert [number(value) for value in (2.0, 0.5, 1 / 3, -0.0, 20.0)] == [
-        "2", "0.5", "0.333", "0", "20"
-    ]  # fmt: skip
-    assert [duration(value) for value in (0.0, 42.54, 59.99, 200.0, 7500.0, 7200.0)] == [
-        "0 s", "42.5 s", "60 s", "3 min 20 s", "2 h 5 min", "2 h"
-    ]  # fmt: skip
-    assert (mass(0.008), mass(1.5)) == ("8 g", "1.5 kg")
-    assert quoted("x" * 100) == '"' + "x" * 59 + '…"'

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,35 +19,6 @@ from tests.library.files.an_app import APP, POLLINATE
 def with_pollinate(hook: Any) -> App:
     """Return the app with another hook for its action."""
     return apps.changed(APP, actions={**APP.actions, "pollinate": replace(POLLINATE, hook=hook)})
-
-
-def test_an_app_that_repeats_nothing_has_no_column_for_rounds(
-    missions: Path, command: Command
-) -> None:
-    """A column is there because a field is; JSON has the same keys for every app."""
-    out = command("simulate", missions, app=apps.changed(APP, fields=()))[1]
-    assert "\nmission  status     trips  attempts  reason\n" in out
-    assert "\nNorth    COMPLETED    2/2         2\n" in out
-
-
-def test_json_is_one_object_and_nothing_else(missions: Path, command: Command) -> None:
-    """With just the keys that are promised, and numbers of three decimals."""
-    code, out, err = command("simulate", missions, "--json", "--seed", 7)
-    assert (code, err, out.count("\n")) == (0, "", 1)
-    data = json.loads(out)
-    assert list(data) == ["app", "seed", "duration_s", "missions", "trips", "drones", "log"]
-    assert (data["app"], data["seed"], data["log"]) == ("alfalfa", 7, [])
-    assert data["duration_s"] == round(data["duration_s"], 3) > 10
-    assert data["missions"][0] == {
-        "name": "North",
-        "status": "COMPLETED",
-        "reason": "",
-        "completed_trips": ["A", "2"],
-        "rounds": 1,
-        "attempts": 2,
-    }
-    assert data["trips"] == {"completed": 3, "failed": 0, "attempts": 3}
-    assert list(data["drones"][0]) == ["id", "trips", "flown_m", "battery_level", "status"]
 
 
 def test_the_same_seed_gives_the_same_text(missions: Path, command: Command) -> None:
@@ -80,19 +50,6 @@ def test_many_runs_have_a_summary(missions: Path, command: Command) -> None:
     assert text.startswith("seed 10: ")
     assert text.count("\nseed 1") == 3
     assert f"\n\n{4 - len(bad)} of 4 runs succeeded" in text
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_runs_that_took_the_same_are_not_given_a_range(missions: Path, command: Command) -> None:
-    """Nor is a single one."""
-    words = command("simulate", missions, "--runs", 1)[1].splitlines()[-1]
-    assert "1 of 1 run succeeded (100 %); it took " in words
-    assert " to " not in words
-    words = command("simulate", missions, "--runs", 2, "--no-spread")[1].splitlines()[-1]
-    assert "2 of 2 runs succeeded (100 %); each took " in words
-    words = command("simulate", missions, "--runs", 2)[1].splitlines()[-1]
-    assert re.search(r"; they took [\d.]+ s to [\d.]+ s$", words)
 
 
 def interrupt(*_: object, **__: object) -> None:

@@ -98,12 +98,6 @@ def test_an_app_that_refuses_to_go_on_is_not_asked_again(lived: Lived) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("code", [2, 70, 78, 255])
-def test_no_exit_code_alone_says_so(code: int, lived: Lived) -> None:
-    assert lived(f"{code},{code},0", over=lambda end: end == 0) == (0, ["fly", "resume", "resume"])
-
-
-@pytest.mark.long
 def test_an_app_that_crashes_again_and_again_stays_down(
     lived: Lived, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -147,10 +141,3 @@ def test_nothing_is_started_again_after_a_stop(
 
     assert lived("-9", finished) == (143, ["fly"])
     assert "to go on: app resume J" in capfd.readouterr().err
-
-
-@pytest.mark.long
-def test_signals_are_as_before_afterwards(lived: Lived) -> None:
-    before = signal.getsignal(signal.SIGTERM)
-    lived("0")
-    assert signal.getsignal(signal.SIGTERM) is before

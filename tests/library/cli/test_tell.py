@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from threading import Event, Thread
+from typing import Any
 
 import pytest
 
@@ -21,12 +22,15 @@ from tests.library.cli.conftest import Command
 
 
 @contextmanager
-def running(note: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterator[None]:
-    """Let an app, or its gateway, listen in a thread of its own."""
-    ready, over = Event(), Event()
+def hearing(note: Path, says: str = "so be it", refuses: str = "") -> Iterator[list[Any]]:
+    """Let an app, or its gateway, listen in a thread of its own; yield what it hears."""
+    ready, over, heard = Event(), Event(), list[Any]()
 
     async def answered(request: Mapping[str, object]) -> str:
-        return answer(request)
+        heard.append(request)
+        if refuses:
+            raise BadInput(refuses)
+        return says
 
     async def listen() -> None:
         async with hear_commands(note, answered):
@@ -37,7 +41,7 @@ def running(note: Path, answer: Callable[[Mapping[str, object]], str]) -> Iterat
     thread.start()
     ready.wait()
     try:
-        yield
+        yield heard
     finally:
         over.set()
         thread.join()
@@ -65,13 +69,7 @@ def journal(tmp_path: Path) -> Path:
 def test_each_command_arrives_and_the_answer_is_printed(
     words: str, request_: object, journal: Path, command: Command
 ) -> None:
-    heard = []
-
-    def answer(request: Mapping[str, object]) -> str:
-        heard.append(request)
-        return "so be it"
-
-    with running(commands_note(journal), answer):
+    with hearing(commands_note(journal)) as heard:
         assert command("tell", journal, *words.split()) == (0, "so be it\n", "")
     assert heard == [request_]
 
@@ -87,13 +85,7 @@ def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
     words: list[str], request_: object, journal: Path, command: Command
 ) -> None:
     """A hook may keep the app busy; and nothing is asked back."""
-    heard = []
-
-    def answer(request: Mapping[str, object]) -> str:
-        heard.append(request)
-        return "they are cut"
-
-    with running(gateway_folder(journal) / NOTE, answer):
+    with hearing(gateway_folder(journal) / NOTE, "they are cut") as heard:
         assert command("tell", journal, "cut-motors", *words) == (0, "they are cut\n", "")
     assert heard == [request_]
     assert offline.pending_stop(journal) is None
@@ -105,13 +97,7 @@ def test_trips_and_drones_are_taken_from_a_file(
     """As they are written there: what is wrong with them the app tells."""
     fleet = tmp_path / "f.toml"
     fleet.write_text('[[drone]]\nid = "cf9"\nhome = [1, 2]\nuri = "radio://0/80/2M"\n')
-    heard = []
-
-    def answer(request: Mapping[str, object]) -> str:
-        heard.append(request)
-        return "so be it"
-
-    with running(commands_note(journal), answer):
+    with hearing(commands_note(journal)) as heard:
         assert command("tell", journal, "change-trips", "South", "--from", missions)[0] == 0
         assert command("tell", journal, "join", "cf9", "--from", fleet)[0] == 0
         unknown = command("tell", journal, "join", "cf8", "--from", fleet)
@@ -131,16 +117,10 @@ def test_times_of_day_arrive_as_texts(journal: Path, tmp_path: Path, command: Co
         '[[mission]]\nname = "North"\ndeadline = 09:00:00\n'
         "[[mission.trip]]\nat = 08:30:00\n[[mission.trip]]\nat = 2026-01-02\n"
     )
-    heard: list[object] = []
-
-    def answer(request: Mapping[str, object]) -> str:
-        heard.append(request["trips"])
-        return "so be it"
-
-    with running(commands_note(journal), answer):
+    with hearing(commands_note(journal)) as heard:
         said = command("tell", journal, "change-trips", "North", "--from", file)
     assert said == (0, "so be it\n", "")
-    assert heard == [[{"at": "08:30:00"}, {"at": "2026-01-02"}]]
+    assert heard[0]["trips"] == [{"at": "08:30:00"}, {"at": "2026-01-02"}]
 
 
 def test_trips_that_are_too_many_are_refused(tmp_path: Path, command: Command) -> None:
@@ -153,17 +133,14 @@ def test_trips_that_are_too_many_are_refused(tmp_path: Path, command: Command) -
 
 
 def test_a_refusal_is_exit_2(journal: Path, command: Command) -> None:
-    def answer(request: Mapping[str, object]) -> str:
-        raise BadInput("there is no mission East")
-
-    with running(commands_note(journal), answer):
+    with hearing(commands_note(journal), refuses="there is no mission East"):
         said = command("tell", journal, "pause", "East")
     assert said == (2, "", "there is no mission East\n")
 
 
 def test_a_stop_is_kept_for_the_apps_next_start(journal: Path, command: Command) -> None:
     """It may crash while its drones come down."""
-    with running(commands_note(journal), lambda request: "stopping"):
+    with hearing(commands_note(journal), "stopping"):
         assert command("tell", journal, "stop", "--rtl") == (0, "stopping\n", "")
         assert offline.pending_stop(journal) is Down.HOME
 
@@ -179,12 +156,9 @@ def test_an_app_that_has_only_just_begun_is_stopped_before_it_flies(
         leave(journal, how)
         left.set()
 
-    def answer(request: Mapping[str, object]) -> str:
-        return "stopping"
-
     def begin() -> None:
         left.wait()
-        with running(commands_note(journal), answer):
+        with hearing(commands_note(journal), "stopping"):
             over.wait()
 
     monkeypatch.setattr(offline, "leave_stop", leave_and_tell)

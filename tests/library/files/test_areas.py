@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files import areas, sweep
+from pluto_fleet.files import areas
 from pluto_fleet.files.missions import load_missions, missions_of
 from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.files.reading import read
@@ -71,13 +71,6 @@ def test_a_field_is_swept_back_and_forth_along_its_longer_side(tmp_path: Path) -
     assert {dist(a, b) for a, b in pairwise(places)} == {1.0}
 
 
-def test_a_field_that_is_longer_upwards_is_swept_upwards(tmp_path: Path) -> None:
-    text = FIELD.replace("[9, 1], [9, 6]", "[3, 1], [3, 6]")
-    found = [trip.target for trip in trips(tmp_path, mission(area(text)), Airspace())]
-    assert found[:2] == [(1.5, 1.5, 1.2), (1.5, 2.5, 1.2)]
-    assert len(found) == 10
-
-
 def test_where_the_spacing_does_not_divide_a_side_the_places_are_spread_evenly(
     tmp_path: Path,
 ) -> None:
@@ -133,13 +126,6 @@ def test_a_no_fly_area_in_it_is_flown_around(tmp_path: Path) -> None:
     assert len(trips(tmp_path, mission(area()), away)) == 36
 
 
-def test_what_lies_off_the_map_is_left_out(tmp_path: Path) -> None:
-    text = FIELD.replace("[1, 1]", "[-3, 1]").replace("[1, 6]", "[-3, 6]")
-    found = trips(tmp_path, mission(area(text)), Airspace())
-    assert len(found) == 45
-    assert min(trip.target[0] for trip in found) == 0.5
-
-
 def test_what_it_has_become_is_known(tmp_path: Path) -> None:
     """How many trips, how long the way is, and how much may not be flown over."""
     file = tmp_path / "m.toml"
@@ -184,10 +170,3 @@ def test_without_shapely_it_is_said_what_to_install(
         'm.toml:3: mission "M", area 1: an area needs shapely, the extra `areas` of pluto-fleet:'
         ' pip install "pluto-fleet[areas]", or "shapely>=2"'
     )
-
-
-def test_an_outline_may_be_closed_or_not() -> None:
-    """The first corner may stand at the end once more."""
-    corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0)]
-    assert sweep.problem_of([*corners, corners[0]]) is None
-    assert sweep.problem_of([corners[0], *corners]) is None

@@ -2,14 +2,8 @@
 
 from __future__ import annotations
 
-import tempfile
 from dataclasses import replace
-from math import dist
 from pathlib import Path
-
-import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from pluto_fleet.app import App
 from pluto_fleet.files.drones import DroneEntry
@@ -23,11 +17,9 @@ from pluto_fleet.files.fleet import (
 )
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.landmarks import NO_LANDMARKS, Landmarks, Picture
-from pluto_fleet.shared.domain import values
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
-from pluto_fleet.shared.domain.model import AfterTrip, Point
+from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.library.files.an_app import APP, PLAIN
 
@@ -87,12 +79,6 @@ def load(path: Path, text: str, app: App = APP) -> FleetFile:
     file = path / "fleet.toml"
     file.write_text(text, encoding="utf-8")
     return load_fleet(file, app)
-
-
-def problems(path: Path, text: str, app: App = APP) -> list[str]:
-    with pytest.raises(BadInput) as caught:
-        load(path, text, app)
-    return [line.removeprefix(f"{path}/fleet.toml") for line in str(caught.value).split("\n")]
 
 
 def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
@@ -162,9 +148,6 @@ def test_without_a_file_five_drones_stand_along_an_edge() -> None:
     assert all(fleet.airspace.problem(drone.home) is None for drone in fleet.drones)
 
 
-DRONE = '[[drone]]\nid = "a"\nhome = [1, 1]\ncategory = "scout"\n'
-
-
 def test_a_drone_goes_by_its_own_navigation_and_options(tmp_path: Path) -> None:
     """What [drone.options] holds lies on top of its navigation's, key by key."""
     fleet = load(tmp_path, FULL)
@@ -189,18 +172,6 @@ def test_a_crazyflie_without_a_uri_cannot_really_fly(tmp_path: Path) -> None:
     )
 
 
-def test_all_crazyflies_without_a_uri_are_told_at_once(tmp_path: Path) -> None:
-    """With their lines, as long as that can be read."""
-    text = "".join(
-        DRONE.replace('"a"', f'"a{n}"').replace("[1, 1]", f"[1, {n}]") for n in range(1, 13)
-    )
-    said = not_real(load(tmp_path, text))
-    assert said is not None
-    assert said.startswith('drones "a1" (line 1), "a2" (line 5), ')
-    assert '"a10" (line 37) and 2 more have no uri' in said
-    assert "add one to each" in said
-
-
 def test_without_a_file_nothing_can_really_fly() -> None:
     """The default fleet is made up: the message says how to get a file."""
     said = not_real(default_fleet(APP))
@@ -216,63 +187,3 @@ def test_a_fleet_that_is_written_is_read_the_same(tmp_path: Path) -> None:
     drones = [replace(drone, line=None) for drone in fleet.drones]
     assert [replace(drone, line=None) for drone in again.drones] == drones
     assert replace(again, drones=()) == replace(fleet, drones=(), landmarks=NO_LANDMARKS)
-
-
-@settings(max_examples=30)
-@given(
-    st.dictionaries(
-        st.text(max_size=3),
-        st.recursive(
-            st.text() | st.booleans() | st.integers(-(2**62), 2**62) | st.floats(-1e300, 1e300),
-            lambda inner: st.lists(inner, max_size=2)
-            | st.dictionaries(st.text(max_size=3), inner, max_size=2),
-            max_leaves=4,
-        ),
-        max_size=3,
-    )
-)
-def test_options_are_kept_as_they_are(options: dict[str, object]) -> None:
-    """All that TOML can hold of texts, numbers, booleans, lists and tables, written and read."""
-    drone = DroneEntry(id="a", category="scout", home=(1.0, 1.0, 0.0), options=options)
-    with tempfile.TemporaryDirectory() as folder:
-        text = fleet_text(FleetFile(airspace=Airspace(), drones=(drone,)))
-        (again,) = load(Path(folder), text).drones
-        assert again.options == options
-
-
-LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "home = 3", "[fleet]", "size = [1e9, nan]"])
-
-
-@given(st.lists(LINES, max_size=25))
-def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
-    """Nothing that a file may hold ends in anything but a fleet or `BadInput`."""
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            fleet = load(Path(folder), "\n".join(lines))
-        except BadInput as error:
-            assert str(error)
-        else:
-            assert fleet.drones
-
-
-def test_a_great_fleet_is_read_in_proportion(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Each home is held against those around it, and not against every other one."""
-    asked = 0
-
-    def counted(a: Point, b: Point) -> float:
-        nonlocal asked
-        asked += 1
-        return dist(a, b)
-
-    monkeypatch.setattr(values, "dist", counted)
-    many = [
-        f'[[drone]]\nid = "d{i}"\ncategory = "scout"\nhome = [{i % 30 / 5}, {i // 30 / 5}]\n'
-        for i in range(900)
-    ]
-    last = '[[drone]]\nid = "last"\ncategory = "scout"\nhome = [1.95, 4.04]\n'
-    assert problems(tmp_path, "".join([*many, last])) == [
-        ':3604: drone "last": home is where drone "d610" has its own: each needs a place to stand'
-    ]
-    assert asked < 10 * 900

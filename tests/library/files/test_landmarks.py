@@ -19,7 +19,6 @@ from pluto_fleet.files.landmarks_text import with_landmarks
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.outline import crossing
 from pluto_fleet.files.reading import parsed
-from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.library.files.an_app import APP
 
@@ -73,19 +72,6 @@ def test_a_map_has_named_places_zones_north_and_a_picture(tmp_path: Path) -> Non
     )
     written = fleet(tmp_path, fleet_text(fleet(tmp_path, WARD))).landmarks
     assert written == replace(landmarks, picture=None)
-
-
-def test_a_package_alone_flies_with_such_a_file(tmp_path: Path) -> None:
-    """What only the library shows is nothing to it."""
-    fleet(tmp_path, WARD)
-    assert files.load_fleet(tmp_path / "fleet.toml", APP).airspace.size == (20.0, 12.0)
-
-
-def test_a_place_in_a_closed_room_may_have_a_name(tmp_path: Path) -> None:
-    """It is shown; a trip may not go there."""
-    closed = WARD.replace("[2.5, 8]", "[8.5, 2]")
-    with pytest.raises(BadInput, match=r"target \(8.5, 2\) is inside no-fly area 1"):
-        missions(tmp_path, f'{TRIP}"Bed 3"', closed)
 
 
 def test_a_target_may_be_a_named_place(tmp_path: Path) -> None:
@@ -230,46 +216,6 @@ def outside(text: str) -> list[str]:
         for n, line in enumerate(lines)
         if line.startswith("#") or of_drones <= n < of_drones + 4
     ]
-
-
-def test_a_new_place_comes_behind_the_others_and_before_what_follows() -> None:
-    """What is not changed keeps its comments, and its way of writing."""
-    was = of_text(COMMENTED).landmarks
-    drawn = replace(
-        was,
-        places=(replace(was.places[1], at=(3.0, 1.0)), NamedPlace(name="C", at=(4.0, 1.0, 0.5))),
-        north=45.0,
-    )
-    assert with_landmarks(COMMENTED, was, drawn, (20.0, 12.0)) == COMMENTED.replace(
-        """\
-]
-
-# Beds.
-[[map.places]]
-name = "A"  # by the window
-at = [1, 1]
-
-# by the door
-[[map.places]]
-at = [2, 1]
-name = "B"
-""",
-        """\
-]
-north = 45.0
-
-# Beds.
-
-# by the door
-[[map.places]]
-at = [3.0, 1.0]
-name = "B"
-
-[[map.places]]
-name = "C"
-at = [4.0, 1.0, 0.5]
-""",
-    )
 
 
 def test_a_map_without_a_header_of_its_own_is_not_touched() -> None:

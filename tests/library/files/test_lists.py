@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-from io import StringIO
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from pluto_fleet.files import lists
 from pluto_fleet.files.missions import load_missions, missions_of
-from pluto_fleet.files.missions_text import missions_text
-from pluto_fleet.files.reading import parsed, read
+from pluto_fleet.files.reading import parsed
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Item
@@ -143,15 +137,6 @@ def test_without_a_name_each_has_its_number(tmp_path: Path) -> None:
     assert [(mission.name, mission.index) for mission in found] == [("1", 0), ("2", 1), ("3", 2)]
 
 
-def test_they_are_written_as_plain_missions(tmp_path: Path) -> None:
-    """And read as the same, with no list beside."""
-    missions = load(tmp_path)
-    text = missions_text(APP, missions)
-    assert "each" not in text
-    again = load_missions_of(text)
-    assert [one.trips[0].target for one in again] == [one.trips[0].target for one in missions]
-
-
 def load_missions_of(text: str) -> list[Any]:
     return missions_of(parsed("m.toml", text), APP, MAP)
 
@@ -219,11 +204,6 @@ def test_a_list_makes_only_so_many_missions(
     assert told.endswith('each "beds.csv" has more than 2 rows')
 
 
-def test_one_row_may_have_a_name_of_its_own(tmp_path: Path) -> None:
-    [only] = load(tmp_path, BEDS.replace("Bed {nr}", "Bed"), "nr,x,y\n1,2,3\n")
-    assert only.name == "Bed"
-
-
 def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> None:
     """One that comes after none that there is is told with its row."""
     text = BEDS.replace("each =", 'after = ["Bed {before}"]\neach =')
@@ -239,35 +219,3 @@ def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> No
         in told
     )
     assert told.endswith('(column "before")')
-
-
-def test_it_is_known_that_missions_were_made(tmp_path: Path) -> None:
-    """A journal then keeps plain missions."""
-    load(tmp_path)
-    document = read(tmp_path / "m.toml")
-    assert not document.is_made
-    assert document.folder == tmp_path
-
-
-CELLS = st.text(st.characters(exclude_categories=["Cs", "Cc"]), min_size=1).map(str.strip)
-
-
-@given(
-    names=st.lists(CELLS.filter(bool), min_size=1, max_size=6, unique=True),
-    mark=st.sampled_from(",;"),
-)
-def test_any_text_of_a_row_comes_into_the_mission(names: list[str], mark: str) -> None:
-    """As it stands in the list, braces, quotes and separators included."""
-    out = StringIO()
-    writer = csv.writer(out, delimiter=mark)
-    writer.writerow(["note", "n"])
-    writer.writerows([name, str(n)] for n, name in enumerate(names))
-    with TemporaryDirectory() as folder:
-        (Path(folder) / "l.csv").write_bytes(out.getvalue().encode())
-        text = (
-            '[[mission]]\neach = "l.csv"\n[[mission.trip]]\naction = "pollinate"\n'
-            'target = [1, 1]\nparameters = { dose = "1 g", note = "{note} {{n}}" }\n'
-        )
-        (Path(folder) / "m.toml").write_text(text, encoding="utf-8")
-        found = load_missions(Path(folder) / "m.toml", APP, MAP)
-    assert [one.trips[0].parameters["note"] for one in found] == [f"{name} {{n}}" for name in names]

@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import tempfile
 from pathlib import Path
 from typing import Any, cast
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.files.reading import read
-from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Item, Mission
@@ -124,61 +119,8 @@ def test_a_field_without_a_block_that_needs_it_does_not_exist(tmp_path: Path) ->
     ]
 
 
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        ("a = " + "[" * 5000, "missions.toml: is nested too deep"),
-        (
-            f'{MISSION}[[mission.trip]]\n{PHOTO}priority = 0x{"f" * 9000}',
-            'missions.toml:6: mission "M", trip 1: priority this number is too large',
-        ),
-    ],
-)
-def test_what_is_too_long_to_be_shown_is_refused(tmp_path: Path, text: str, said: str) -> None:
-    """In a sentence of some length."""
-    assert problems(tmp_path, text) == [said]
-
-
-def test_a_mission_without_a_name_is_called_by_its_number(tmp_path: Path) -> None:
-    nameless = f"[[mission]]\n[[mission.trip]]\n{PHOTO}"
-    assert [mission.name for mission in load(tmp_path, nameless * 2)] == ["1", "2"]
-
-
-def test_a_file_that_cannot_be_read_is_refused(tmp_path: Path) -> None:
-    """Missing, a folder, too large, not text: each says what it is."""
-    latin = tmp_path / "latin.toml"
-    latin.write_bytes(b"a = 1\nb = '\xe9'\n")
-    large = tmp_path / "large.toml"
-    large.write_text("#" * (LARGEST + 1))
-    for path, said in (
-        (tmp_path / "none.toml", ": there is no such file"),
-        (tmp_path, ": is a folder, not a file"),
-        (large, ": is larger than 1024 KiB: this is not a plan file"),
-        (latin, ":2: is not UTF-8 text"),
-        (Path("a\0b"), ": is not a file name"),
-    ):
-        with pytest.raises(BadInput) as caught:
-            read(path)
-        assert str(caught.value) == f"{path}{said}"
-
-
 def test_a_thousand_problems_are_cut_short(tmp_path: Path) -> None:
     """The first fifty are told, and how many there are besides."""
     said = problems(tmp_path, trip(PHOTO + "".join(f"k{i} = 1\n" for i in range(1000))))
     assert len(said) == 51
     assert said[-1] == "… and 950 more problems"
-
-
-LINES = st.sampled_from([*FULL.split("\n"), "x = 1", "[[mission]]", "target = 3", "item = 1"])
-
-
-@given(st.lists(LINES, max_size=25))
-def test_any_mixture_of_lines_is_loaded_or_refused(lines: list[str]) -> None:
-    """Nothing that a file may hold ends in anything but missions or `BadInput`."""
-    with tempfile.TemporaryDirectory() as folder:
-        try:
-            missions = load(Path(folder), "\n".join(lines))
-        except BadInput as error:
-            assert str(error)
-        else:
-            assert all(mission.trips for mission in missions)

@@ -11,7 +11,7 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.files.plan_check import endless, problems
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Item, Point
-from pluto_fleet.shared.fleet.reach import Miss, chain_of, miss_of
+from pluto_fleet.shared.fleet.reach import chain_of, miss_of
 from tests.library.files.an_app import APP, FieldMission, FieldTrip
 
 SCOUT, CARRIER = APP.categories
@@ -105,11 +105,6 @@ def test_there_must_be_a_permitted_way() -> None:
     assert why_not(APP, airspace, SCOUT, (12.0, 2.0, 0.0), [trip("take_photo", 12.0)]) is None
 
 
-def test_a_trip_that_one_drone_can_do_is_no_problem() -> None:
-    """It does not matter how many others cannot."""
-    assert said(fleet((SCOUT, HOME), (CARRIER, HOME)), trip("take_photo"), trip("pollinate")) == []
-
-
 def test_the_sentence_tells_what_each_category_lacks() -> None:
     """Once for a category, however many drones it has."""
     team = fleet((SCOUT, HOME), (CARRIER, HOME), (SCOUT, (3.0, 3.0, 0.0)))
@@ -142,27 +137,3 @@ def test_what_repeats_until_stopped_has_no_end() -> None:
             "such as --until 2h"
         )
     ]
-
-
-def test_few_drones_are_asked_however_many_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The nearest of each category first: it is the others' way that costs, for each mission anew."""
-    asked = 0
-    real = miss_of
-
-    def counted(*given: Any) -> Miss | None:
-        nonlocal asked
-        asked += 1
-        return real(*given)
-
-    monkeypatch.setattr("pluto_fleet.files.plan_check.miss_of", counted)
-    wide = Airspace(size=(9000.0, 9000.0))
-    far = [(SCOUT, (1.0 + place, 1.0, 0.0)) for place in range(500)]
-    near = [(SCOUT, (8000.0, 8000.0, 0.0))]
-    targets = [(8000.0 + place, 8000.0, 1.2) for place in range(5)]
-    trips = [FieldTrip(name=str(x), action="take_photo", target=(x, y, z)) for x, y, z in targets]
-    assert said(fleet(*far, *near, airspace=wide), *trips) == []
-    assert asked == len(trips)
-    assert len(said(fleet(*far, airspace=wide), trip("pollinate"))) == 1
-    assert asked == len(trips) + 1
-    far_away = said(fleet(*far, airspace=wide), trips[0])
-    assert "from its home (500, 1) and back" in far_away[0]

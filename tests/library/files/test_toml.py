@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
-
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from pluto_fleet.shared.alone.files import MOST, line_of_long_key
 
@@ -31,11 +27,3 @@ LONG = ".".join("k" * (MOST + 1))
 def test_only_keys_count(text: str, line: int | None) -> None:
     """Not texts, numbers, or rows of dots."""
     assert line_of_long_key(text) == line
-
-
-@given(st.integers(1, MOST + 5), st.sampled_from(["a", '"a.b"', "'.'", "1"]))
-def test_a_key_of_fewer_parts_is_fine(parts: int, part: str) -> None:
-    """The limit is what it says."""
-    text = ".".join([part] * parts) + " = 1"
-    assert tomllib.loads(text)
-    assert line_of_long_key(text) == (1 if parts > MOST else None)

@@ -33,17 +33,6 @@ def test_without_a_terminal_a_line_comes_now_and_then() -> None:
     assert said == ["10 runs", "20 runs", "30 runs"]
 
 
-def test_at_a_terminal_a_bar_is_drawn_and_taken_away() -> None:
-    """With the same words; what is found stands alone."""
-    clock, terminal = Clock(), StringIO()
-    progress = Progress(terminal, clock, shown=True)
-    clock.now = 2.0
-    progress.update(0.5, "12 runs")
-    assert terminal.getvalue().endswith("] 12 runs")
-    progress.clear()
-    assert terminal.getvalue().endswith(" \r")
-
-
 def test_the_bar_fills_as_runs_are_done(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of the first seeds there are hundreds of runs each: it is neither full at once nor empty for long."""
     shares: list[float] = []

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
-from collections import Counter
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
@@ -146,13 +144,6 @@ def test_what_few_seeds_never_try_is_not_blamed_on_the_app(seeds: int, too_few: 
     assert ("or of more seeds" in never) == too_few
 
 
-def test_one_mission_was_completed_and_two_were() -> None:
-    """As people say it."""
-    tally = Tally(runs=3, lives=3, missions=Counter({"COMPLETED": 1, "CANCELLED": 2}))
-    said = list(report(failing(range(0)), Options(), tally, None))
-    assert "3 missions ended: 1 was completed, 2 were cancelled." in said
-
-
 def test_what_does_not_show_again_is_told_as_that(
     capfd: Said, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -196,40 +187,6 @@ def test_what_was_found_is_told_when_it_is_interrupted(
     assert "LookupError: nothing there" in rest
     assert "  plutoc test app.pluto --seed 0 " in rest
     assert rest.endswith("It was interrupted before that was made smaller.\n")
-
-
-def test_who_interrupts_before_anything_is_found_is_told_how_much_was_tried(
-    capfd: Said, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """An hour in which nothing was wrong is worth knowing, too."""
-
-    def interrupted(app: App, cases: object, tally: Tally, *_: object) -> None:
-        tally.runs, tally.lives = 30, 40
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(trials, "explored", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        trial(failing(range(0)), ["--file", "app.pluto"])
-    said = capfd.readouterr().out
-    assert "30 runs, in which the app was started anew 10 times" in said
-    assert said.endswith("No run did what no run may do until it was interrupted.\n")
-    assert "Never happened" not in said
-
-
-def test_a_smallest_case_of_drones_that_are_flown_differently_can_be_read(
-    capfd: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    """How the real ones are flown does not matter to it, and fewer of them need less of that."""
-    monkeypatch.chdir(tmp_path)
-    shutil.copy(APPS / "flown_differently.toml", "fleet.toml")
-    app, words = failing(range(1_000_000)), ["--file", "app.pluto", "--seed", "0"]
-    assert trial(app, [*words, "--seeds", "1", "--fleet", "fleet.toml", "--json"]) == 1
-    smallest = json.loads(capfd.readouterr().out)["smallest"]
-    assert smallest["fleet"].count("[[drone]]") == 1
-    Path("m.toml").write_text(smallest["missions"], encoding="utf-8")
-    Path("f.toml").write_text(smallest["fleet"], encoding="utf-8")
-    assert trial(app, [*words, "--strike", "-", "--missions", "m.toml", "--fleet", "f.toml"]) == 1
-    assert smallest["what"][0] in capfd.readouterr().out
 
 
 def test_an_app_that_tries_for_ever_is_told_after_so_many_flights(

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.trials.case import BY_HAND, DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
+from pluto_fleet.trials.case import BY_HAND, DEATHS, STOPS, Case, Strike, StrikeKind, Weather
 from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.record import TrialResult
 from tests.trials.examples import example, fleet_of, missions_of
@@ -102,10 +102,3 @@ def test_bad_weather_between_two_lives_is_borne(weather: Weather, what: str) -> 
     trial = tried(APP, replace(CASE, weather=weather, strikes=strikes))
     assert trial.fired[what] > 0
     assert trial.wrong == ()
-
-
-def test_fair_weather_brings_nothing() -> None:
-    """Nothing strikes, and there is one life."""
-    trial = tried(APP, CASE)
-    assert CASE.weather == FAIR
-    assert (dict(trial.fired), trial.lives, trial.wrong) == ({}, 1, ())

@@ -26,7 +26,7 @@ from pluto_fleet.trials.case import (
     weather_of,
     weather_text,
 )
-from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions, small_case
+from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions
 from pluto_fleet.trials.lives import TrialRun, tried
 from pluto_fleet.trials.shrink import shrunk
 from tests.trials.examples import WAITING, app_of, example, fleet_of
@@ -134,25 +134,6 @@ def test_trials_leave_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     cases = (random_case(APP, FLEET, seed) for seed in range(8))
     explored(APP, cases, Tally(), lambda _: False)
     assert [one for one in gc.get_objects() if isinstance(one, TrialRun)] == []
-
-
-@pytest.mark.filterwarnings("error")
-def test_a_trial_that_is_interrupted_leaves_nothing_behind(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Else Python complains, below what was found, of what never came to be done."""
-
-    def interrupted(_: TrialRun) -> bool:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(TrialRun, "turn", interrupted)
-    with pytest.raises(KeyboardInterrupt):
-        tried(APP, small_case(APP, FLEET, 0))
-    gc.collect()
-
-
-def test_small_cases_have_fair_weather_every_other_time() -> None:
-    """So a mistake that needs none shows without it."""
-    weathers = [small_case(APP, FLEET, seed).weather == FAIR for seed in range(6)]
-    assert weathers == [True, False] * 3
 
 
 def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
