@@ -15,8 +15,6 @@ from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
 from plutoc import registry
 from plutoc.cli import main
-from plutoc.diagnostic import Rejected
-from plutoc.graph.resolve import resolve
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
 from tests.paths import ROOT
@@ -63,21 +61,6 @@ def test_language_page_has_every_block_with_its_fields() -> None:
         assert re.findall(r"`(\w+)`", fields) == [field.name for field in block.needs], kind
         for param in block.params:
             assert f"`{param.name}`" in row, kind
-
-
-def test_language_page_has_every_hook_of_its_app() -> None:
-    """Each word that declares a hook has an example."""
-    text = "".join(blocks(DOCS / "language.md", "pluto"))
-    for word in ("action", "evaluator", "modifier", "policy", "category", "use"):
-        assert re.search(rf"^\s*{word} ", text, re.MULTILINE), word
-
-
-def test_a_wrong_unit_is_refused_as_the_page_says() -> None:
-    """`limit: 5 m` is refused where a time is wanted."""
-    text = whole("m = TimerMonitor(default: 5 m)\n")
-    with pytest.raises(Rejected) as rejected:
-        resolve(parse(Source("page", text)), registry.blocks())
-    assert "takes a time, and this is a length" in rejected.value.diagnostics[0].message
 
 
 def test_missing_arrow_of_the_tutorial_is_found(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import json
 import tomllib
 from functools import partial
@@ -75,19 +74,6 @@ def test_floor_plan_is_as_large_as_the_map(name: str) -> None:
     assert [float(n) for n in picture.attrib["viewBox"].split()] == [0, 0, *fleet["map"]["size"]]
 
 
-def test_hooks_of_an_example_become_the_packages(example: Example) -> None:
-    """Where there is a hooks.py beside the source it is the package's first."""
-    beside = EXAMPLES / example.name / "hooks.py"
-    own = example.package / "src" / example.name / "hooks.py"
-    if beside.exists():
-        assert own.read_bytes() == beside.read_bytes()
-    else:
-        assert not any(
-            isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
-            for node in ast.walk(ast.parse(own.read_text(encoding="utf-8")))
-        )
-
-
 @FEW_OR_MANY
 def test_examples_complete_when_nothing_goes_wrong(example: Example, seeds: range) -> None:
     """Every mission of every example is completed, for any seed, within its battery limits."""
@@ -118,15 +104,3 @@ def test_command_line_completes(example: Example, monkeypatch: pytest.MonkeyPatc
     count = len(example.missions)
     assert ran.code == 0, ran.out + ran.err
     assert f"{count} of {count} missions completed" in ran.out
-
-
-@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("drugs_")])
-def test_drugs_distribution_flies_the_missions_of_the_thesis(name: str) -> None:
-    """Each step of the exercise flies the three missions of thesis 6.2.1."""
-    text = (EXAMPLES / name / "missions.toml").read_text(encoding="utf-8")
-    plan = tomllib.loads(text)["mission"]
-    assert [[(t["name"], t["action"]) for t in mission["trip"]] for mission in plan] == [
-        [("A", "take_photo"), ("B", "take_photo"), ("C", "take_photo")],
-        [("A", "measure"), ("B", "measure")],
-        [("A", "pick_item"), ("B", "release_item"), ("C", "take_photo"), ("D", "measure")],
-    ]

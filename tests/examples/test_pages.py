@@ -104,10 +104,3 @@ def test_a_developer_installs_so_that_edits_count() -> None:
     said = [line for line in generated.read_text("utf-8").splitlines() if "pip install" in line]
     without = [line for line in said if "pip install -e " not in line]
     assert len(said) == 8 and all("--no-index" in line for line in without)
-
-
-def test_outdated_picture_is_replaced(tmp_path: Path) -> None:
-    """What stood in a marked block before does not matter; the rest of the page stays."""
-    (tmp_path / "hooks.py").write_text("x = 1\n", encoding="utf-8")
-    old = "a\n\n<!-- file: hooks.py -->\n```python\nold\n```\n\nb ```c``` d\n"
-    assert MAKE.refreshed(old, tmp_path) == old.replace("old", "x = 1")

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli import main
-from tests.examples.typed import Reader, Step, is_shown, only_read, steps
+from tests.examples.typed import Reader, is_shown, only_read, steps
 from tests.paths import ROOT
 
 TUTORIAL = [ROOT / "docs/tutorial/README.md", ROOT / "docs/tutorial/exercise.md"]
@@ -97,35 +97,6 @@ def test_the_readme_counts_its_lines_of_pluto() -> None:
     words = ["Ten", "Eleven", "Twelve", "Thirteen", "Fourteen", "Fifteen"]
     count = sum(bool(line.strip()) for line in source.splitlines())
     assert f"{words[count - 10]} lines of Pluto" in README
-
-
-@pytest.mark.parametrize(
-    ("shown", "came", "is_so"),
-    [
-        ("a\nb", "a\nb", True),
-        ("a\nb", "a\nb\nc", False),
-        ("     1.0 s  a", "     2.0 s  a", False),
-        ("     1.0 s  a\n^C\nb", "     2.0 s  a\nb", True),
-        ("     1.0 s  a\n^C\nb", "     2.0 s  c\nb", False),
-        ("journal: /home/you/pluto/x/2026-01.journal", "journal: /t/pluto/x/2027-02.journal", True),
-    ],
-)
-def test_what_is_shown_is_what_came(shown: str, came: str, is_so: bool) -> None:
-    """But for what differs from one reader to the next."""
-    assert is_shown(shown, came) is is_so
-
-
-def test_a_session_is_read_with_what_was_done_meanwhile() -> None:
-    """And without what is only read."""
-    page = (
-        "<!-- first: touch x -->\n```console\n$ ls\nx\n$ pwd\n```\n\n"
-        "With a radio:\n\n<!-- needs: a radio -->\n```console\n$ app fly\n```\n"
-    )
-    assert list(steps(page)) == [
-        Step(command="ls", shown="x", before="touch x"),
-        Step(command="pwd", shown=""),
-    ]
-    assert list(only_read(page)) == [("a radio", "With a radio:")]
 
 
 def _of_the_readme(word: str) -> list[str]:

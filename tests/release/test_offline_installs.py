@@ -56,12 +56,6 @@ def test_from_an_index_that_is_a_folder(package: Path, builders: Path, tmp_path:
     flies(programs)
 
 
-def test_from_a_checkout(package: Path, builders: Path, tmp_path: Path) -> None:
-    programs = fresh(tmp_path / "venv")
-    offline(programs, "install", "-q", LIBRARY, f"{package}[fleet]", wheels=(builders,))
-    flies(programs)
-
-
 def test_on_a_machine_without_a_network(package: Path, builders: Path, tmp_path: Path) -> None:
     here, wheels = fresh(tmp_path / "here"), tmp_path / "wheels"
     offline(here, "wheel", "-q", "-w", wheels, LIBRARY, f"{package}[fleet]", wheels=(builders,))

@@ -91,16 +91,3 @@ def test_the_lines_of_the_page_let_a_shell_ask(app: Path) -> None:
     assert (done.code, done.out) == (0, "crop.pluto\n")
     script = command("bash", "-c", lines["fish"].split(" | ")[0], PATH=path)
     assert "complete --command plutoc" in script.out
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_without_argcomplete_a_shell_is_offered_nothing(here: Path) -> None:
-    """A script for shells may be there for other programs; no command is run by it."""
-    code = (
-        "import importlib.util, sys; from plutoc.cli import main\n"
-        "importlib.util.find_spec = lambda name: None\n"
-        "sys.exit(main([]))\n"
-    )
-    done = python("-c", code, _ARGCOMPLETE="1", COMP_LINE="plutoc ", COMP_POINT="7")
-    assert (done.code, done.out) == (2, "")

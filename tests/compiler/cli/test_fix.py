@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
 from dataclasses import replace
 from functools import cache
@@ -15,7 +14,7 @@ from plutoc.compile import analyse
 from plutoc.diagnostic import Diagnostic, Fix, Rejected, Severity, error
 from plutoc.edits import applied
 from plutoc.source import Source, Span
-from tests.compiler.cli.conftest import APP, tree
+from tests.compiler.cli.conftest import APP
 from tests.kit.command import plutoc
 from tests.test_cases import FOLDERS, diagnostics_of, read
 
@@ -36,32 +35,6 @@ def test_line_ends_marks_and_permissions_stay(app: Path) -> None:
     assert data.removeprefix("\ufeff").split() == wanted.split()
     assert data.count("\n") == data.count("\r\n")
     assert app.stat().st_mode & 0o777 == 0o640
-
-
-def test_a_link_stays_and_what_it_leads_to_is_mended(app: Path) -> None:
-    """As an editor would do it."""
-    app.write_text(SPARE)
-    Path("link.pluto").symlink_to(app)
-    assert plutoc("check", "link.pluto", "--fix").code == 0
-    assert Path("link.pluto").is_symlink()
-    assert "measure, measure" not in app.read_text()
-
-
-def test_a_full_disk_leaves_the_source_as_it_was(
-    app: Path, here: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Nothing of what was begun is left beside it."""
-    app.write_text(SPARE)
-    before = tree(here)
-
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(os, "replace", full)
-    said = plutoc("check", app, "--fix")
-    assert said.code == 2
-    assert "No space left on device" in said.err
-    assert tree(here) == before
 
 
 def test_a_fix_that_brings_an_error_is_not_made() -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import signal
 import stat
 import sys
 from pathlib import Path
@@ -16,7 +15,7 @@ from plutoc.cli.changes import rewrite
 from plutoc.cli.endings import UsageError
 from plutoc.format import run
 from tests.compiler.cli.conftest import APP, tree
-from tests.kit.command import command, plutoc, python
+from tests.kit.command import plutoc
 
 UNTIDY = APP.replace("  watch ->", "\n\n\twatch->").replace(" = ", "=").replace("50 mg", "50mg")
 TIDY = APP.replace("  watch -> ", "\n  watch -> ")
@@ -36,23 +35,6 @@ def test_a_canonical_file_is_not_even_touched(untidy: Path) -> None:
     before = untidy.stat()
     assert plutoc("fmt", untidy).code == 0
     assert (untidy.stat().st_mtime_ns, untidy.stat().st_ino) == (before.st_mtime_ns, before.st_ino)
-
-
-@pytest.mark.long
-@pytest.mark.process
-def test_git_applies_the_diff(untidy: Path) -> None:
-    """Also where line ends and a mark of Windows' go."""
-    untidy.write_bytes(UNTIDY.replace("\n", "\r\n").encode("utf-8-sig"))
-    Path("patch").write_bytes(plutoc("fmt", untidy, "--diff").out.encode())
-    assert command("git", "apply", "patch").code == 0
-    assert untidy.read_text() == TIDY
-
-
-def test_line_ends_and_marks_of_windows_go(app: Path) -> None:
-    """Also where nothing else would change."""
-    app.write_bytes(APP.replace("\n", "\r\n").encode("utf-8-sig"))
-    assert plutoc("fmt", app).code == 0
-    assert app.read_bytes() == APP.encode()
 
 
 def test_a_closed_standard_input_is_said(
@@ -131,32 +113,6 @@ def test_the_new_source_comes_into_its_place_at_once(
     monkeypatch.setattr(os, "replace", replacing)
     rewrite(untidy, UNTIDY, TIDY)
     assert seen == [UNTIDY, TIDY]
-
-
-@pytest.mark.skipif(os.name != "posix", reason="Windows has no SIGKILL")
-@pytest.mark.long
-@pytest.mark.process
-@pytest.mark.parametrize(
-    "moment",
-    [
-        "Path.write_bytes = lambda path, data: (open(path, 'wb').write(data[:9]), die())",
-        "os.replace = die",
-    ],
-)
-def test_a_kill_in_the_middle_leaves_the_old_source(untidy: Path, moment: str) -> None:
-    """And the next run does what that one did not."""
-    program = (
-        "import os, signal, sys\n"
-        "from pathlib import Path\n"
-        "from plutoc.cli import main\n"
-        "def die(*_): os.kill(os.getpid(), signal.SIGKILL)\n"
-        f"{moment}\n"
-        "main(['fmt', 'crop.pluto'])\n"
-    )
-    assert python("-c", program).code == -signal.SIGKILL
-    assert untidy.read_text() == UNTIDY
-    assert plutoc("fmt", untidy).code == 0
-    assert untidy.read_text() == TIDY
 
 
 def test_a_mistake_of_ours_destroys_nothing(untidy: Path, monkeypatch: pytest.MonkeyPatch) -> None:

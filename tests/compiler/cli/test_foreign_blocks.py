@@ -165,29 +165,6 @@ def test_a_step_that_ends_python_is_its_blocks_fault(
     assert "Traceback" not in said.err
 
 
-@pytest.mark.long
-@pytest.mark.process
-@pytest.mark.parametrize(
-    ("gives", "what"),
-    [
-        ("Status.COMPLETED", "gave COMPLETED, and it declares UNEXECUTED"),
-        ("Status.PAUSED", "gave PAUSED, and it declares UNEXECUTED"),
-        ("'UNEXECUTED'", "gave a str, and it declares UNEXECUTED"),
-        ("None", "gave a NoneType, and it declares UNEXECUTED"),
-    ],
-)
-def test_a_step_that_gives_what_it_does_not_declare_fails_its_mission(
-    app: Path, installed: Path, gives: str, what: str
-) -> None:
-    """All that was checked of the graph rests on the declaration: the mission goes no further."""
-    step = f"from plutoc_runtime.domain.status import Status\n{SIMPLE.format(f'return {gives}')}"
-    declare(installed, step)
-    app.write_text(FIELD_APP)
-    said = plutoc("run", app)
-    assert said.code == 1
-    assert f"North: FAILED: block chime {what}\n" in said.out
-
-
 def test_a_step_is_asked_by_the_status_that_came(app: Path, installed: Path) -> None:
     """STANDBY and FAILED may both come and both be given; but not the one for the other."""
     step = """

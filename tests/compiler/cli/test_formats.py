@@ -102,11 +102,3 @@ def test_what_compile_shows_leaves_standard_output_to_the_report(
         assert said.code == text.code == 0
         assert len(reader(said)) == 1
         assert said.err == text.out
-
-
-@EACH
-def test_standard_input_is_checked_as_a_file_is(here: Path, name: str, reader: Read) -> None:
-    """It has no folder, so there are no hooks."""
-    Path("hooks.py").write_text("nothing = 1\n")
-    said = plutoc("check", "-", "--format", name, given=MISTAKE)
-    assert (said.code, said.err, len(reader(said))) == (1, "", 1)

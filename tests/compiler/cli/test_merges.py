@@ -150,28 +150,6 @@ def test_what_git_merges_is_settled(
     assert_is_as_new(app)
 
 
-@pytest.mark.long
-@pytest.mark.process
-def test_every_file_that_hangs_on_the_graph_is_kept_from_being_mixed(app: Path) -> None:
-    """But for the lock, whose two sides are needed, and for what is the developer's own."""
-    plutoc("compile", app)
-    app.write_text(changed(OURS, THEIRS, MORE, ("Crop watch", "Crops")))
-    plutoc("compile", app, "-o", "other")
-    git("init", "-q", "crop")
-    first, second = tree(Path("crop")), tree(Path("other"))
-    paths = [path for path in second if first.get(path) != second[path] and path != "pluto.lock"]
-    for path, value in [
-        *((path, "unset") for path in paths if not path.endswith("hooks.py")),
-        ("pluto.lock", "unspecified"),
-        ("src/crop/hooks.py", "unspecified"),
-        ("tests/test_hooks.py", "unspecified"),
-        ("src/crop/own.py", "unspecified"),
-    ]:
-        told = git("-C", "crop", "check-attr", "merge", path)
-        assert told == f"{path}: merge: {value}\n"
-    assert "src/crop/flow.py" in paths
-
-
 def test_an_edit_by_hand_is_not_lost_in_a_merge(app: Path) -> None:
     """Neither outside of the marks, nor in one of the sides, nor in a file without any."""
     merge(app, OURS, NEAR)
@@ -196,17 +174,6 @@ def test_a_lock_of_one_side_only_is_told_how_to_get_both(app: Path) -> None:
     assert "[P4001]: `crop/src/crop/flow.py` has the marks of a merge in it" in said.err
     assert "<<<<<<< HEAD" in said.err
     assert "`git checkout --merge crop/pluto.lock` brings both sides" in said.err
-
-
-def test_a_lock_with_the_lines_of_both_sides_is_read_as_both(app: Path) -> None:
-    """Only the marks were taken out, as Git does by itself where it is told `merge=union`."""
-    merge(app, OURS, NEAR)
-    lines = LOCK.read_text().splitlines(keepends=True)
-    marks = ("<<<<<<<", "=======", ">>>>>>>")
-    LOCK.write_text("".join(line for line in lines if not line.startswith(marks)))
-    assert plutoc("compile", app, "--check").code == 1
-    assert plutoc("compile", app).code == 0
-    assert_is_as_new(app)
 
 
 def test_marks_in_a_file_are_settled_where_the_lock_is_whole(app: Path) -> None:

@@ -122,13 +122,3 @@ def test_where_there_is_no_repository_it_is_told(
     said = refused("HEAD", app)
     assert "to read it as a revision, call plutoc in a Git repository" in said
     assert "git says: not a git repository" in said
-
-
-@pytest.mark.long
-def test_without_git_it_is_told(app: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """All else needs none."""
-    monkeypatch.setenv("PATH", str(Path.cwd()))
-    assert refused("HEAD", app) == (
-        "plutoc: there is no file HEAD; to read it as a revision, git must be installed\n"
-    )
-    assert plutoc("diff", app, app).code == 0

@@ -38,22 +38,6 @@ def test_saves_are_seen_until_a_signal_ends_it(
         assert watching.ended(number) == (code, last)
 
 
-@pytest.mark.long
-@pytest.mark.process
-def test_a_burst_of_saves_is_one_compile(app: Path) -> None:
-    """The last one counts."""
-    with Process(*WATCH) as watching:
-        watching.until("Ctrl-C ends")
-        for attempts in range(20, 70):
-            Path("crop.pluto~").write_text(
-                APP.replace("max_attempts: 3", f"max_attempts: {attempts}")
-            )
-            os.replace("crop.pluto~", app)
-        said = watching.until("up to 69 times")
-    # one compile, but for each time that this process had to wait between two of its fifty saves
-    assert said.count("change in meaning") < 25
-
-
 def test_without_the_extra_it_is_said_what_to_install(
     app: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

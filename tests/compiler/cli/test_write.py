@@ -62,15 +62,6 @@ def test_a_full_disk_leaves_no_trace_of_a_new_package(tmp_path: Path, after: int
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize("error", [FULL, KeyboardInterrupt(), PermissionError(13, "Denied")])
-def test_a_failure_leaves_a_package_as_it_was(folder: Path, error: BaseException) -> None:
-    """With the old files, all of them."""
-    before = tree(folder)
-    with pytest.raises((CannotWrite, KeyboardInterrupt)):
-        write(compare(package(NEW), folder, PLACE), save=failing(2, error))
-    assert tree(folder) == before
-
-
 @pytest.mark.parametrize("failure", [OSError(errno.EIO, "Input/output error"), KeyboardInterrupt()])
 @pytest.mark.parametrize("after", [0, 1, 2, 3])
 def test_a_failure_between_two_renames_puts_all_back(

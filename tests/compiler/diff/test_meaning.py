@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json as library
-import re
 from functools import cache
 from itertools import islice
 from random import Random
@@ -19,13 +17,11 @@ from plutoc.diff.run import compare
 from plutoc.format.run import format_source
 from plutoc.graph.model import END
 from plutoc.plan.show import show
-from plutoc.report.change_reports import json, markdown, text
 from plutoc.source import Source
 from tests.compiler.diff.pairs import EXAMPLES, difference, sentences, version
 from tests.format.layouts import Liberty, laid_out, words_of
 from tests.soundness.app import App, Arrow, Block
 from tests.soundness.mutants import mutants
-from tests.soundness.randoms import random_app
 from tests.soundness.thesis import thesis_graphs
 
 GRAPHS = thesis_graphs()
@@ -159,18 +155,3 @@ def test_every_edit_that_changes_the_checked_graph_is_told(name: str) -> None:
     plain = show(planned(old.checked))
     for new in Random(name).sample(silent, min(3, len(silent))):
         assert show(planned(new.checked)) == plain, "nothing was said, and the code is another"
-
-
-@settings(max_examples=12)
-@given(SEEDS, SEEDS)
-def test_any_two_apps_can_be_compared(one: int, other: int) -> None:
-    """And something is said of them, in every format."""
-    old, new = (accepted(random_app(Random(seed))) for seed in (one, other))
-    if old is None or new is None:
-        return
-    found = compare(old, new)
-    assert library.loads(json(found))["changed"] == bool(found.changes)
-    for report in (text(found, colour=False), markdown(found)):
-        assert all(change.sentence.split("`")[0].strip() in report for change in found.changes)
-        assert "~" not in report and not re.search(r"`-\w", report)
-    assert (seen(old) != seen(new)) <= bool(found.changes)

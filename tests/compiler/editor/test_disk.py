@@ -59,28 +59,6 @@ async def test_what_is_changed_is_saved_and_undone_to_the_same_bytes(tmp_path: P
     assert path.stat().st_mode & 0o777 == 0o640
 
 
-async def test_only_what_is_edited_is_ever_written(tmp_path: Path) -> None:
-    """A plan, a fleet, a package of another name, files whose names look like ours."""
-    path = app_in(tmp_path, HOOKED)
-    others = ["missions.toml", "fleet.toml", "other/hooks.py", "farm.pluto~", ".farm.pluto.swp"]
-    for name in others:
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(name)
-    session = Session(path)
-    page = Page(session)
-
-    async with working(session):
-        await page.ask("stub", name="judge")
-        await page.ask("place", positions={"watch": [1, 2]})
-        await page.ask("edit", operation={"do": "SetTitle", "title": "../../other"})
-        await page.ask("run", missions="../missions.toml")
-        await page.ask("compile", write=False)
-        await page.saved()
-    found = files_of(tmp_path)
-    assert sorted(found) == sorted([*others, "farm.pluto", "farm.pluto.layout", "hooks.py"])
-    assert all(found[name] == name.encode() for name in others)
-
-
 async def test_to_look_at_an_app_writes_nothing(tmp_path: Path) -> None:
     session = Session(tmp_path / "new.pluto")
     page = Page(session)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 from pathlib import Path
-from random import Random
 from tempfile import TemporaryDirectory
 
 import pytest
@@ -14,7 +13,6 @@ from hypothesis import strategies as st
 
 from plutoc.editor.asked import Refused, parsed
 from plutoc.editor.session import Session
-from plutoc.editor.wire import Wire
 from plutoc.service.editing.operations import KINDS
 
 from .editing import HOOKED, Page, app_in
@@ -104,25 +102,3 @@ async def test_what_is_no_object_of_plain_data_is_refused(tmp_path: Path, text: 
     await page.session.hear(page.client, text)
     await page.next()
     assert (await page.next())["error"]
-
-
-async def test_any_text_however_broken_has_a_picture(tmp_path: Path) -> None:
-    """Typed over at random: the picture is drawn, and each client has the text of the file."""
-    chance = Random(7)
-    session = Session(app_in(tmp_path, HOOKED, "def judge(trip, candidates):\n    return 1\n"))
-    page = Page(session)
-    await page.next()
-    broken = ("{", "}", "->", "when ", "(", '"', "\n", "🚁", "= Clock", "[", "otherwise", "")
-    pieces = (*broken, "def ", "app ")
-    for _ in range(60):
-        file = chance.choice(["app", "app", "hooks"])
-        text = session.files.history.app if file == "app" else session.files.history.hooks or ""
-        length = Wire(text).length
-        start = chance.randrange(length + 1)
-        end = min(length, start + chance.choice([0, 0, 1, 5]))
-        answer = await page.type(start, chance.choice(pieces), end, file=file)
-        assert "error" not in answer
-    for push in page.pushes:
-        assert "P9001" not in [one["code"] for one in push["view"]["problems"]]
-        for block in push["view"]["blocks"]:
-            assert 0 <= block["from"] <= block["to"]

@@ -31,13 +31,3 @@ def test_the_text_has_the_compilers_words() -> None:
         if rule.kind in told:
             (words,) = re.findall(r"\\b\(\?:([^)]+)\)", rule.pattern)
             assert set(words.split("|")) in groups, rule
-
-
-def test_codemirror_is_as_the_script_says() -> None:
-    script = (ROOT / "editors" / "vendor_codemirror.py").read_text(encoding="utf-8")
-    pinned = dict(re.findall(r'"([@a-z/-]+[a-z0-9-]*)": \("([0-9.]+)"', script))
-    readme = (PAGES / "codemirror" / "README.md").read_text(encoding="utf-8")
-    listed = dict(re.findall(r"\| ([@\w/-]+) \| ([0-9.]+) \|", readme))
-    assert listed == pinned
-    for file in (PAGES / "codemirror").glob("*.js"):
-        assert not re.search(r"""^import .* from ['"](?!\./)""", file.read_text(), re.MULTILINE)

@@ -200,21 +200,6 @@ def test_ctrl_c_saves_what_was_typed_just_now(tmp_path: Path) -> None:
 
 @pytest.mark.long  # real processes
 @pytest.mark.process
-@pytest.mark.parametrize(
-    ("way", "code"), [(signal.SIGINT, 0), (signal.SIGTERM, 143), (signal.SIGKILL, -9)]
-)
-def test_what_is_told_to_be_saved_outlives_any_end(
-    tmp_path: Path, way: signal.Signals, code: int
-) -> None:
-    app_in(tmp_path)
-    with edited(tmp_path) as process:
-        typed_there(process.until("edit it at"), lambda told: told.get("what") == "saved")
-        assert process.ended(way)[0] == code
-    assert files_of(tmp_path) == {"farm.pluto": f"{FIRST}{APP}".encode()}
-
-
-@pytest.mark.long  # real processes
-@pytest.mark.process
 def test_what_cannot_be_saved_is_not_given_up_at_the_first_ctrl_c(tmp_path: Path) -> None:
     """Once it can be, it is; what a signal to end loses is said."""
     path = app_in(tmp_path)

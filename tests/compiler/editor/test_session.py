@@ -142,16 +142,6 @@ async def test_stubs_are_written_where_there_is_no_file_and_where_there_is_one(
     assert session.files.history.hooks is None
 
 
-async def test_the_canonical_form_is_a_step_like_others(tmp_path: Path) -> None:
-    session = Session(app_in(tmp_path, APP.replace("create = ", "create   =   ")))
-    page = Page(session)
-    before = session.files.history.app
-    await page.ask("format")
-    assert session.files.history.app == APP
-    await page.ask("undo")
-    assert session.files.history.app == before
-
-
 async def test_a_hook_leads_to_its_function(tmp_path: Path) -> None:
     hooks = "# 🚁\r\n\r\ndef judge(trip, candidates):\r\n    return 1\r\n"
     page = Page(Session(app_in(tmp_path, HOOKED, hooks)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -15,10 +14,9 @@ import pytest
 import pluto_fleet
 import plutoc_runtime
 from plutoc.emit.embed import Carried, carried_library, embed
-from plutoc.emit.modules import EmbedError, import_statements, imports_from, is_standard, load
+from plutoc.emit.modules import EmbedError
 from plutoc.registry import STD
 from plutoc_blocks.clock.step import wait_for_time
-from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_runtime.fleet.policies import nearest
 
 RUNTIME = Path(plutoc_runtime.__path__[0])
@@ -79,14 +77,6 @@ def test_imports_inside_functions_count() -> None:
     assert "_runtime/alone/simulate.py" in embed([], ["plutoc_runtime.command"])
 
 
-def test_packages_are_whole() -> None:
-    """Every folder has its `__init__.py`, and paths are in order."""
-    files = embed([carried(pass_first)], ["plutoc_runtime.command"])
-    folders = {path.rpartition("/")[0] for path in files if path.endswith(".py")}
-    assert all(f"{folder}/__init__.py" in files for folder in folders)
-    assert list(files) == sorted(files)
-
-
 def test_only_the_imports_of_a_block_change() -> None:
     """The prefix becomes dots; all other lines are as they were."""
     path = "_runtime/blocks/clock.py"
@@ -94,13 +84,6 @@ def test_only_the_imports_of_a_block_change() -> None:
     new = embed([carried(wait_for_time)], [])[path]
     assert new == old.replace("from plutoc_runtime.", "from ..")
     assert new != old
-
-
-def test_generated_code_imports_a_function_from_its_new_home() -> None:
-    """Ours lie in the folder itself, others' in a folder of their package."""
-    assert carried(wait_for_time).home == "._runtime.blocks.clock"
-    assert carried(wait_for_time, "survey").home == "._runtime.blocks.survey.clock"
-    assert carried(nearest).home == "._runtime.fleet.policies"
 
 
 def test_modules_beside_a_step_come_along(make: Make) -> None:
@@ -188,23 +171,3 @@ def test_a_step_must_be_a_function_that_can_be_imported(make: Make) -> None:
     _, scan = make("def maker():\n    def inner(): ...\n    return inner\n\n\nscan = maker()\n")
     with pytest.raises(EmbedError, match="at the top of its module"):
         embed([carried(scan, "survey")], [])
-
-
-@pytest.mark.parametrize("path", sorted(RUNTIME.rglob("*.py")), ids=lambda path: path.stem)
-def test_every_import_of_the_runtime_is_found(path: Path) -> None:
-    """They are read off the text: Python's own reader finds the same, and no plain import of others."""
-    name = ".".join((RUNTIME.name, *path.relative_to(RUNTIME).with_suffix("").parts))
-    module = load(name.removesuffix(".__init__"))
-    assert module is not None
-    read = {(one.target, one.names, one.line) for one in imports_from(module)}
-    parsed = set()
-    for node in import_statements(module.text):
-        if isinstance(node, ast.ImportFrom) and node.level:
-            base = module.package.split(".")[: len(module.package.split(".")) - node.level + 1]
-            target = ".".join([*base, node.module] if node.module else base)
-            parsed.add((target, tuple(alias.name for alias in node.names), node.lineno))
-        elif isinstance(node, ast.ImportFrom):
-            assert is_standard(node.module or "")
-        else:
-            assert all(is_standard(alias.name) for alias in node.names)
-    assert read == parsed

@@ -46,8 +46,3 @@ def test_package_is_as_expected(folder: Path, update: bool) -> None:
     assert sorted(found) == sorted(made)
     for path, text in made.items():
         assert found[path] == text, path
-
-
-def test_there_are_golden_packages() -> None:
-    """The folders were found."""
-    assert FOLDERS

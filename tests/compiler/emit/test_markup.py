@@ -8,7 +8,7 @@ import tomllib
 import hypothesis.strategies as st
 from hypothesis import given, settings
 
-from plutoc.emit.markup import fence, header, markdown, one_line, toml_text
+from plutoc.emit.markup import fence, header, markdown, toml_text
 from plutoc.emit.python import literal
 from plutoc.emit.render import formatted
 
@@ -33,11 +33,6 @@ def test_a_text_is_written_in_ascii_and_read_back_in_python(text: str) -> None:
     assert ast.literal_eval(assignment.value) == text
 
 
-def test_half_a_character_is_replaced() -> None:
-    """TOML cannot write a lone surrogate."""
-    assert tomllib.loads(f"a = {toml_text(chr(0xD800))}") == {"a": "\ufffd"}
-
-
 @given(st.text())
 def test_markdown_is_one_line_without_marks(text: str) -> None:
     """Nothing of it can begin a tag, a link, a table cell or code."""
@@ -59,8 +54,3 @@ def test_header_is_one_line_and_no_encoding(name: str) -> None:
     written = header(name)
     assert "\n" not in written and "coding:" not in written and "coding=" not in written
     assert written.isascii() and written.endswith(". DO NOT EDIT.")
-
-
-def test_one_line_keeps_words_apart() -> None:
-    """Line ends become blanks."""
-    assert one_line(" a\n\n b\tc ") == "a b c"

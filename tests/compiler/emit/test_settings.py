@@ -36,24 +36,8 @@ def test_they_stand_where_installers_read_them() -> None:
     assert '\ndependencies = [\n    "numpy>=2",\n' in project_file(graph, "app.pluto", carry=False)
 
 
-def test_without_them_the_project_is_as_it_always_was() -> None:
-    project = written(graph_with("# nothing"))
-    assert (project["project"]["version"], project["project"]["dependencies"]) == ("0.1.0", [])
-    assert "metadata" not in project["tool"]["hatch"]
-
-
 def test_a_library_with_an_address_is_allowed() -> None:
     """What builds the package refuses one elsewhere."""
     project = written(graph_with('requires "a", "tools @ https://example.org/tools.whl"'))
     assert project["tool"]["hatch"]["metadata"] == {"allow-direct-references": True}
     assert [Requirement(one).name for one in project["project"]["dependencies"]] == ["a", "tools"]
-
-
-def test_a_library_leaves_all_other_files_as_they_are() -> None:
-    """Nothing that flies knows of it."""
-    from tests.compiler.emit.test_package import package_of
-
-    plain = package_of(PLAIN)
-    other = package_of(PLAIN.replace("{\n", '{\n  version "2"\n  requires "numpy"\n', 1))
-    differing = {path for path, text in plain.owned.items() if other.owned[path] != text}
-    assert differing == {"pyproject.toml", "pluto.lock"}

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
 
+from tests.format.layouts import Liberty, laid_out, words_of
 from tests.format.mutants import EXAMPLES, NAMES, broken_promises, forms, text_of
-from tests.format.promises import formatted
+from tests.format.promises import formatted, keep, meaning
+from tests.kit.graphs.graph import random_source
 
 SHARE = 10
 """Of each source."""
@@ -15,6 +19,13 @@ SHARE = 10
 def test_any_layout_keeps_its_comments_and_its_meaning(name: str) -> None:
     """And what is formatted stays as it is."""
     assert list(broken_promises(name, range(SHARE))) == []
+
+
+def test_random_apps_keep_them_as_well() -> None:
+    for seed in range(30):
+        random = Random(seed)
+        text = random_source(random)
+        keep(laid_out(words_of(text), random, Liberty()), meaning(text))
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 from lsprotocol import types
 from lsprotocol.types import Position, PositionEncodingKind, Range
-from pygls.exceptions import JsonRpcException
 
 from plutoc.format.run import format_source
 from plutoc.lsp.places import Places
@@ -32,23 +31,6 @@ def applied(text: str, edits: list[types.TextEdit]) -> str:
         start, end = places.span(edit.range)
         text = text[:start] + edit.new_text + text[end:]
     return text
-
-
-def test_an_arrow_is_explained_and_hinted() -> None:
-    async def act(client: Client) -> tuple[types.Hover | None, list[types.InlayHint]]:
-        client.open(URI, TEXT)
-        on_arrow = place(TEXT, "-> retry when FAILED")
-        hover = await client.text_document_hover_async(types.HoverParams(DOCUMENT, on_arrow))
-        whole = Range(Position(0, 0), Position(99, 0))
-        asked = types.InlayHintParams(DOCUMENT, whole)
-        return hover, list(await client.text_document_inlay_hint_async(asked) or [])
-
-    hover, hints = talk(act)
-    assert hover is not None and isinstance(hover.contents, types.MarkupContent)
-    assert "carries `FAILED`" in hover.contents.value
-    assert "`STANDBY` cannot pass: `retry` does not accept it" in hover.contents.value
-    behind = place(TEXT, "-> retry when FAILED", len("-> retry"))
-    assert [hint.label for hint in hints if hint.position == behind] == ["FAILED"]
 
 
 def test_what_is_legal_is_offered_as_edits_of_the_word_that_is_begun() -> None:
@@ -95,36 +77,6 @@ def test_renaming_and_back_gives_the_bytes_there_were(alfalfa: Path) -> None:
 
     before, after = talk(act)
     assert before == after
-
-
-def test_what_cannot_be_a_name_is_refused_in_a_sentence() -> None:
-    async def act(client: Client) -> str:
-        client.open(URI, TEXT)
-        asked = types.RenameParams(DOCUMENT, place(TEXT, "retry ="), "first")
-        with pytest.raises(JsonRpcException) as refused:
-            await client.text_document_rename_async(asked)
-        return str(refused.value)
-
-    assert "`first` is declared already" in talk(act)
-
-
-def test_a_block_is_found_where_it_is_declared_and_used() -> None:
-    async def act(client: Client) -> tuple[list[Range], list[Range]]:
-        client.open(URI, TEXT)
-        at = place(TEXT, "-> retry", 4)
-        declared = await client.text_document_definition_async(types.DefinitionParams(DOCUMENT, at))
-        used = await client.text_document_references_async(
-            types.ReferenceParams(types.ReferenceContext(True), DOCUMENT, at)
-        )
-        assert isinstance(declared, list | tuple)
-        return (
-            [one.range for one in declared if isinstance(one, types.Location)],
-            [one.range for one in used or []],
-        )
-
-    declared, used = talk(act)
-    assert [one.start for one in declared] == [place(TEXT, "retry =")]
-    assert len(used) == TEXT.count("retry")
 
 
 def test_a_hook_leads_to_its_function_and_back(alfalfa: Path) -> None:

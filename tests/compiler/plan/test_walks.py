@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 from functools import partial
 from random import Random
 
@@ -11,22 +10,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Rejected
-from plutoc.graph.model import START
 from plutoc.plan.build import build
-from plutoc.plan.chart import Charts, Kind
 from plutoc.plan.model import Plan
 from plutoc.plan.optimise import stages
 from plutoc.plan.show import show
 from plutoc.plan.verify import verify
-from plutoc_runtime.domain.status import Status
 from tests.compiler.check import graphs
-from tests.compiler.check.test_walks import edited
+from tests.compiler.check.walks import along_graph, edited, kept
 from tests.compiler.plan.graphs import GRAPHS, random_graphs
-from tests.compiler.plan.walks import along_graph, kept, through_plan
+from tests.compiler.plan.walks import entered_anywhere, goes_on, through_plan
 
 WORDS = ("call", "loop", "break", "join", "goto", "enter", "arrived", "dispatch")
 """What a plan can hold."""
@@ -47,22 +42,6 @@ def compare(checked: Checked, seeds: range) -> Plan:
                 through = partial(through_plan, plan, place=place, status=status)
                 assert kept(through, seed) == wanted
     return plans[-1]
-
-
-def goes_on(checked: Checked) -> list[tuple[str, Status]]:
-    """Return where interrupted missions go on, and with which status."""
-    return [
-        (name, s) for name, statuses in checked.entries.items() for s in IN_GRAPH if s in statuses
-    ]
-
-
-def entered_anywhere(checked: Checked, luck: Random, most: int) -> Checked:
-    """Return the graph as if missions went on at some of its blocks, with all that comes there."""
-    (first,) = checked.graph.outgoing[START]
-    chart = Charts(checked).chart(first.target, checked.carries[first])
-    blocks = [spot for spot in chart.arrives if spot.kind is Kind.BLOCK and spot != chart.entry]
-    chosen = luck.sample(blocks, min(len(blocks), luck.randint(1, most)))
-    return replace(checked, entries={spot.name: chart.arrives[spot] for spot in chosen})
 
 
 @pytest.mark.parametrize("name", GRAPHS)

@@ -1,19 +1,17 @@
-"""Two walks of one mission, with the same luck: along the graph, and through the plan.
+"""Walks through plans, and where missions may go on that were interrupted.
 
-Neither knows anything of how plans are made. Each notes every block, every branch and every gate
-that it comes to, with the status there. Both may begin where an interrupted mission goes on.
+The walk knows nothing of how plans are made. It notes what the one along the graph notes.
 """
 
 from __future__ import annotations
 
-import random
-from collections.abc import Callable, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import replace
+from random import Random
 
-from plutoc.block import IN_GRAPH, Gate
+from plutoc.block import IN_GRAPH
 from plutoc.check.model import Checked
-from plutoc.graph.model import END, START, Node
+from plutoc.graph.model import END, START
+from plutoc.plan.chart import Charts, Kind
 from plutoc.plan.model import (
     Arrived,
     Body,
@@ -31,76 +29,24 @@ from plutoc.plan.model import (
     Switch,
     Watch,
 )
-from plutoc_runtime.domain.status import WORST_FIRST, Status
+from plutoc_runtime.domain.status import Status
+from tests.compiler.check.walks import Diary
 
 
-class Enough(Exception):
-    """The walk is long enough."""
+def goes_on(checked: Checked) -> list[tuple[str, Status]]:
+    """Return where interrupted missions go on, and with which status."""
+    return [
+        (name, s) for name, statuses in checked.entries.items() for s in IN_GRAPH if s in statuses
+    ]
 
 
-@dataclass(kw_only=True)
-class Diary:
-    """What happened, and what will: the same seed chooses the same."""
-
-    luck: random.Random
-    steps: int
-    place: Place = None
-    """Where the mission goes on, as long as the plan remembers it."""
-    lines: list[str] = field(default_factory=list)
-
-    def note(self, what: str, status: Status) -> None:
-        self.lines.append(f"{what} {status.value}")
-        if len(self.lines) == self.steps:
-            raise Enough
-
-    def call(self, node: Node, status: Status) -> Status:
-        self.note(node.name, status)
-        emitted = node.emitted(status)
-        return self.luck.choice([s for s in IN_GRAPH if s in emitted])
-
-    def close(self, gate: Node, brought: Sequence[Status]) -> Status:
-        if gate.block.gate is Gate.ALL:
-            return self.call(gate, min(brought, key=WORST_FIRST.index))
-        return self.call(gate, self.luck.choice(list(brought)))
-
-
-def kept(walk: Callable[[Diary], None], seed: int, steps: int = 80) -> list[str]:
-    """Return the diary of a walk that this seed chooses."""
-    diary = Diary(luck=random.Random(seed), steps=steps)
-    with suppress(Enough):
-        walk(diary)
-    return diary.lines
-
-
-def along_graph(
-    checked: Checked, diary: Diary, place: Place = None, status: Status = Status.UNEXECUTED
-) -> None:
-    """Walk the graph, from its beginning or from a block."""
+def entered_anywhere(checked: Checked, luck: Random, most: int) -> Checked:
+    """Return the graph as if missions went on at some of its blocks, with all that comes there."""
     (first,) = checked.graph.outgoing[START]
-    _from(checked, place or first.target, status, END, diary)
-
-
-def _from(checked: Checked, name: str, status: Status, to: str, diary: Diary) -> Status:
-    gates = {(fork.node, fork.status): fork.gate for fork in checked.forks}
-    closed = False
-    while closed or name not in (to, END):
-        node = checked.graph.node[name]
-        if not closed:
-            status = diary.call(node, status)
-        closed = False
-        taken = [e for e in checked.graph.outgoing[name] if status in e.takes]
-        if len(taken) > 1:
-            gate = gates[name, status]
-            brought = []
-            for edge in taken:
-                diary.note(f"branch to {edge.target}", status)
-                brought.append(_from(checked, edge.target, status, gate, diary))
-            status = diary.close(checked.graph.node[gate], brought)
-            name, closed = gate, True
-        else:
-            name = taken[0].target if taken else END
-    diary.note(f"at {name}", status)
-    return status
+    chart = Charts(checked).chart(first.target, checked.carries[first])
+    blocks = [spot for spot in chart.arrives if spot.kind is Kind.BLOCK and spot != chart.entry]
+    chosen = luck.sample(blocks, min(len(blocks), luck.randint(1, most)))
+    return replace(checked, entries={spot.name: chart.arrives[spot] for spot in chosen})
 
 
 def through_plan(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json as standard
 import re
-import shutil
 from pathlib import Path
 
 import pytest
@@ -136,10 +135,3 @@ def test_the_picture_is_what_graphviz_makes_of_the_text(
     assert dot_to_svg("digraph {}") == "<svg -Tsvg digraph {}>\n"
     with pytest.raises(NoGraphviz, match="could not draw"):
         dot_to_svg("bad")
-
-
-@pytest.mark.long
-@pytest.mark.skipif(shutil.which("dot") is None, reason="Graphviz is not installed")
-def test_graphviz_draws_it() -> None:
-    """The text is what Graphviz reads."""
-    assert "<svg" in dot_to_svg(dot(check(build(APP, title=HOSTILE))[0]))

@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import pytest
-
 from plutoc.diagnostic import Diagnostic, Related, Severity
 from plutoc.report.github import render_line, render_trouble
 from plutoc.source import Source, Span
-from tests.test_cases import FOLDERS, diagnostics_of, read
 
 
 def finding(
@@ -57,16 +52,3 @@ def test_a_file_that_cannot_be_read_is_an_error() -> None:
     assert render_trouble("there is no file a%b") == (
         "::error title=plutoc::there is no file a%25b"
     )
-
-
-@pytest.mark.parametrize("folder", FOLDERS[::5], ids=lambda folder: folder.name)
-def test_what_comes_out_of_a_case_is_a_line_each(folder: Path) -> None:
-    """However odd its source is."""
-    source = read(folder / "app.pluto")
-    assert source is not None
-    for diagnostic in diagnostics_of(source, read(folder / "hooks.py")):
-        line = render_line(diagnostic)
-        assert line.isprintable()
-        assert line.startswith(
-            (f"::{diagnostic.severity.value} file=app.pluto,line=", "::error file=hooks.py,line=")
-        )

@@ -47,19 +47,3 @@ def test_line_has_all_the_facts() -> None:
         ],
         "fix": [{**place, "text": "good"}],
     }
-
-
-def test_what_is_missing_is_null() -> None:
-    """The keys are always there."""
-    facts = json.loads(
-        render_line(
-            Diagnostic(
-                code="P1010",
-                severity=Severity.WARNING,
-                message="m",
-                source=Source("a", ""),
-                span=Span(0, 0),
-            )
-        )
-    )
-    assert (facts["help"], facts["related"], facts["fix"]) == (None, [], None)

@@ -34,45 +34,6 @@ def window(report: str) -> list[str]:
     return report.split("\n\n")[0].rstrip("\n").split("\n")[3:]
 
 
-def test_whole_report() -> None:
-    """Message, place, window with the label, related place, help, count."""
-    text = "pluto 1\n\n\n\n\n\n\n\n\nfirst = A\nsecond = B\n"
-    source = Source("app.pluto", text)
-    one = text.index("first")
-    found = Diagnostic(
-        code="P1005",
-        severity=Severity.WARNING,
-        message="twice",
-        source=source,
-        span=Span(text.index("second"), text.index("second") + 6),
-        label="here",
-        related=(Related(source=source, span=Span(0, 5), label="there"),),
-        help="do this\nor that",
-    )
-    assert render([found, diagnostic(text, "first")], colour=False) == (
-        "warning[P1005]: twice\n"
-        "  --> app.pluto:11:1\n"
-        "   |\n"
-        "11 | second = B\n"
-        "   | ^^^^^^ here\n"
-        "  ::: app.pluto:1:1\n"
-        "   |\n"
-        " 1 | pluto 1\n"
-        "   | ----- there\n"
-        "   = help: do this\n"
-        "     or that\n"
-        "\n"
-        "error[P1003]: something is wrong\n"
-        "  --> app.pluto:10:1\n"
-        "   |\n"
-        "10 | first = A\n"
-        "   | ^^^^^\n"
-        "\n"
-        "1 error, 1 warning\n"
-    )
-    assert one
-
-
 def test_marks_stand_under_what_they_mean() -> None:
     """Behind tabs, behind wide characters, behind combining ones."""
     assert under("a bad", "bad") == "  ^^^"
@@ -103,19 +64,6 @@ def with_related(text: str, marked: str, *others: str) -> Diagnostic:
             for span, other in zip(spans, others, strict=True)
         ),
     )
-
-
-def test_places_in_one_line_share_a_window() -> None:
-    """The last says its label behind it, the others below."""
-    assert window(
-        render([with_related("one two three\n", "two", "one", "three")], colour=False)
-    ) == [
-        "1 | one two three",
-        "  | --- ^^^ ----- of three",
-        "  | |   |",
-        "  | |   main",
-        "  | of one",
-    ]
 
 
 def test_places_that_overlap_stand_below_each_other() -> None:
@@ -166,19 +114,6 @@ def test_nothing_of_a_diagnostic_can_write_to_the_terminal() -> None:
     shown = render([found], colour=False)
     assert all(char.isprintable() or char == "\n" for char in shown)
     assert "help: h\\x1b[2J\\u202e\\r\n    next\n" in shown
-
-
-def test_place_at_the_end_of_the_file() -> None:
-    """One mark, behind the last line."""
-    text = "pluto 1"
-    at_end = Diagnostic(
-        code="P0015",
-        severity=Severity.ERROR,
-        message="no app",
-        source=Source("app.pluto", text),
-        span=Span(7, 7),
-    )
-    assert "1 | pluto 1\n  |        ^\n" in render([at_end], colour=False)
 
 
 def test_long_line_is_cut_around_the_place() -> None:

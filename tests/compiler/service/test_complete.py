@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import random
 
-from plutoc.service.completion.complete import complete
-from plutoc.service.document import Document
-from tests.compiler.service.test_hover import ALFALFA
 from tests.lsp.holes import FIRST, cuts, mistakes, offered, rank
 
 
@@ -20,20 +17,3 @@ def test_what_was_cut_out_is_among_the_first_and_all_that_is_offered_is_legal() 
         found = rank(cut, made)
         among += found is not None and found < FIRST
     assert among >= 0.95 * len(chosen)
-
-
-def test_any_place_of_any_text_has_an_answer() -> None:
-    """Each item replaces what is begun at the cursor, and is offered once."""
-    chance = random.Random(5)
-    answered = 0
-    for _ in range(60):
-        start = chance.randrange(len(ALFALFA))
-        text = ALFALFA[:start] + chance.choice('([{}])"#\n,->') + ALFALFA[start + 3 :]
-        at = chance.randrange(len(text))
-        items = complete(Document(path="a.pluto", text=text), at)
-        answered += bool(items)
-        for item in items:
-            assert item.span.start <= at <= item.span.end
-            assert item.label and item.insert and "\n" not in text[item.span.start : at]
-        assert len({(item.insert, item.span) for item in items}) == len(items)
-    assert answered > 20

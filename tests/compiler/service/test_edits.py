@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from pathlib import Path
 
 import pytest
 
@@ -14,8 +13,6 @@ from plutoc.service.editing.edit import CannotEdit, edit
 from plutoc.service.editing.operations import (
     KINDS,
     AddBlock,
-    Arrow,
-    Connect,
     Declare,
     NotAnOperation,
     Operation,
@@ -23,14 +20,10 @@ from plutoc.service.editing.operations import (
     Rename,
     Rewrite,
     SetArgument,
-    SetTitle,
     operation,
 )
 from plutoc.source import Source
-from tests.service.model import app_of
-from tests.service.sequences import EXAMPLES, Tally, run
-
-EMPTY = "pluto 1\n\napp ward {\n}\n"
+from tests.service.sequences import Tally, run
 
 
 def done(text: str, *operations: Operation) -> str:
@@ -46,34 +39,6 @@ def test_random_sequences_of_edits_do_what_was_meant() -> None:
     for seed in range(20):
         run(seed, tally)
     assert len(tally.done) > len(KINDS)
-
-
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
-def test_what_a_picture_shows_can_be_drawn_again(path: Path) -> None:
-    """From an empty canvas, block by block and edge by edge, an example comes out as it is."""
-    written = path.read_text(encoding="utf-8")
-    app, text = app_of(written), EMPTY
-    for name, words in app.fields:
-        text = done(text, Declare(text=f"{name.partition('.')[0]} has {_written(words)}"))
-    for words in sorted(app.others):
-        text = done(text, Declare(text=_written(words)))
-    for name, (kind, arguments) in app.blocks.items():
-        text = done(text, AddBlock(kind=kind, name=name, arguments=arguments))
-    for source, target, when, otherwise in sorted(app.edges, key=str):
-        arrow = Arrow(source=source, target=target, when=tuple(when), otherwise=otherwise)
-        text = done(text, Connect(arrow=arrow))
-    text = done(text, SetTitle(title=app.title or ""))
-    assert app_of(text) == app
-    assert told(text) == told(written)
-
-
-def told(text: str) -> list[str]:
-    return sorted(one.code for one in Document(path="a.pluto", text=text).diagnostics)
-
-
-def _written(words: tuple[str, ...]) -> str:
-    """A declaration's words as a text: a quantity is one word here."""
-    return " ".join(words)
 
 
 FORK = "pluto 1\napp a {\n  x = Clock\n  y = Clock\n  z = Clock\n  x -> [y, z]\n}\n"

@@ -7,8 +7,6 @@ from plutoc.service.document import Document
 from plutoc.service.editing.edit import edit
 from plutoc.service.editing.operations import Rename
 from plutoc.service.hooks.help import hover as hover_in_hooks
-from plutoc.service.picture.view import view
-from plutoc.service.reading.outline import outline
 from plutoc.source import Source
 
 GRAPH = """
@@ -63,39 +61,12 @@ def document(text: str = APP) -> Document:
     return Document(path="field.pluto", text=text, find_hooks=lambda _: hooks)
 
 
-def test_the_app_of_these_tests_is_sound() -> None:
-    assert [one.code for one in document().diagnostics] == ["P2055"]
-
-
-def test_the_outline_has_each_field() -> None:
-    (app,) = outline(document())
-    listed = [(one.name, one.detail) for one in app.children[:4]]
-    assert listed == [
-        ("owner", "mission has, text"),
-        ("margin", "mission has, time"),
-        ("owner", "trip has, text"),
-        ("depth", "trip has, length"),
-    ]
-
-
 def test_hooks_are_told_what_results_can_be() -> None:
     code = (
         "def find_blooms(mission: Mission, results: Results, *, least):\n    results.new[0].value"
     )
     found = hover_in_hooks(document(), code, len(code))
     assert found is not None and "float | Photo | None" in found.markdown
-
-
-def test_the_view_has_them_as_written() -> None:
-    shown = view(document(), {})["fields"]
-    assert isinstance(shown, list)
-    assert [(one["name"], one["text"], one["required"]) for one in shown] == [
-        ("mission.owner", "owner: text", True),
-        ("mission.margin", "margin: time = 10 min", False),
-        ("trip.owner", 'owner: text = ""', False),
-        ("trip.depth", "depth: length = 30 cm", False),
-    ]
-    assert all(APP[one["from"] : one["to"]] == one["text"] for one in shown)
 
 
 def test_a_field_is_renamed_wherever_it_is_that_one() -> None:

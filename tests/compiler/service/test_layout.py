@@ -70,13 +70,6 @@ def test_a_block_at_the_end_of_a_branch_leaves_those_before_where_they_were() ->
     assert all(after[name] == before[name] for name in names)
 
 
-def test_a_chain_of_thousands_is_walked_without_recursion() -> None:
-    names = [f"b{i}" for i in range(3000)]
-    ways = list(zip(["start", *names], [*names, "end"], strict=True))
-    found = laid_out(names, ways, {})
-    assert len({found[name][0] for name in names}) == 1
-
-
 @given(st.text(max_size=200))
 def test_any_file_of_positions_can_be_read(text: str) -> None:
     found = positions_in(text)

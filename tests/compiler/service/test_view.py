@@ -8,7 +8,6 @@ from typing import Any
 
 import pytest
 
-from plutoc.block import Param
 from plutoc.registry import blocks_of
 from plutoc.service.document import Document
 from plutoc.service.picture.arguments import as_written
@@ -16,7 +15,7 @@ from plutoc.service.picture.palette import palette
 from plutoc.service.picture.ports import targets
 from plutoc.service.picture.view import view
 from plutoc.source import Source
-from plutoc_runtime.domain.quantities import Type, to_si
+from plutoc_runtime.domain.quantities import Type
 from tests.paths import ROOT
 from tests.test_cases import FOLDERS, read
 
@@ -120,18 +119,6 @@ def test_defaults_are_shown_as_an_app_writes_them(
     value: float | str, kind: Type, text: str
 ) -> None:
     assert as_written(value, kind) == text
-
-
-def test_every_default_of_ours_means_itself() -> None:
-    for block in blocks_of("std").values():
-        for param in block.params:
-            if (
-                isinstance(param, Param)
-                and isinstance(param.default, float)
-                and param.type.value != "float"
-            ):
-                number, unit = as_written(param.default, param.type).split(" ")
-                assert to_si(float(number), unit) == pytest.approx(param.default)
 
 
 def test_the_palette_has_every_kind_with_its_page() -> None:
