@@ -66,6 +66,8 @@ class Reach:
         found = {test for line in lines for test in self._of(by_line.get(line, ()))}
         if not found:  # it is read when the module is imported
             found = {test for contexts in by_line.values() for test in self._of(contexts)}
+        if not found:  # nothing but definitions is in it
+            found = set(self.seconds)
         return sorted(found, key=lambda test: (distance(bug.file, test), self.seconds[test]))
 
     def _of(self, contexts: Sequence[str]) -> list[str]:

@@ -190,8 +190,6 @@ class Descent:
         if self._traffic is not None and self._traffic.touches_down(drone):
             return True
         first, last = self._at[drone]
-        if last <= piece < first or first > piece:
-            return first > piece
         if last <= piece and first == last:
             return False
         here = self._pilots.telemetry[drone].location

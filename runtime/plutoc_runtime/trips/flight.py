@@ -102,6 +102,11 @@ class Limit:
     def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
         self.since, self.span, self.overdue = since, span, overdue
 
+    @property
+    def until(self) -> float:
+        """When it is reached."""
+        return self.since + self.span
+
     def is_void(self, branch: Branch) -> bool:
         """Return whether the flight has ended, or the branch that set the limit."""
         return self.flight.is_set or (branch.task is not None and branch.task.is_set)
@@ -127,9 +132,8 @@ class Limits:
         A branch waits for one flight at a time; `number` counts its limits on that.
         """
         limit.flight, self._set[branch, number] = flight, limit
-        until = limit.since + limit.span
-        if not until >= self._due_at:  # what is not a number means now
-            self._wait(until)
+        if not limit.until >= self._due_at:  # what is not a number means now
+            self._wait(limit.until)
 
     def _wait(self, until: float) -> None:
         if self._due is not None:
@@ -141,13 +145,12 @@ class Limits:
         """Expire what is due, and wait for the next."""
         now, self._due_at = self._kernel.now, inf
         for (branch, number), limit in tuple(self._set.items()):
-            until = limit.since + limit.span
-            if limit.is_void(branch) or not until > now:
+            if limit.is_void(branch) or not limit.until > now:
                 del self._set[branch, number]
                 # after a hook of the mission at that instant, as if it were in a branch of its own
                 key, expire = branch.key + number, partial(limit.expire, branch)
                 self._kernel.schedule(now, EventKind.TIMER, key, expire)
             else:
-                self._due_at = min(self._due_at, until)
+                self._due_at = min(self._due_at, limit.until)
         if self._due_at < inf:
             self._wait(self._due_at)

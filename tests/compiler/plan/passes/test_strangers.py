@@ -15,12 +15,10 @@ from tests.compiler.plan.plans import after
 
 ASKING = (Param(name="volume", type=Type.FLOAT, doc="How loud.", default=1.0),)
 TIMER, MONITOR, FIRST = (KINDS[name] for name in ("TimerMonitor", "TripMonitor", "GateFIFO"))
+ALL = KINDS["GateFunnel"]
 
 
-def plan(monkeypatch: pytest.MonkeyPatch, kind: str, strange: Block) -> str:
-    """Return the plan of an app that has a stranger in the place of a block."""
-    monkeypatch.setitem(KINDS, "Strange", replace(strange, name="Strange"))
-    text = """
+RACE = """
     create = MissionCreator
     allocate = DroneAllocator
     launch = TripLauncher
@@ -30,6 +28,25 @@ def plan(monkeypatch: pytest.MonkeyPatch, kind: str, strange: Block) -> str:
     start -> create -> allocate -> launch -> [watch, timer] -> first
     first -> allocate when STANDBY
     first -> end"""
+ARROW_TO_A_GATE = """
+    create = MissionCreator
+    allocate = DroneAllocator
+    launch = TripLauncher
+    watch = TripMonitor
+    tell = MissionModifier
+    note = MissionModifier
+    all = GateFunnel
+    start -> create -> allocate -> launch -> watch
+    watch -> tell when STANDBY
+    watch -> end
+    tell -> note -> all
+    tell -> all
+    all -> allocate"""
+
+
+def plan(monkeypatch: pytest.MonkeyPatch, kind: str, strange: Block, text: str = RACE) -> str:
+    """Return the plan of an app that has a stranger in the place of a block."""
+    monkeypatch.setitem(KINDS, "Strange", replace(strange, name="Strange"))
     return show(optimised(after("built", text.replace(f"= {kind}", "= Strange"))))
 
 
@@ -60,3 +77,11 @@ def test_who_is_like_one_of_ours_is_fused(
 ) -> None:
     """Names do not count."""
     assert "watch launch -> [watch, timer] -> first" in plan(monkeypatch, kind, strange)
+
+
+def test_a_gate_that_asks_may_count_the_clones(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Then one goes along an arrow, too, though it brings nothing new to a gate like ours."""
+    spared = "no branch for tell -> all"
+    assert spared in plan(monkeypatch, "GateFunnel", ALL, ARROW_TO_A_GATE)
+    asking = replace(ALL, params=ASKING)
+    assert spared not in plan(monkeypatch, "GateFunnel", asking, ARROW_TO_A_GATE)

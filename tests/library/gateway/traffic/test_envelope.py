@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from math import dist
 
 import pytest
@@ -9,7 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.envelope import Envelope
+from pluto_fleet.gateway.traffic.legs import leg_problem
 from pluto_fleet.gateway.traffic.way_back import way_back, way_from
+from pluto_fleet.gateway.traffic.ways import Ground
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
@@ -49,6 +52,17 @@ def test_no_leg_leads_through_a_no_fly_area(apart: float) -> None:
     job = sky.kernel.spawn(sky.fly("cf1", (2, 5, 1.2)), FLEET + 1, "job")  # goes around it
     assert sky.until(job, 60)
     assert (job.result(), sky.at("cf1")) == (None, (2, 5, 1.2))
+
+
+def test_no_way_down_leads_through_a_no_fly_area() -> None:
+    """A landing place beyond one is come to around it."""
+    sky = Sky([(3.9, 5), (8, 5)], airspace=WALL)
+    sky.put("cf2", (3.9, 5, 1.2))
+    ground = Ground({one.id: one for one in sky.drones}, sky.navigation.telemetry, WALL, 0.5)
+    ways = list(ground.ways_down("cf2"))
+    assert any(way.points[-1][0] > 6 for way in ways)
+    legs = [leg for way in ways for leg in pairwise(way.points)]
+    assert [leg for leg in legs if leg_problem(WALL, *leg) is not None] == []
 
 
 @pytest.mark.parametrize(
