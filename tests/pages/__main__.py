@@ -14,19 +14,15 @@ from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from tests.paths import EXAMPLES, ROOT
-
-sys.path.append(str(ROOT / "benchmarks"))  # the crowd is that of a benchmark
-
 from playwright.sync_api import Browser, Page, expect, sync_playwright
 
 from tests.apart import apart
 from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
 from tests.kit.campaign import Campaign
 from tests.kit.station import Station, Stations
-from tests.pages.crowd import crowded_station
 from tests.pages.looking import in_language, looked_at
-from tests.pages.scenes import Scenes, crowded, heat, scenes
+from tests.pages.scenes import Scenes, heat, scenes
+from tests.paths import EXAMPLES
 
 SIZES = ("360x740", "390x844", "1366x768", "1920x1080")
 LANGUAGES = ("en", "it", "de")
@@ -69,7 +65,6 @@ def served(stations: Stations) -> Iterator[tuple[Station, Scenes]]:
     for station, play in (
         (stations.fresh("drugs_distribution", "--speed", "2"), scenes),
         (stations.fresh("pm10", "--missions", missions, "--speed", "60"), heat),
-        (crowded_station(stations), crowded),
     ):
         station.start()
         try:

@@ -18,7 +18,6 @@ from tests.library.station.browser.steps import (
     settled,
     start,
 )
-from tests.pages.crowd import crowd
 
 Scenes = Callable[[Page, Station], Iterator[str]]
 
@@ -182,23 +181,6 @@ def heat(page: Page, station: Station) -> Iterator[str]:
     expect(page.locator("image.heat")).to_have_count(1)
     expect(page.locator(".results .name").nth(9)).to_be_visible()  # names come after all else
     yield "results"
-
-
-def crowded(page: Page, station: Station) -> Iterator[str]:
-    """Show many drones and missions in flight."""
-    crowd(station)
-    open_page(page, "Missions")
-    yield "crowd-missions"
-    open_page(page, "Trips")
-    yield "crowd-trips"
-    station.tell("start")
-    open_page(page, "Monitor")
-    until(lambda: len(station.in_the_air(1.0)) > 20, "many are in the air")
-    station.tell("mishap", drone=station.in_the_air(1.0)[0], kind="crash")
-    expect(page.locator(".name.bad")).to_be_visible()
-    yield "crowd-monitor"
-    lists(page, "Drones")
-    yield "crowd-drones"
 
 
 def lists(page: Page, name: str) -> None:

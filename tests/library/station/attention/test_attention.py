@@ -39,15 +39,6 @@ def test_what_arises_again_is_another_alert(tmp_path: Path) -> None:
     assert {one["id"] for one in listed.attention.rows} == {first["id"], second["id"]}
 
 
-def test_a_mission_of_another_flight_is_another(tmp_path: Path) -> None:
-    listed = Listed(tmp_path / "attention.json")
-    ids = []
-    for flight in "fg":
-        [one] = listed.look(of_missions([mission("N", "FAILED")]), flight)
-        ids.append(one["id"])
-    assert len({*ids}) == 2
-
-
 def test_pages_are_told_what_has_changed_and_no_more(tmp_path: Path) -> None:
     listed = Listed(tmp_path / "attention.json")
     [alert] = listed.look(lost())

@@ -1,7 +1,7 @@
 """Every page in every phase, by day and by night, in three languages, on a laptop and on a phone.
 
 `pytest tests/library/station/browser/test_every_page.py -m "long or not long" --update` takes the pictures of
-docs/station.md anew; `python -m tests.pages` looks at all sizes in all languages, and at a crowd of drones.
+docs/station.md anew; `python -m tests.pages` looks at all sizes in all languages.
 """
 
 from __future__ import annotations

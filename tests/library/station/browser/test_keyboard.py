@@ -7,7 +7,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.kit.station import Station, until
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.exercise import DONE, PLAN, Place, put_in, targets
+from tests.library.station.browser.exercise import DONE, PLAN, Place, targets
 from tests.library.station.browser.steps import (
     ADD_MISSION,
     action_called,
@@ -159,33 +159,6 @@ def page_by_keys(page: Page, name: str) -> None:
         page.keyboard.press("ArrowRight")
         expect(bar.get_by_role("tab", selected=True)).to_be_focused()
     expect(wanted).to_be_focused()
-
-
-@pytest.mark.long
-def test_what_is_expected_and_what_wants_attention_is_opened_and_closed_by_keys(
-    serve: Serve, visit: Visit
-) -> None:
-    station = put_in(serve("drugs_distribution"))
-    page = visit(station)
-    begin = page.get_by_role("button", name="Start 3 missions")
-    tab_to(page, begin)
-    page.keyboard.press("Enter")
-    dialog = page.get_by_role("dialog")
-    expect(dialog).to_be_focused()
-    page.keyboard.press("Escape")
-    expect(begin).to_be_focused()
-    station.tell("start")
-    until(lambda: station.now()["alerts"] != [], "something was found")
-    bell = page.get_by_role("button", name="attention")
-    tab_to(page, bell)
-    page.keyboard.press("Enter")
-    expect(dialog).to_be_focused()
-    tab_to(page, dialog.get_by_role("button", name="I have seen it").first)
-    page.keyboard.press("Enter")
-    until(lambda: any(one["by"] is not None for one in station.now()["alerts"]), "it was seen")
-    expect(dialog).to_be_focused()  # though the button has gone
-    page.keyboard.press("Escape")
-    expect(bell).to_be_focused()
 
 
 @pytest.mark.long

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from threading import Thread
 from typing import Any
@@ -19,21 +20,11 @@ from tests.library.station.browser.exercise import put_in
 TRIES = Path(__file__).with_name("other_sites.js").read_text(encoding="utf-8")
 
 
-@pytest.fixture(scope="module")
-def elsewhere() -> Iterator[int]:
-    """Another web server of this machine, with an empty page; its port."""
-
-    class Empty(BaseHTTPRequestHandler):
-        def do_GET(self) -> None:
-            self.send_response(200)
-            self.send_header("Content-Type", "text/html")
-            self.end_headers()
-            self.wfile.write(b"<!doctype html><body>")
-
-        def log_message(self, format: str, *args: object) -> None:
-            """Say nothing."""
-
-    with ThreadingHTTPServer(("127.0.0.1", 0), Empty) as server:
+@pytest.fixture
+def elsewhere(tmp_path: Path) -> Iterator[int]:
+    """Another web server of this machine, with the page of an empty folder; its port."""
+    empty = partial(SimpleHTTPRequestHandler, directory=str(tmp_path))
+    with ThreadingHTTPServer(("127.0.0.1", 0), empty) as server:
         thread = Thread(target=server.serve_forever)
         thread.start()
         yield server.server_address[1]

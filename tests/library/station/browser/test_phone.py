@@ -7,7 +7,7 @@ from playwright.sync_api import FloatRect, Locator, Page, ViewportSize
 
 from tests.kit.browser import PHONE
 from tests.kit.layout import sideways, wider_than_the_screen
-from tests.kit.station import Station, until
+from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import targets
 from tests.library.station.browser.steps import (
@@ -43,29 +43,6 @@ def test_long_names_and_large_graphs_fit_on_a_phone(serve: Serve, visit: Visit) 
             settled(page)
             assert wider_than_the_screen(page) == 0, name
             assert sideways(page) == [], name
-
-
-def test_a_swipe_over_the_map_moves_it_and_one_over_the_cards_scrolls_them(
-    planned: Station, visit: Visit
-) -> None:
-    page = visit(planned, size=PHONE, touch=True)
-    open_page(page, "Trips")
-    page.get_by_label("Mission", exact=True).select_option(label="Mission 3 (4 trips)")
-    page.get_by_role("button", name="Zoom in").click()
-    page.get_by_role("button", name="Zoom in").click()
-    before = on_the_screen(page, (9.0, 5.0))
-    box = page.locator(".page:not([hidden]) .floor-picture").bounding_box()
-    assert box is not None
-    x, y = middle(box)
-    slide(page, (x, y), (x - 40, y - 60))
-    until(lambda: before[1] - on_the_screen(page, (9.0, 5.0))[1] > 40, "the map went along")
-    rail = page.locator(".page:not([hidden]) .rail-body")
-    below = rail.bounding_box()
-    assert below is not None
-    x, y = middle(below)
-    slide(page, (x, y), (x, y - 90))
-    until(lambda: rail.evaluate("one => one.scrollTop") > 50, "the cards are scrolled")
-    assert page.evaluate("() => scrollY") == 0
 
 
 def slide(page: Page, start: tuple[float, float], end: tuple[float, float]) -> None:

@@ -53,19 +53,6 @@ def test_all_is_undone_and_done_again_step_by_step_over_a_reload(
 
 
 @pytest.mark.long
-def test_what_another_page_has_drawn_since_is_not_undone(planned: Station, visit: Visit) -> None:
-    one, other = visit(planned), visit(planned)
-    rename(one, "Mission 1", "Beds")
-    expect(missions_listed(other).first).to_have_text("Beds")
-    rename(other, "Beds", "Photos")
-    rename(other, "Mission 2", "Air")
-    expect(missions_listed(one)).to_have_text(["Photos", "Air", "Mission 3"])
-    one.get_by_role("button", name="Undo (Ctrl+Z)").click()
-    expect(one.get_by_text("There is nothing of yours to undo.")).to_be_visible()
-    assert names(planned) == ["Photos", "Air", "Mission 3"]
-
-
-@pytest.mark.long
 def test_who_else_is_here_is_seen_with_what_they_have_selected(
     planned: Station, visit: Visit
 ) -> None:

@@ -44,28 +44,6 @@ def test_a_page_that_saves_its_plan_changes_what_has_not_flown(serve: Serve) -> 
     assert targets == [a["target"], [14.0, 8.5], [15.0, 8.0]]
 
 
-def test_what_has_taken_off_cannot_be_changed_and_the_plan_stays(serve: Serve) -> None:
-    """Nor what cannot be flown; and an old plan is an old plan."""
-    station = slow(serve)
-    plan, mission = drawn(station)
-    trips = mission["trips"]
-    for wrong, why in (
-        ([{**trips[0], "target": [4.0, 8.5]}, *trips[1:]], 'trip "A" has taken off meanwhile'),
-        (trips[1:], 'trip "A" has taken off meanwhile'),
-        (
-            [*trips[:2], {**trips[2], "target": [99.0, 8.5]}],
-            'trip "C": target (99, 8.5) is outside',
-        ),
-    ):
-        mission["trips"] = wrong
-        status, answer = station.put("/api/plan", plan)
-        assert status == 400 and why in answer["said"]
-    mission["trips"] = trips[:1]
-    assert station.put("/api/plan", {**plan, "revision": plan["revision"] - 1})[0] == 409
-    assert station.events("mission.replanned") == []
-    assert drawn(station)[1]["trips"] == trips
-
-
 def test_the_same_can_be_commanded_once(serve: Serve) -> None:
     """With what is to be flown from now on, and what that was before."""
     station = slow(serve)

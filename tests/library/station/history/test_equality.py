@@ -24,28 +24,17 @@ FASTEST = 4.0
 ENDS = ("over", "stopped", "interrupted")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class View:
-    """What a page shows from an instant on."""
-
-    t: float
-    state: dict[str, Any]
-    missions: dict[str, Any]
-    drones: dict[str, Any]
-
-
 @dataclass(slots=True)
 class Page:
-    """What one page was shown of one flight."""
+    """What one page was shown of one flight, from each instant on."""
 
     station: Flown
-    views: dict[float, View] = field(default_factory=dict)
+    views: dict[float, Shown] = field(default_factory=dict)
     log: list[Any] = field(default_factory=list)
     results: list[Any] = field(default_factory=list)
     flight: str = ""
     seen: int = 0
-    missions: dict[str, Any] = field(default_factory=dict)
-    drones: dict[str, Any] = field(default_factory=dict)
+    shown: Shown = field(default_factory=Shown)
 
     def look(self) -> str:
         """Take what has changed, as a page does; return what goes on."""
@@ -53,15 +42,12 @@ class Page:
         query = {name: str(number) for name, number in asked.items()}
         given = self.station.get("/api/live", flight=self.flight, **query)
         self.flight, self.seen = given["flight"], given["version"]
-        self.missions.update((row["name"], row) for row in given["missions"])
-        self.drones.update((row["id"], row) for row in given["drones"])
         self.log += given["log"]
         self.results += given["results"]
-        state: dict[str, Any] = given["state"]
-        missions, drones = deepcopy(self.missions), deepcopy(self.drones)
-        t = state.pop("time")
-        self.views[t] = View(t=t, state=state, missions=missions, drones=drones)
-        return str(state["phase"])
+        t = given["state"]["time"]
+        self.shown.take_frame({**given, "t": t})
+        self.views[t] = deepcopy(self.shown)
+        return str(given["state"]["phase"])
 
 
 def replayed(station: Flown, flight: str) -> list[dict[str, Any]]:
@@ -86,15 +72,15 @@ def shown_at(frames: list[dict[str, Any]], t: float) -> Shown:
     return shown
 
 
-def differences(view: View, shown: Shown) -> list[str]:
+def differences(view: Shown, shown: Shown) -> list[str]:
     """Return what is not as it was: what only moves may be a quarter of a second old."""
     found = []
     if {**shown.state, "time": 0} != {**view.state, "time": 0}:
         found.append(f"{view.t}: {view.state} is replayed as {shown.state}")
-    if shown.rows["missions"] != view.missions:
-        found.append(f"{view.t}: {view.missions} is replayed as {shown.rows['missions']}")
-    assert shown.rows["drones"].keys() == view.drones.keys()
-    for id, row in view.drones.items():
+    if shown.rows["missions"] != view.rows["missions"]:
+        found.append(f"{view.t}: {view.rows['missions']} is replayed as {shown.rows['missions']}")
+    assert shown.rows["drones"].keys() == view.rows["drones"].keys()
+    for id, row in view.rows["drones"].items():
         mine = shown.rows["drones"][id]
         stays = [{k: v for k, v in one.items() if k not in MOVING} for one in (row, mine)]
         if stays[0] != stays[1] or not is_near(row, mine):
@@ -127,21 +113,18 @@ def test_the_replay_of_every_instant_is_what_was_shown(serve: Serve, name: str) 
     station.until(lambda: page.look() in ENDS, "the flight has ended")
     station.world.run(station.life.recorded())
     frames = replayed(station, page.flight)
-    views = page.views.values()
-    assert [one for view in views for one in differences(view, shown_at(frames, view.t))] == []
+    views = [(view, shown_at(frames, t)) for t, view in page.views.items()]
+    assert [one for view, shown in views for one in differences(view, shown)] == []
     assert len(views) >= 20
-    exactly = [v for v in views if shown_at(frames, v.t).rows["drones"] == v.drones]
+    exactly = [view for view, shown in views if shown.rows["drones"] == view.rows["drones"]]
     assert len(exactly) >= len(views) / 5
     first = station.get("/api/flights/replay", flight=page.flight)
     assert (first["log"], first["results"]) == (page.log, page.results)
     for t in sorted(page.views)[:: len(views) // 5]:  # as a page does that scrubs
         scrubbed = station.get("/api/flights/replay", flight=page.flight, start=str(t))["frames"][0]
         whole = shown_at(frames, t)
-        assert (scrubbed["t"], scrubbed["missions"], scrubbed["drones"]) == (
-            whole.t,
-            list(whole.rows["missions"].values()),
-            list(whole.rows["drones"].values()),
-        )
+        rows = [list(whole.rows[kind].values()) for kind in ("missions", "drones")]
+        assert [scrubbed["t"], scrubbed["missions"], scrubbed["drones"]] == [whole.t, *rows]
 
 
 def test_a_flight_is_replayed_over_all_its_lives(serve: Serve) -> None:

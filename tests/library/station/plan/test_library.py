@@ -171,8 +171,3 @@ def test_a_plan_is_added_under_names_that_are_free(tmp_path: Path) -> None:
     assert [one.get("after") for one in missions[3::2]] == [["A 2"], ["A 3"]]
     with pytest.raises(Stale):
         plan.add(shapes, plan.revision - 1)
-
-
-def test_an_empty_plan_is_not_kept(tmp_path: Path) -> None:
-    with pytest.raises(BadInput, match="nothing to keep"):
-        save(library(tmp_path), "A", drawn())

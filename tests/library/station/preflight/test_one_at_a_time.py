@@ -21,12 +21,10 @@ from pluto_fleet.station.web.forecasts import GONE
 from pluto_fleet.station.web.forecasts import preflight as answered
 from pluto_fleet.station.web.http import Request
 from pluto_fleet.station.web.served import Asked
-from pluto_fleet.station.wire import Forecast
 from tests.library.files.an_app import APP
-from tests.library.station.jumping import JumpingLoop
+from tests.library.station.jumping import run
 from tests.library.station.plan.drawing import drawn
 from tests.library.station.preflight.asking import FLEET, photos, question
-from tests.library.station.server.asking import AStation
 
 ONE = photos("mission-one", 1)
 
@@ -63,66 +61,45 @@ def copies(monkeypatch: pytest.MonkeyPatch) -> Copies:
     return copies
 
 
-def test_a_newer_one_ends_the_one_that_flies(tmp_path: Path, copies: Copies) -> None:
-    async def both() -> None:
-        preflight = Preflight(tmp_path)
-        first = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
-        await copies.begun()
-        second = asyncio.ensure_future(preflight.ask(question(ONE), ["mission-one"], []))
-        with pytest.raises(Newer, match="a newer one was asked for"):
-            await first
-        await copies.begun()
-        second.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await second
-        assert copies.here == 0
+@pytest.fixture
+def served(tmp_path: Path) -> Station:
+    """A station where one mission could be started."""
+    settings = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
+    settings.own_folder.mkdir()
+    return Station(APP, settings, drawn(ONE, fleet=FLEET))
 
-    asyncio.run(both())
+
+async def test_a_newer_one_or_a_new_plan_ends_the_one_that_flies_and_all_else_is_answered_meanwhile(
+    served: Station, copies: Copies, tmp_path: Path
+) -> None:
+    served.begin()
+    asked = PlannedStart(revision=served.plan.revision)
+    first = asyncio.ensure_future(served.forecast(asked))
+    await copies.begun()
+    second = asyncio.ensure_future(served.forecast(asked))
+    with pytest.raises(Newer, match="a newer one was asked for"):
+        await first
+    await copies.begun()
+    assert await served.command("stop", "one", {"how": "land"}) == "nothing flies"
+    assert '"phase": "idle"' in await served.newer("", 0, 0, 0)
+    assert not second.done()
+    served.plan.replace(served.plan.revision, [{**ONE, "name": "Another"}])
+    with pytest.raises(Newer, match="the plan has changed"):
+        await second
+    with pytest.raises(Newer, match="the plan has changed"):
+        await served.forecast(asked)
+    assert copies.here == 0
     assert not (tmp_path / "rehearsals").exists()
 
 
-def test_a_stop_is_answered_and_pages_are_told_while_one_flies_and_a_new_plan_ends_it(
-    tmp_path: Path, copies: Copies
-) -> None:
-    async def station() -> None:
-        settings = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
-        settings.own_folder.mkdir()
-        plan = drawn(ONE, fleet=FLEET)
-        served = Station(APP, settings, plan)
-        served.begin()
-        asked = PlannedStart(revision=plan.revision)
-        making = asyncio.ensure_future(served.forecast(asked))
-        await copies.begun()
-        assert await served.command("stop", "one", {"how": "land"}, "") == "nothing flies"
-        assert '"phase": "idle"' in await served.newer("", 0, 0, 0)
-        assert not making.done()
-        plan.replace(plan.revision, [{**ONE, "name": "Another"}])
-        with pytest.raises(Newer, match="the plan has changed"):
-            await making
-        with pytest.raises(Newer, match="the plan has changed"):
-            await served.forecast(asked)
-        assert copies.here == 0
-
-    asyncio.run(station())
-
-
-def test_it_is_given_up_when_its_client_goes_away(tmp_path: Path, copies: Copies) -> None:
-    preflight = Preflight(tmp_path)
-
-    class Served(AStation):
-        async def forecast(self, asked: PlannedStart, /) -> Forecast:
-            return await preflight.ask(question(ONE), ["mission-one"], [])
-
-    async def asked() -> None:
-        request = Request(method="POST", path="/api/preflight", gone=copies.begun)
-        given: dict[str, object] = {"revision": 1, "missions": None}
-        one = Asked(
-            station=Served(), audit=Audit(None), request=request, role="fly", given=given, body=b""
-        )
-        assert await answered(one) is GONE
-        assert copies.here == 0
-
-    asyncio.run(asked())
+async def test_it_is_given_up_when_its_client_goes_away(served: Station, copies: Copies) -> None:
+    request = Request(method="POST", path="/api/preflight", gone=copies.begun)
+    given: dict[str, object] = {"revision": served.plan.revision, "missions": None}
+    one = Asked(
+        station=served, audit=Audit(None), request=request, role="fly", given=given, body=b""
+    )
+    assert await answered(one) is GONE
+    assert copies.here == 0
 
 
 def test_one_that_has_flown_nothing_in_time_is_refused(
@@ -132,10 +109,6 @@ def test_one_that_has_flown_nothing_in_time_is_refused(
         await asyncio.Event().wait()
         yield Needs({}, {})
 
-    async def cut_off() -> None:
-        with pytest.raises(BadInput, match="not even one run of this plan was flown within"):
-            await Preflight(tmp_path).ask(question(ONE), ["mission-one"], [])
-
     monkeypatch.setattr(running, "in_a_copy", silent)
-    with asyncio.Runner(loop_factory=JumpingLoop) as runner:
-        runner.run(cut_off())
+    with pytest.raises(BadInput, match="not even one run of this plan was flown within"):
+        run(Preflight(tmp_path).ask(question(ONE), ["mission-one"], []))
