@@ -19,7 +19,7 @@ from tempfile import mkdtemp
 from pluto_fleet.crtp import process
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
-from tests.flights_crazyflie.judge import unmeant
+from tests.flights_crazyflie.judge import badly_ended, unmeant
 from tests.flights_crazyflie.plans import RETRY, SIZE, homes, plan, quick_package, write
 from tests.flights_crazyflie.scenarios import SCENARIOS, Scenario
 from tests.kill.lives import PATIENCE, eventually
@@ -88,11 +88,7 @@ def _unrefused(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
 
 def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
     """Yield what is wrong with a flight that has ended."""
-    if code != scenario.code:
-        yield f"exit code {code}"
-    for mission, status in flight.ends().items():
-        if status != "COMPLETED":
-            yield f"{mission} ended as {status}"
+    yield from badly_ended(flight, code, scenario.code)
     reasons = [event["reason"] for event in flight.events if event["event"] == "trip.failed"]
     flight.notes.extend(dict.fromkeys(reasons))
     if scenario.fails and not any(re.search(scenario.fails, reason) for reason in reasons):
@@ -100,8 +96,6 @@ def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
     if not scenario.fails and reasons:
         yield "a trip has failed"
     yield from unmeant(flight.commands, flight.trace, SIZE, tuple(scenario.falls))
-    if "Traceback" in flight.told:
-        yield "a traceback was printed"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

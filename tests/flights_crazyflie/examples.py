@@ -24,7 +24,7 @@ from pluto_fleet.shared.hooks.plain_data import point_of
 from tests.apart import apart
 from tests.flights_crazyflie.campaign import seen_through
 from tests.flights_crazyflie.flight import Event, Flight
-from tests.flights_crazyflie.judge import beside_its_target, nearest, unmeant
+from tests.flights_crazyflie.judge import badly_ended, beside_its_target, nearest, unmeant
 from tests.flights_crazyflie.plans import quick_package, write
 from tests.kit.apps import EXAMPLES, NAMES
 from tests.kit.campaign import Campaign
@@ -72,11 +72,7 @@ _FILES = ("missions", "fleet")
 def _wrong(flight: Flight, code: int) -> Iterator[str]:
     """Yield what is wrong with a flight that has ended."""
     events, trace = flight.events, flight.trace
-    if code != 0:
-        yield f"exit code {code}"
-    for mission, status in flight.ends().items():
-        if status != "COMPLETED":
-            yield f"{mission} ended as {status}"
+    yield from badly_ended(flight, code)
     done = [event for event in events if event["event"] == "trip.completed"]
     flight.notes.append(f"{len(done)} trips, {len(list(_failures(events)))} failed")
     flight.notes.append(f"nearest {nearest(trace)[0]:.2f} m")
@@ -88,8 +84,6 @@ def _wrong(flight: Flight, code: int) -> Iterator[str]:
     yield from unmeant(flight.commands, trace, (size[0], size[1]))
     yield from beside_its_target(events, trace, _targets(events))
     yield from _not_really_done(flight, done)
-    if "Traceback" in flight.told:
-        yield "a traceback was printed"
 
 
 def _failures(events: list[Event]) -> Iterator[str]:

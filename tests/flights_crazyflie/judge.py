@@ -11,7 +11,7 @@ from math import dist, inf
 
 from pluto_fleet.crtp.flight_log import CommandRecord, Point, PositionRecord
 from pluto_fleet.jobs.flown import ACTS_BESIDE
-from tests.flights_crazyflie.flight import Event
+from tests.flights_crazyflie.flight import Event, Flight
 
 NEAR = 0.1
 """Metres that a drone may be beside its target while it does what it came for."""
@@ -108,6 +108,17 @@ def unmeant(
     least, who = nearest(trace)
     if least < APART:
         yield f"{least:.2f} m apart: {who}"
+
+
+def badly_ended(flight: Flight, code: int, meant: int = 0) -> Iterator[str]:
+    """Yield what no flight may end with: another exit code, a mission that is not completed, a traceback."""
+    if code != meant:
+        yield f"exit code {code}"
+    for mission, status in flight.ends().items():
+        if status != "COMPLETED":
+            yield f"{mission} ended as {status}"
+    if "Traceback" in flight.told:
+        yield "a traceback was printed"
 
 
 def nearest(trace: Sequence[PositionRecord]) -> tuple[float, str]:

@@ -18,8 +18,7 @@ from tempfile import mkdtemp
 from tests.kill.lives import Flight
 from tests.kill.painter import HOUSE, painter_in
 from tests.kill.plans import PLANS
-from tests.kill.tally import Tally
-from tests.kill.trial import Trial
+from tests.kill.trial import Tally, Trial
 from tests.kit.apps import compiled
 from tests.kit.campaign import Campaign
 

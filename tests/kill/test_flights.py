@@ -22,8 +22,7 @@ from tests.kill.judge import events_of, folded
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.painter import painted
 from tests.kill.plans import Plan
-from tests.kill.tally import Tally
-from tests.kill.trial import Trial, gateway_of
+from tests.kill.trial import Tally, Trial, gateway_of
 
 
 def launched(flight: Flight) -> Flight:
@@ -77,18 +76,6 @@ def test_a_kill_loses_nothing_and_lets_nothing_be_done_twice(
     assert tally.brains.total() == (victim == "brain")
     assert tally.gateways.total() == (victim == "gateway")
     assert tally.ends == {"COMPLETED": 3} and tally.actions == 6
-
-
-@pytest.mark.long
-def test_interrupted_twice_it_leaves_at_once_and_the_gateway_lands(new_flight: NewFlight) -> None:
-    flight = launched(new_flight(1.0))
-    # high enough to be still landing when it is told for the second time
-    assert eventually(lambda: any(z > 0.5 for _, _, z in drones_are_at(flight)))
-    flight.signal(signal.SIGINT)
-    flight.until_it_says("once more to leave at once")
-    flight.signal(signal.SIGINT)
-    assert flight.see_through() == 130
-    assert eventually(lambda: all_are_down(flight))
 
 
 @pytest.mark.long

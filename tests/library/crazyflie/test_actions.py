@@ -103,10 +103,3 @@ async def test_it_blinks_and_has_its_lights_back(one: Hangar, cf: Crazyflie) -> 
     values = [value for value, _ in groupby(told)]  # cflib may say something twice
     assert values == [191.0, 128.0] * 8 + [0.0]
     assert {command.what for command in one.commands} == {"set led.bitmask"}
-
-
-async def test_it_says_what_it_is(one: Hangar, cf: Crazyflie) -> None:
-    facts = await cf.facts()
-    assert facts["protocol"] == "12" and facts["firmware"] == "2025c0de0ace"
-    assert "bcLighthouse4" in facts["decks"] and "bcFlow2" not in facts["decks"]
-    assert one.commands == []

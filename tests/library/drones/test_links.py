@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.shared.domain.errors import Failure
-from tests.kit.drones import FakeDrone, the_loop
+from tests.kit.drones import the_loop
 from tests.library.drones.teams import flying
 
 
@@ -83,17 +83,3 @@ async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path)
         drone, seen = await flown.up(), flown.team.telemetry["cf1"]
         drone.goes_silent()
         assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
-
-
-async def test_a_drone_that_is_away_for_long_is_looked_for_rarely(tmp_path: Path) -> None:
-    """Others need the radio; but as soon as it is asked for, it is tried."""
-    drone = FakeDrone()
-    drone.answers = False
-    async with flying(tmp_path, drone) as flown:
-        await flown.until(lambda: the_loop().now > 1300)
-        attempts = drone.attempts
-        await flown.until(lambda: the_loop().now > 1600)
-        assert drone.attempts - attempts < 12
-        drone.answers = True
-        assert (await flown.do(flown.team.drone_report("cf1"))).reached
-        assert flown.log.count("cf1 does not answer") == 1

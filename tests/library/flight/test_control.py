@@ -117,15 +117,10 @@ async def _spray(drone: Drone, trip: Trip, context: Context) -> None:
     await context.sleep(10.0)
 
 
-def spraying(repeat: str, *others: apps.Mission) -> Living:
-    spray = OwnAction(name="spray", repeat=repeat, hook=_spray)
-    mission = apps.mission("a", apps.trip("1", 3, action="spray"), apps.trip("2", 3))
-    homes = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
-    return Living(enterable(actions=(spray,)), mission, *others, on=apps.fleet(*homes))
-
-
 def test_an_action_that_is_safe_to_repeat_is_flown_again() -> None:
-    living = spraying("safe")
+    spray = OwnAction(name="spray", repeat="safe", hook=_spray)
+    mission = apps.mission("a", apps.trip("1", 3, action="spray"), apps.trip("2", 3))
+    living = Living(enterable(actions=(spray,)), mission)
     living.crash(10.0)
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.launched"), "trip") == ["1", "1", "2"]

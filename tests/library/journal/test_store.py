@@ -100,14 +100,6 @@ def test_only_what_follows_the_newest_snapshot_is_read(store: Store) -> None:
     assert [found.seq for found in store.read().rows] == [10]
 
 
-def test_a_new_journal_never_takes_the_place_of_anything(store: Store, place: Path) -> None:
-    store.append([row(1)])
-    store.close()
-    with pytest.raises(JournalError, match="there is a journal already"):
-        Store.create(place, HEADER)
-    assert Store.open(place).seq == 1
-
-
 def test_a_second_writer_is_told_who_the_first_one_is(store: Store, place: Path) -> None:
     with pytest.raises(JournalError, match=f"process {os.getpid()} is writing this journal"):
         Store.open(place)
@@ -118,12 +110,6 @@ def test_a_second_writer_is_told_who_the_first_one_is(store: Store, place: Path)
     assert holder(place) == os.getpid()
     store.close()
     assert holder(place) is None
-
-
-def test_nothing_but_the_journal_is_left_when_it_is_closed(store: Store, place: Path) -> None:
-    store.append([row(1)])
-    store.close()
-    assert os.listdir(place.parent) == [place.name]
 
 
 def test_it_is_known_when_the_last_thing_that_is_read_was_written(place: Path) -> None:

@@ -16,7 +16,7 @@ from pluto_fleet.drones.conformance.recording import Truth
 from pluto_fleet.drones.errors import LinkLost, Rejected
 from pluto_fleet.drones.protocol import DroneEvent, DroneNavigation, DroneTelemetry
 from pluto_fleet.shared.domain.model import Point
-from tests.kit.drones import YAW, FakeDrone, JumpingLoop, the_loop
+from tests.kit.drones import YAW, FakeDrone, JumpingLoop
 
 SPEED = 1.0
 
@@ -269,16 +269,6 @@ class Tacit(Wrong):
         async for event in super().events():
             if event.kind != "crashed":
                 yield event
-
-
-class Undated(Retelling):
-    """Dates what the drone told with the moment at which it is asked."""
-
-    found_by = "test_a_drone_that_falls_silent_is_a_lost_link"
-    says = "it is when the drone told it"
-
-    def retold(self, told: DroneTelemetry) -> DroneTelemetry:
-        return replace(told, time=the_loop().now)
 
 
 def all_wrong(kind: type[Wrong] = Wrong) -> list[type[Wrong]]:
