@@ -36,12 +36,10 @@ class Flight(Lives):
 
     @property
     def gateway(self) -> Path:
-        """The folder of the gateway."""
         return gateway_folder(self.journal)
 
     @property
     def air(self) -> Path:
-        """The folder of the simulated drones."""
         return self.world or self.gateway
 
     def start(self) -> None:
@@ -59,13 +57,11 @@ class Flight(Lives):
         return done.out
 
     def kill_gateway(self) -> None:
-        """Kill the gateway that commands the drones."""
         pid = gateway_of(self.journal)
         assert pid is not None
         os.kill(pid, signal.SIGKILL)
 
     def let(self, drone: str, fault: str, value: float | bool | list[float] = True) -> None:
-        """Let something go wrong with a drone."""
         process.told(self.air, "fault", drone=drone, name=fault, value=value)
 
     @property
@@ -75,13 +71,11 @@ class Flight(Lives):
         return found
 
     def airborne(self) -> list[str]:
-        """Return the drones that are in the air."""
         with suppress(BadInput):
             return [id for id, one in self.state.items() if one["airborne"]]
         return []
 
     def until(self, holds: Callable[[], bool], seconds: float = 60.0) -> None:
-        """Wait until something holds."""
         if not eventually(holds, seconds):
             raise AssertionError(f"it does not come to that:\n{self.told}")
 
@@ -103,13 +97,11 @@ class Flight(Lives):
         return [{**event, "wall": row.wall} for row in rows for event in json.loads(row.text)]
 
     def ends(self) -> dict[str, str]:
-        """Return how each mission has ended."""
         ended = (event for event in self.events if event["event"] == "mission.ended")
         return {event["mission"]: event["status"] for event in ended}
 
     @property
     def commands(self) -> list[CommandRecord]:
-        """What the drones were commanded."""
         lines = (self.air / COMMANDS).read_text(encoding="utf-8").splitlines()
         read = (json.loads(line) for line in lines)
         return [CommandRecord(**{**one, "at": tuple(one["at"])}) for one in read]

@@ -58,7 +58,6 @@ def targets(missions: str) -> Mapping[tuple[str, str], Target]:
 
 
 def write(folder: Path, missions: str, fleet: str) -> None:
-    """Write both files."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "missions.toml").write_text(missions)
     (folder / "fleet.toml").write_text(fleet)

@@ -27,7 +27,6 @@ ENDS = ("COMPLETED", "FAILED", "UNCERTAIN")
 
 
 def events_of(rows: Sequence[str]) -> Iterator[Event]:
-    """Yield the events of a journal's rows."""
     for row in rows:
         yield from json.loads(row)
 

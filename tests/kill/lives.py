@@ -56,7 +56,6 @@ class Lives:
 
     @property
     def pid(self) -> int:
-        """The process of the life that is being lived."""
         assert self.life is not None
         return self.life.pid
 
@@ -94,7 +93,6 @@ class Lives:
         return code
 
     def run(self, *words: str) -> Ran:
-        """Give another command of the app."""
         return python("-m", self.app, *words, cwd=None, **self._own)
 
     def end(self) -> None:
@@ -136,7 +134,6 @@ class Flight(Lives):
         self.begin(*words, *more)
 
     def signal(self, number: signal.Signals) -> None:
-        """Send a signal to the life that is being lived."""
         os.kill(self.pid, number)
 
     def until_it_flies(self) -> None:

@@ -234,7 +234,6 @@ def test_all_other_missions_fly_on(
 
 
 def ends(flight: Flight) -> dict[str, dict[str, object]]:
-    """Return how all missions have ended."""
     with closing(Reader(flight.journal)) as reader:
         return folded([row.text for row in reader.rows()]).missions
 

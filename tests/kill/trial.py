@@ -35,7 +35,6 @@ class Tally:
     decided: int = 0
 
     def lines(self) -> Iterator[str]:
-        """Yield the report."""
         for what, kills in (("brain", self.brains), ("gateway", self.gateways)):
             where = ", ".join(f"{count} {phase}" for phase, count in kills.most_common())
             yield f"{kills.total()} kill -9 of the {what}: {where or 'none'}"

@@ -45,12 +45,10 @@ def up(runner: asyncio.Runner, one: Hangar) -> Crazyflie:
 
 @pytest.fixture
 def folder(runner: asyncio.Runner, tmp_path: Path) -> Path:
-    """A folder of a flight's own."""
     return tmp_path
 
 
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Fly an async test."""
     if "runner" not in pyfuncitem.fixturenames:
         return None
     runner: asyncio.Runner = pyfuncitem.funcargs["runner"]  # type: ignore[assignment]

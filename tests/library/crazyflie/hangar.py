@@ -37,7 +37,6 @@ class Hangar:
 
     @property
     def drone(self) -> SimulatedCrazyflie:
-        """The simulated drone itself."""
         return self.server.drones[self.id]
 
     @property
@@ -56,7 +55,6 @@ class Hangar:
         return [command for command in self.record.commands if command.what != "asked"]
 
     def did(self, what: str) -> list[CommandRecord]:
-        """Return the commands of one kind."""
         return [command for command in self.commands if command.what == what]
 
     async def connected(self) -> Crazyflie:
@@ -71,7 +69,6 @@ class Hangar:
         return self.navigation
 
     async def let(self, name: str, value: float | bool = True) -> None:
-        """Let something go wrong."""
         await self.server.let(self.id, name, value)
 
     async def hears(self, kind: str) -> DroneEvent:
@@ -85,7 +82,6 @@ class Hangar:
                 await self.heard.wait()
 
     async def listen(self) -> None:
-        """Hear all events, until there are no more."""
         async for event in self.navigation.events():
             self.events.append(event)
             self.heard.set()
@@ -101,7 +97,6 @@ def state(
     at: Point | None = None,
     sent: float | None = None,
 ) -> State:
-    """Return what a drone tells at one moment."""
     return State(
         time=time,
         sent=time if sent is None else sent,
@@ -120,7 +115,6 @@ def navigation(
     options: Mapping[str, object] | None = None,
     speed: float = FAST,
 ) -> Crazyflie:
-    """Return what flies a drone."""
     told, home = options or {}, build.home
     return Crazyflie(
         DroneSetup(id=build.id, uri=uri, home=home, speed=speed, options=told, folder=folder)
@@ -153,5 +147,4 @@ async def hangar(
 
 
 def drone(**given: object) -> pytest.MarkDecorator:
-    """Say what is told to `hangar` of the drone that a test has as `one`."""
     return pytest.mark.parametrize("one", [given], indirect=True, ids=["given"])

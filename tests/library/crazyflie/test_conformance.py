@@ -24,8 +24,6 @@ NO_DRONE = "udp://127.0.0.1:99"
 
 
 class TestCrazyflie(NavigationContract):
-    """As the firmware flies."""
-
     height, away, speed, rest = 0.3, 0.8, 1.5, 0.15
     may_fall = together = True
     folder: ClassVar[Path]
@@ -36,7 +34,6 @@ class TestCrazyflie(NavigationContract):
 
     @staticmethod
     def loop_factory() -> asyncio.AbstractEventLoop:
-        """Return a loop in which all drones are on the air."""
         here, loop = TestCrazyflie, AirLoop()
         here.server, here.fresh, here.flown = Server(BUILDS, MemoryLog()), [*BUILDS], {}
         loop.run_until_complete(here.server.start())
@@ -61,7 +58,6 @@ class TestCrazyflie(NavigationContract):
         self._let(navigation, "tumble")
 
     def _let(self, navigation: DroneNavigation, what: str) -> None:
-        """Let something go wrong with its drone."""
         end = self.server.endpoints[self.flown[navigation].build.id]
         let(end.drone, end.air, what, True)
 
@@ -72,7 +68,6 @@ class TestCrazyflie(NavigationContract):
 
 @pytest.fixture(scope="module", autouse=True)
 def air(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
-    """Fly with cflib in one thread."""
     pytest.importorskip("cflib")
     TestCrazyflie.folder = tmp_path_factory.mktemp("hangar")
     with one_thread():

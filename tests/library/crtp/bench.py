@@ -29,7 +29,6 @@ class Bench:
         self.drone.step(self.now)
 
     def passes(self, seconds: float) -> None:
-        """Let time pass."""
         for _ in range(round(seconds / _TICK)):
             self.now += _TICK
             self.drone.step(self.now)
@@ -45,21 +44,17 @@ class Bench:
         let(self.drone, LossyChannel(Random(1)), fault, value)
 
     def arm(self) -> bool:
-        """Arm it; return whether it did."""
         answer = self.told(Port.SUPERVISOR, 1, b"\1\1")
         assert answer is not None and answer[0] == 0x81
         return bool(answer[1])
 
     def takeoff(self, height: float = 1.0, seconds: float = 2.0) -> int:
-        """Command it up; return the answer."""
         return self._commanded(struct.pack("<BBff?f", 7, 0, height, 0.0, True, seconds))
 
     def land(self, seconds: float = 2.0) -> int:
-        """Command it down; return the answer."""
         return self._commanded(struct.pack("<BBff?f", 8, 0, 0.0, 0.0, True, seconds))
 
     def go_to(self, x: float, y: float, z: float, seconds: float) -> int:
-        """Command it somewhere; return the answer."""
         return self._commanded(struct.pack("<BBBBfffff", 12, 0, 0, 0, x, y, z, 0.0, seconds))
 
     def _commanded(self, data: bytes) -> int:
@@ -74,18 +69,15 @@ class Bench:
         self.passes(2.5)
 
     def lands(self) -> None:
-        """Command it down, and wait until it has come down."""
         assert self.land() == 0
         while self.has(_ACTIVE):
             self.passes(_TICK)
 
     def has(self, bit: int) -> bool:
-        """Whether a bit of `supervisor.info` is set."""
         return bool(self.drone.info() >> bit & 1)
 
     @property
     def commands(self) -> list[CommandRecord]:
-        """What is on record."""
         return self.record.commands
 
     @property

@@ -51,7 +51,6 @@ class OnTheAir:
 
     @property
     def uri(self) -> str:
-        """How it is reached."""
         channel, _, address = self.where
         return f"radio://0/{channel}/2M/{bytes(address).hex().upper()}"
 
@@ -85,19 +84,15 @@ class Ether:
         self._by_id: Mapping[str, OnTheAir] = {one.drone.build.id: one for one in made}
         self._by_place = {one.where: one for one in self._by_id.values()}
         self.unplugged = False
-        self.is_open = False
-        """Whether cflib has the dongle open."""
         self._over = Event()
         self._thread = Thread(target=self._pass, name="simulated drones", daemon=True)
 
     @property
     def uris(self) -> dict[str, str]:
-        """How each is reached."""
         return {id: one.uri for id, one in self._by_id.items()}
 
     @property
     def drones(self) -> Mapping[str, SimulatedCrazyflie]:
-        """The drones by their ids."""
         return {id: one.drone for id, one in self._by_id.items()}
 
     def sent(self, where: Where, packet: Sequence[int], retries: int) -> Ack:
@@ -110,7 +105,6 @@ class Ether:
         return Ack(True, one.answer(packet))
 
     def start(self) -> None:
-        """Let time pass for the drones."""
         self._thread.start()
 
     def end(self) -> None:
@@ -140,7 +134,6 @@ class Dongle:
         self.version = 0.54
         self._retries = 3
         self._set: dict[str, object] = {}
-        self.ether.is_open = True
 
     def _setup(self, what: str, value: object) -> None:
         """Tell the dongle something, over USB: only what it has not been told already."""
@@ -151,24 +144,19 @@ class Dongle:
         self._set[what] = value
 
     def set_channel(self, channel: int) -> None:
-        """Choose the channel."""
         self._setup("channel", channel)
 
     def set_address(self, address: Sequence[int]) -> None:
-        """Choose the drone."""
         self._setup("address", tuple(address))
 
     def set_data_rate(self, datarate: int) -> None:
-        """Choose the rate."""
         self._setup("rate", datarate)
 
     def set_arc(self, arc: int) -> None:
-        """Choose how often a packet is tried."""
         self._retries = arc
 
     def close(self) -> None:
-        """Close the device."""
-        self.ether.is_open = False
+        """Nothing is open."""
 
     def send_packet(self, data: Sequence[int]) -> Ack | None:
         """Send a packet; None: there is no dongle any more."""
@@ -180,7 +168,6 @@ class Dongle:
         return self.ether.sent((channel, rate, address), data, self._retries)
 
     def scan_channels(self, start: int, stop: int, packet: Sequence[int]) -> tuple[int, ...]:
-        """Return the channels on which a drone answers."""
         found = []
         for channel in range(start, stop + 1):
             self.set_channel(channel)

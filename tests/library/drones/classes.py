@@ -48,13 +48,10 @@ class Late(Good):
     """Its telemetry is set when it is made, and its events come from a plain method."""
 
     def events(self) -> AsyncIterator[DroneEvent]:
-        """Return what happens."""
         return super().events()
 
 
 class Lazy:
-    """It lacks much."""
-
     def __init__(self, setup: DroneSetup, radio: object) -> None: ...
 
     def connect(self) -> None: ...
@@ -101,13 +98,10 @@ class Cameras:
         self.options = options
 
     async def positions(self) -> AsyncIterator[tuple[str, Point]]:
-        """Yield who is where."""
         yield "cf1", (1.0, 2.0, 0.5)
 
 
 class Blind:
-    """It sees nothing."""
-
     def __init__(self) -> None: ...
 
     async def positions(self) -> list[tuple[str, Point]]:

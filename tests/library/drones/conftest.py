@@ -9,5 +9,4 @@ from tests.loops import run_async
 
 
 def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
-    """Run an async test on a loop whose clock jumps."""
     return run_async(pyfuncitem, run)

@@ -39,7 +39,6 @@ class Asked:
         return await self.kernel.offer(self.begin(command))
 
     def begin(self, command: Coroutine[Any, Any, T]) -> Task[T]:
-        """Have the kernel do something."""
         begun: list[Task[T]] = []
 
         def begin() -> None:
@@ -95,7 +94,6 @@ class Flown(Asked):
         )
 
     async def up(self, drone: str = "cf1") -> FakeDrone:
-        """Let a drone take off, and return it."""
         await self.do(self.team.drone_report(drone))
         await self.do(self.team.takeoff(drone, 1.0))
         return self.drones[drone]

@@ -19,7 +19,6 @@ class Drone:
         self.heard: asyncio.Queue[Point] = asyncio.Queue()
 
     async def locate(self, position: Point) -> None:
-        """Hear it."""
         self.heard.put_nowait(position)
 
 

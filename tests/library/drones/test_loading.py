@@ -60,7 +60,6 @@ class Installed:
             path.write_text(mark + self.named(text))
 
     def offers(self, package: str, group: str, lines: str) -> None:
-        """Install a package that offers something."""
         info = self.folder / f"{package.replace('-', '_')}-1.0.dist-info"
         info.mkdir()
         (info / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1.0\n")
@@ -79,7 +78,6 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Insta
 
 
 def refused(name: str, load: Callable[[str], object] = load_navigation) -> str:
-    """Return why a name is no navigation."""
     with pytest.raises(BadInput) as error:
         load(name)
     return str(error.value)

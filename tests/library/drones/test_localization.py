@@ -33,7 +33,6 @@ class Hearing:
         self.broken = False
 
     async def locate(self, position: Point) -> None:
-        """Hear it."""
         await self.free.wait()
         if self.broken:
             raise OSError("no radio")
@@ -48,7 +47,6 @@ class Eyes:
         self.closed = 0
 
     async def positions(self) -> AsyncIterator[tuple[str, Point]]:
-        """Yield who is where."""
         try:
             while (one := await self.seen.get()) is not None:
                 if isinstance(one, Exception):
@@ -83,7 +81,6 @@ class Scene:
         assert asyncio.all_tasks() == {asyncio.current_task()}
 
     async def sees(self, *what: object) -> None:
-        """Let this be seen, and heard."""
         for one in what:
             self.eyes.seen.put_nowait(one)
         for _ in range(10):
@@ -151,8 +148,6 @@ async def test_eyes_that_close_are_opened_again(
 
 
 class Located(FakeDrone):
-    """A drone that can be told where it is."""
-
     async def locate(self, position: Point) -> None:
         """Hear where it is."""
 
@@ -164,7 +159,6 @@ class Camera:
         self.looks = True
 
     async def positions(self) -> AsyncIterator[tuple[str, Point]]:
-        """Return who is where."""
         while True:
             if self.looks:
                 yield "cf1", (1.0, 1.0, 0.0)
@@ -211,7 +205,5 @@ def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: 
 
 
 class Simple(FakeDrone):
-    """As a fleet file names it."""
-
     def __init__(self, setup: object) -> None:
         super().__init__()

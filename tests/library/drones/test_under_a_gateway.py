@@ -56,7 +56,6 @@ async def commanded(
 
 
 def measuring(drone: str, there: Point) -> Task:
-    """Return a job that any of them can do."""
     return Task(id=f"Field/{drone}/0/1", drone=drone, stops=(there,), action="measure", item=None)
 
 

@@ -163,7 +163,6 @@ class Mended(FakeDrone):
     """One that remembers its crash until it is told that a person has looked after it."""
 
     async def looked_after(self) -> None:
-        """Forget it."""
         await self._does("looked_after")
         self.told.append("looked after")
         self.reasons = ()
@@ -171,7 +170,6 @@ class Mended(FakeDrone):
 
 @asynccontextmanager
 async def fallen(folder: Path) -> AsyncIterator[tuple[Mended, Team, Flown]]:
-    """Fly one until it has fallen."""
     drone = Mended()
     async with flying(folder, drone) as flown:
         await flown.up()

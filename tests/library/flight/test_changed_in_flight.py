@@ -15,7 +15,6 @@ Trip = Mapping[str, object]
 
 
 def trip(name: str, x: float, **more: object) -> Trip:
-    """Return a trip as a missions file has it."""
     return {"name": name, "action": "take_photo", "target": [x, 1.0, 1.0], **more}
 
 

@@ -31,29 +31,24 @@ def living(*names: str, homes: int = 2, attempts: int = 5) -> Living:
 
 
 def drone(living: Living, id: str = "cf1") -> Drone:
-    """Return a drone as the latest life sees it."""
     return next(one for one in living.life.drones if one.id == id)
 
 
 def records(living: Living) -> Records:
-    """Return what the journal says to the latest life."""
     return living.life.recorder.records
 
 
 def flights_of(living: Living, id: str) -> list[float]:
-    """Return when a drone has set out."""
     flights = [event for event in living.named("trip.launched") if event["drone"] == id]
     return [float(str(event["t"])) for event in flights]
 
 
 def passes(living: Living, until: float) -> None:
-    """Let time pass until then."""
     kernel = living.kernel
     kernel.run(kernel.spawn(kernel.sleep(until - kernel.now), FLEET, "time passes"))
 
 
 def crashes(living: Living, when: float) -> None:
-    """Let cf1 crash at a time."""
     living.at(when, lambda: living.navigation.strike("cf1", Failure.CRASH))
 
 

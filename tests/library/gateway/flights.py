@@ -43,7 +43,6 @@ class Task:
         return 0.0 if self.action is None else BUILT_IN[self.action].seconds
 
     def begins(self) -> None:
-        """Count how often its action has begun."""
         self.begun += 1
 
 
@@ -88,5 +87,4 @@ class Field:
         return self.gateway
 
     def advance(self, seconds: float) -> None:
-        """Let virtual time pass."""
         self.kernel.run(self.kernel.spawn(self.kernel.sleep(seconds), FLEET, "time passes"))

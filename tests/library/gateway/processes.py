@@ -87,13 +87,11 @@ class Brain:
         return await self.kernel.run(self.kernel.spawn(ask, FLEET, "the brain"))
 
     async def flown(self, link: RemoteLink, job: Task) -> object:
-        """Fly a job to its end, and return what was reported."""
         ended: Future[object] = Future()
         self.kernel.post(link.fly, job, ended.set)
         return await self.kernel.run(ended)
 
     async def until(self, is_so: Callable[[], bool]) -> None:
-        """Wait until something is so."""
         async with asyncio.timeout(60):
             while not is_so():
                 await asyncio.sleep(0.005)
@@ -109,14 +107,12 @@ class InsideBrain(Brain):
         return await super().linked()
 
     async def begins(self) -> None:
-        """Begin a gateway, unless one runs."""
         if not self.gateway_runs:
             self.gateway = asyncio.create_task(run(self.folder, self._settings))
             await self.until(lambda: ipc.address_in(self.folder / NOTE) is not None)
 
     @property
     def gateway_runs(self) -> bool:
-        """Whether it has not ended."""
         return self.gateway is not None and not self.gateway.done()
 
     async def tells(self, *lines: bytes) -> list[dict[str, Any]]:
@@ -129,7 +125,6 @@ class InsideBrain(Brain):
         return [answer for answer in answers if set(answer) != {"seen"}]
 
     async def ends(self) -> None:
-        """End the gateway, if it runs."""
         if self.gateway is not None:
             self.gateway.cancel()
             await asyncio.wait([self.gateway])

@@ -18,7 +18,6 @@ from tests.library.simulation.flights import failure, fly
 
 
 def cut(field: Field, drone: str = "cf1") -> str:
-    """Cut a drone's motors, and return why that could not be done."""
     return fly(field.kernel, field.gateway.cut_motors(drone))
 
 
@@ -107,7 +106,6 @@ class Kept(Field):
         self.another()
 
     def problems(self, epoch: int) -> tuple[str, ...]:
-        """Query the drones, and return why cf1 may not fly."""
         return fly(self.kernel, self.gateway.link(epoch).fleet_report()).drones["cf1"].problems
 
 

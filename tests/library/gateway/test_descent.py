@@ -22,7 +22,6 @@ def brought_down(field: Field, how: Down) -> None:
 
 
 def all_landed(field: Field) -> bool:
-    """Whether nothing is in the air."""
     return all(field.navigation.telemetry[drone.id].landed for drone in field.drones)
 
 

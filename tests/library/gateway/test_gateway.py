@@ -15,12 +15,10 @@ from tests.library.simulation.flights import failure, fly
 
 
 def called(field: Field) -> FleetReport:
-    """Query all drones through a new link."""
     return fly(field.kernel, field.gateway.link(99).fleet_report())
 
 
 def states(fleet_report: FleetReport) -> dict[str, JobState]:
-    """Return how far each job is."""
     return {id: entry.state for id, entry in fleet_report.jobs.items()}
 
 

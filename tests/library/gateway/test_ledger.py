@@ -19,12 +19,10 @@ PHOTO = Photo(position=(1.0, 2.0, 3.0), width=1.5, height=1.0, sees=("bloom",), 
 
 
 def entry(id: str, state: JobState = JobState.DONE, value: object = None) -> Entry:
-    """Return a job as it is written down."""
     return Entry(id=id, drone="cf1", state=state, boot=3, value=value)
 
 
 def kept(path: Path) -> dict[str, JobState]:
-    """Return what another process finds."""
     ledger = FileLedger(path)
     ledger.close()
     return {entry.id: entry.state for entry in ledger.entries()}

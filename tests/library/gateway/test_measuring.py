@@ -25,7 +25,6 @@ def measured() -> tuple[Field, Link, list[Flown]]:
 
 
 def facts(told: Sequence[Flown], *names: str) -> list[tuple[object, ...]]:
-    """Return some facts of each command."""
     return [tuple(one[name] for name in names) for one in told]
 
 

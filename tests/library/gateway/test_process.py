@@ -49,7 +49,6 @@ async def sent_far(brain: Brain, drone: str = "cf1") -> remote.RemoteLink:
 
 
 def states(report: FleetReport) -> dict[str, JobState]:
-    """Return how far each job is."""
     return {id: job.state for id, job in report.jobs.items()}
 
 

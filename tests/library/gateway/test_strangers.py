@@ -33,7 +33,6 @@ def said(folder: Path, *sessions: tuple[bytes, ...]) -> list[list[dict[str, Any]
 
 
 def message(**facts: object) -> bytes:
-    """Return a message."""
     return json.dumps(facts).encode() + b"\n"
 
 

@@ -44,7 +44,6 @@ failures = st.builds(FlightFailed, st.sampled_from(Failure), names)
 
 
 def sent(message: dict[str, object]) -> dict[str, object]:
-    """Return a message as it arrives."""
     told = line(message)
     assert told.count(b"\n") == 1
     heard = message_in(told)

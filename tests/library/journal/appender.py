@@ -16,12 +16,10 @@ from pluto_fleet.journal.writer import Writer
 
 
 def text(number: int) -> str:
-    """Make the row of this number."""
     return json.dumps([{"t": float(number), "event": "log", "text": "x" * (number % 700)}])
 
 
 def say(word: object) -> None:
-    """Say a line, at once."""
     print(word, flush=True)
 
 

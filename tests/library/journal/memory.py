@@ -29,7 +29,6 @@ class Memory:
 
     @property
     def seq(self) -> int:
-        """The number of the last durable row."""
         return len(self._rows)
 
     def reopen(self) -> None:
@@ -72,13 +71,11 @@ class Memory:
         return True
 
     def snapshot(self, state: str) -> None:
-        """Keep what all rows so far come to."""
         if self.failure is not None:
             raise self.failure
         self._snapshots = [*self._snapshots[-1:], (self.seq, state)]
 
     def read(self) -> Read:
-        """Return the newest snapshot and the rows after it."""
         after, state = self._snapshots[-1] if self._snapshots else (0, None)
         return Read(self._chunks(after), state, after)
 

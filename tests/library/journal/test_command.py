@@ -146,13 +146,10 @@ class Fact(str):
         return Fact("1")
 
     def items(self) -> list[tuple[str, str]]:
-        """Return some pairs."""
         return [("1", "1")]
 
 
 class Facts(dict[str, object]):
-    """An event with every fact."""
-
     def __missing__(self, key: str) -> object:
         return Fact("1")
 

@@ -18,7 +18,6 @@ class Rows:
         self.rows: list[list[Event]] = []
 
     def add(self, row: str) -> int:
-        """Take a row."""
         self.rows.append(json.loads(row))
         return len(self.rows)
 

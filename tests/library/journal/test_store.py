@@ -58,7 +58,6 @@ class Watched(sqlite3.Connection):
     waits: ClassVar[list[bool]] = []
 
     def execute(self, sql: str, /, *parameters: Any) -> sqlite3.Cursor:
-        """Execute a statement."""
         if sql == "COMMIT":
             (mode,) = super().execute("PRAGMA synchronous").fetchone()
             self.waits.append(mode >= FULL)

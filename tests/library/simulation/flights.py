@@ -42,7 +42,6 @@ class Team(SimulatedNavigation):
         self.kernel, self.faults, self.seed, self.space = kernel, faults, seed, space
 
     async def takeoff(self, drone: str, height: float, order: Flight | None = None) -> None:
-        """Take off for a flight, or for none."""
         body, now = self.bodies[drone], self.kernel.now
         body.check(now)
         drawn = draw(self.faults, self.seed, *order) if order else Drawn()
@@ -50,7 +49,6 @@ class Team(SimulatedNavigation):
         await super().takeoff(drone, height)
 
     async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight."""
         drones = [body.drone for body in self.bodies.values()]
         return await Executor(self.kernel, self, drones, self.space).recover(drone)
 
@@ -87,7 +85,6 @@ def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:
 
 
 def at_home(faults: Faults | None = None, **given: Any) -> tuple[VirtualTime, Team]:
-    """Return a kernel in virtual time and the team in it."""
     kernel = VirtualTime()
     return kernel, team(kernel, faults, **given)
 

@@ -20,7 +20,6 @@ PILLS = Item(name="pills", mass=0.004)
 
 
 def advance(kernel: VirtualTime, seconds: float) -> None:
-    """Let time pass."""
     fly(kernel, kernel.sleep(seconds))
 
 

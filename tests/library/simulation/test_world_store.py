@@ -28,7 +28,6 @@ class Kept(Field):
         self.keeper.take_over(self.navigation.bodies)
 
     def wall(self) -> float:
-        """Return what the clock on the wall shows."""
         return self._begun + self.kernel.now
 
     def moment(self) -> Moment:

@@ -59,8 +59,6 @@ def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
 
 @pytest.mark.long
 class TestWren(NavigationContract):
-    """In real time, as a Wren flies."""
-
     height, speed, away, rest = 0.4, 1.0, 1.0, 0.2
     may_fall = together = True
 

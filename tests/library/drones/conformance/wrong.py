@@ -272,7 +272,6 @@ class Tacit(Wrong):
 
 
 def all_wrong(kind: type[Wrong] = Wrong) -> list[type[Wrong]]:
-    """Return every navigation with a mistake."""
     found: list[type[Wrong]] = []
     for one in kind.__subclasses__():
         found += [one] if hasattr(one, "found_by") else all_wrong(one)

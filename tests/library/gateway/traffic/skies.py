@@ -94,11 +94,9 @@ class Sky(Field):
         return self.kernel.spawn(job, FLEET + 50, f"{drone} is given a job")
 
     def sends(self, command: Call[Any, Any, T]) -> Coroutine[T]:
-        """Begin a command."""
         return self.kernel.spawn(command, FLEET, "a command")
 
     def at(self, drone: str) -> Point:
-        """Return where a drone is."""
         return self.navigation.telemetry[drone].location
 
     async def goes_home(self, drone: str) -> None:
@@ -127,7 +125,6 @@ class Sky(Field):
         body.move(place, now, now, now)
 
     async def pause(self, seconds: float) -> None:
-        """Let a drone do something for so long."""
         await self.kernel.sleep(seconds, EventKind.CLOCK, FLEET)
 
 
@@ -141,7 +138,6 @@ class Restless:
         self.targets, self.trips, self.mishaps = targets, trips, mishaps
 
     def begin(self) -> list[Coroutine[None]]:
-        """Set all drones on their way."""
         spawn = self.sky.kernel.spawn
         return [
             spawn(self._one(drone.id), FLEET + 100 + drone.index, f"{drone.id} is restless")

@@ -101,7 +101,6 @@ def test_the_way_back_is_short_and_leads_to_where_it_may_be(
 
 
 def test_heights_and_targets_are_refused_and_never_made_to_fit() -> None:
-    """With the reason."""
     envelope = Envelope(WALL)
     assert envelope.straight((1, 1, 1.2), (2, 2, 1.2)) == ((2, 2, 1.2),)
     for height in (-0.1, 2.1):

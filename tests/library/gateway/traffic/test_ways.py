@@ -22,7 +22,6 @@ ways = st.lists(points, min_size=1, max_size=4).map(tuple)
 
 
 def part_of(a: tuple[float, ...], b: tuple[float, ...], part: float) -> list[float]:
-    """Return a point between two."""
     return [x + part * (y - x) for x, y in zip(a, b, strict=True)]
 
 
