@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import pytest
 
 from pluto_fleet.shared.domain.trace import Event
-from plutoc.service.document import Document
-from tests.kit.apps import EXAMPLES, MISHAPS, Example, example, loaded
+from tests.kit.apps import EXAMPLES, Example, example, loaded
 
 SEEDS = range(6)
 
@@ -91,47 +90,6 @@ def test_rounds_begin_a_quarter_of_an_hour_apart(apps: Mapping[str, Example]) ->
     """The Clock holds the second round back."""
     launched = events(apps["alfalfa"].fly(0).trace, "trip.launched", mission="North arc", trip="A")
     assert [time(event) for event in launched] == [0.0, 900.0]
-
-
-def declared_gap(name: str) -> float:
-    """Return the gap that an example allows where a trip names none."""
-    source = (EXAMPLES / name / "app.pluto").read_text(encoding="utf-8")
-    graph = Document(path="", text=source).graph
-    (monitor,) = (node for node in graph.nodes if node.block.name == "GapMonitor")
-    default = dict(monitor.values)["default"]
-    assert isinstance(default, float)
-    return default
-
-
-@pytest.mark.parametrize("name", ["aerial_mapping", "pm10"])
-def test_no_gap_is_longer_than_allowed(name: str, apps: Mapping[str, Example]) -> None:
-    """Two actions in a row lie within the gap, or a failed flight lies between them."""
-    example, default = apps[name], declared_gap(name)
-    gaps = {(m.name, t.name): t.gap for m in example.missions for t in m.trips}
-    kept = overdue = 0
-    for seed in SEEDS:
-        trace = example.fly(seed, MISHAPS).trace
-        overdue += sum(
-            "was not done within" in str(e["reason"]) for e in events(trace, "trip.failed")
-        )
-        for before, after in in_a_row(trace):
-            limit = gaps.get((str(after["mission"]), str(after["trip"]))) or default
-            assert time(after) - time(before) <= limit + 1e-6
-            kept += 1
-    assert kept > 100
-    assert overdue > 0, "no seed shows the monitor at work"
-
-
-def in_a_row(trace: Sequence[Event]) -> Iterator[tuple[Event, Event]]:
-    """Yield each two actions of a mission with no failed flight in between."""
-    last: dict[object, Event] = {}
-    for event in trace:
-        if event["event"] == "trip.failed":
-            last.pop(event["mission"], None)
-        elif event["event"] == "trip.completed":
-            if event["mission"] in last:
-                yield last[event["mission"]], event
-            last[event["mission"]] = event
 
 
 def test_maps_end_sharp(apps: Mapping[str, Example]) -> None:

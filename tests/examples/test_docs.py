@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 import re
-import sys
-from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from pluto_fleet.app import described
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
 from plutoc import registry
 from plutoc.cli import main
 from plutoc.source import Source
 from plutoc.syntax.parse import parse
+from tests.kit.apps import fly, loaded
 from tests.paths import ROOT
 
 DOCS = ROOT / "docs"
@@ -82,38 +80,19 @@ def test_missing_arrow_of_the_tutorial_is_found(
     )
 
 
-def test_a_trip_is_put_back_as_the_reference_says(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_trip_is_put_back_as_the_reference_says() -> None:
     """The reference's `once_more` lets a failed trip fly twice, and no more often."""
     code, graph = with_name("once_more", "python"), with_name("once_more", "pluto")
-    source = tmp_path / "again.pluto"
-    source.write_text(
-        "pluto 1\napp trips_again {\n"
+    text = (
+        "pluto 1\napp NAME {\n"
         "create = MissionCreator\nallocate = DroneAllocator\nlaunch = TripLauncher\n"
         "watch = TripMonitor\nstart -> create -> allocate -> launch -> watch\n"
-        f"watch -> allocate when STANDBY\nwatch -> end when COMPLETED\n{graph}}}\n",
-        "utf-8",
+        f"watch -> allocate when STANDBY\nwatch -> end when COMPLETED\n{graph}}}\n"
     )
-    (tmp_path / "hooks.py").write_text(
-        f"from . import Context, Mission, Status\n\n\n{code}", "utf-8"
-    )
-    assert main(["compile", str(source), "-o", str(tmp_path / "out")]) == 0
-    monkeypatch.syspath_prepend(str(tmp_path / "out" / "src"))
-    try:
-        app = described(import_module("trips_again.flow").APP)
-        outcome = simulate(
-            app,
-            [app.mission(name="m", trips=[app.trip(name="A", action="measure", target=(2, 2, 1))])],
-            default_fleet(app),
-            seed=0,
-            faults=Faults(action=1.0),
-            until=None,
-            on_event=None,
-        )
-    finally:
-        for name in [name for name in sys.modules if name.split(".")[0] == "trips_again"]:
-            del sys.modules[name]
+    app = loaded(text, f"from . import Context, Mission, Status\n\n\n{code}").app
+    trip = app.trip(name="A", action="measure", target=(2, 2, 1))
+    made: Any = app.mission(name="m", trips=[trip])
+    outcome = fly(app, made, on=default_fleet(app), faults=Faults(action=1.0))
     (mission,) = outcome.missions
     assert (mission.status.value, mission.attempts) == ("FAILED", 2)
     assert outcome.log[0].startswith("A is tried again: measure failed")

@@ -89,18 +89,3 @@ def test_every_example_says_how_it_is_served() -> None:
         )
         wanted = f'$ pip install -e "./{name}[station]"{areas}\n$ {name} serve --sim'
         assert wanted in text, name
-
-
-def test_a_developer_installs_so_that_edits_count() -> None:
-    """A copy of the package would fly the hooks of the day on which it was installed."""
-    pages = [ROOT / "README.md", *MAKE.pages()]
-    said = [line for page in pages for line in page.read_text("utf-8").splitlines()]
-    lines = [line for line in said if re.search(r"""pip install (-\S+ )*["']?\./""", line)]
-    assert len(lines) > 15
-    apps = "|".join([*APPS, "greenhouse", "APP"])
-    own = [line for line in lines if re.search(rf"\./({apps})\b", line)]
-    assert own and not [line for line in own if "pip install -e " not in line]
-    generated = ROOT / "tests/cases/alfalfa/expected/README.md"
-    said = [line for line in generated.read_text("utf-8").splitlines() if "pip install" in line]
-    without = [line for line in said if "pip install -e " not in line]
-    assert len(said) == 8 and all("--no-index" in line for line in without)

@@ -11,8 +11,7 @@ from __future__ import annotations
 import sys
 from random import Random
 
-from tests.fuzz.tally import WRITTEN_EVERY, Tally
-from tests.fuzz.trial import Outcome, source_of, trial
+from tests.fuzz.trial import WRITTEN_EVERY, Outcome, Tally, source_of, trial
 from tests.kit.campaign import Campaign
 
 

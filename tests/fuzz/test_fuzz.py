@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from tests.fuzz.__main__ import one
-from tests.fuzz.tally import Tally
+from tests.fuzz.trial import Tally
 
 SEEDS = range(80)
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import ast
 import re
 import tomllib
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path, PurePosixPath
 from random import Random
@@ -28,6 +29,9 @@ from plutoc.source import Source
 from tests.fuzz.mutants import changed, spliced
 from tests.kit.graphs.usual import grown
 
+WRITTEN_EVERY = 25
+"""Every so many-th app that is accepted is written to the disk as well."""
+
 TOP = frozenset({".gitattributes", "LICENSE", "README.md", "pyproject.toml", LOCK, "src", "tests"})
 
 _ODD = ("", "async ", "(", "\n", "Misson", "\0", " -> ", "yield ", "await ", "# coding: cp037\n")
@@ -46,6 +50,31 @@ class Outcome:
     """Of its errors; none where it was accepted."""
     hooks: tuple[str, ...]
     """Of the errors in a hooks.py that was changed by chance."""
+
+
+@dataclass(slots=True)
+class Tally:
+    """What became of the inputs so far: by the way in which they were made, and by what was said of them."""
+
+    made: Counter[str] = field(default_factory=Counter)
+    accepted: Counter[str] = field(default_factory=Counter)
+    codes: Counter[str] = field(default_factory=Counter)
+    hooks: Counter[str] = field(default_factory=Counter)
+
+    def add(self, outcome: Outcome) -> None:
+        """Count one; a code once, however often it was given."""
+        self.made[outcome.way] += 1
+        self.accepted[outcome.way] += not outcome.codes
+        self.codes.update(set(outcome.codes))
+        self.hooks.update(set(outcome.hooks))
+
+    def lines(self) -> Iterator[str]:
+        """Say what was counted."""
+        for title in ("made", "accepted", "codes", "hooks"):
+            counts: Counter[str] = getattr(self, title)
+            yield f"{title} ({counts.total()}): " + ", ".join(
+                f"{k} {counts[k]}" for k in sorted(counts)
+            )
 
 
 def source_of(random: Random) -> tuple[str, bytes]:

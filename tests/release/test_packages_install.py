@@ -6,6 +6,7 @@ import json
 import signal
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 from urllib.request import urlopen
@@ -201,6 +202,15 @@ def test_the_compiler_alone_runs_apps_and_says_what_its_trials_need(tmp_path: Pa
     app = ROOT / "examples/drugs_distribution/app.pluto"
     assert "alone in the air" in succeed(programs / "plutoc", "run", app).splitlines()[-1]
     missing(run(programs / "plutoc", "test", app), "test")
+
+
+def test_the_extra_names_the_version_that_the_tests_fly_with() -> None:
+    """With its mends; another minor version may do otherwise."""
+    for file in ("plutoc/emit/templates/pyproject.toml.jinja", "runtime/pyproject.toml"):
+        assert 'crazyflie = ["cflib>=0.1.34,<0.2"]' in (ROOT / file).read_text(encoding="utf-8")
+    major, minor, *mend = map(int, version("cflib").split(".")[:3])
+    assert (major, minor) == (0, 1)
+    assert mend >= [34]
 
 
 def simulated(program: Path, example: Path) -> dict[str, Any]:

@@ -84,36 +84,6 @@ def test_a_hook_that_raises_keyboard_interrupt_interrupts_nothing(app: Path) -> 
     assert "interrupted" not in said.err
 
 
-def test_a_case_is_said_to_show_it_only_if_its_command_does(app: Path) -> None:
-    """What hooks.py keeps from run to run is not there when the command is typed."""
-    begins = "    done = {result.trip.target"
-    counted = (
-        "    global CALLS\n    CALLS += 1\n    if CALLS > 30:\n        raise LookupError('many')\n"
-    )
-    edit(begins, counted + begins)
-    edit(
-        "from __future__ import annotations\n", "from __future__ import annotations\n\nCALLS = 0\n"
-    )
-    said = plutoc("test", app, "--seeds", "1")
-    assert said.code == 1
-    assert "LookupError: many" in said.out.partition("What was found first:")[2]
-    assert "flown once more by itself, the case did not show it" in said.out
-    assert "The smallest case" not in said.out
-
-
-def test_a_program_gets_one_object(app: Path) -> None:
-    """With every finding, and the smallest case as text."""
-    broken()
-    said = plutoc("test", app, "--seeds", "1", "--json")
-    data = json.loads(said.out)
-    assert said.code == 1
-    keys = "app runs lives rows missions struck findings smallest"
-    assert list(data) == keys.split()
-    assert data["findings"][0]["seed"] == 0
-    assert list(data["findings"][0]) == ["seed", "what", "strike", "weather"]
-    assert list(data["smallest"]) == ["what", "seed", "strike", "weather", "missions", "fleet"]
-
-
 def test_its_own_missions_are_tried_when_asked_for(app: Path) -> None:
     """What would repeat for ever repeats once."""
     Path("mine.toml").write_text(

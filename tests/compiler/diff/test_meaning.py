@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from itertools import islice
 from random import Random
@@ -20,7 +21,7 @@ from plutoc.plan.show import show
 from plutoc.source import Source
 from tests.compiler.diff.pairs import EXAMPLES, difference, sentences, version
 from tests.format.layouts import Liberty, laid_out, words_of
-from tests.soundness.app import App, Arrow, Block
+from tests.soundness.app import App
 from tests.soundness.mutants import mutants
 from tests.soundness.thesis import thesis_graphs
 
@@ -73,7 +74,7 @@ def test_the_order_of_declarations_means_nothing(name: str, seed: int) -> None:
     places = [arrow.source for arrow in arrows]
     kept = {source: [a for a in app.arrows if a.source == source] for source in places}
     in_turn = tuple(kept[source].pop(0) for source in places)
-    other = App(name=app.name, rest=tuple(rest), blocks=tuple(blocks), arrows=in_turn)
+    other = replace(app, rest=tuple(rest), blocks=tuple(blocks), arrows=in_turn)
     assert sentences(app.text, other.text) == []
 
 
@@ -95,26 +96,11 @@ def renamed(app: App, names: dict[str, str]) -> App:
     def called(name: str) -> str:
         return names.get(name, name)
 
-    return App(
-        name=app.name,
-        rest=app.rest,
-        blocks=tuple(
-            Block(
-                name=called(block.name),
-                kind=block.kind,
-                written=block.written,
-                emits=block.emits,
-                limit=block.limit,
-            )
-            for block in app.blocks
-        ),
+    return replace(
+        app,
+        blocks=tuple(replace(block, name=called(block.name)) for block in app.blocks),
         arrows=tuple(
-            Arrow(
-                source=called(arrow.source),
-                target=called(arrow.target),
-                guard=arrow.guard,
-                otherwise=arrow.otherwise,
-            )
+            replace(arrow, source=called(arrow.source), target=called(arrow.target))
             for arrow in app.arrows
         ),
     )

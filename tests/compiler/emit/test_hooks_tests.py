@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,14 +11,12 @@ import pytest
 from plutoc.emit.package import emit
 from tests.compiler.emit.apps import ODD_NAMES, PARCELS, TYPED
 from tests.compiler.emit.plans import plan_of
-from tests.kit.apps import compiled
+from tests.kit.command import python
 from tests.kit.sections import given
-from tests.paths import EXAMPLES
 
 pytestmark = pytest.mark.long
 
 HERE = Path(__file__).parent
-WITH_HOOKS = sorted(path.parent.name for path in EXAMPLES.glob("*/hooks.py"))
 STUBS = {"odd": ODD_NAMES, "parcels": PARCELS, "typed": TYPED, **given(HERE / "stubs.txt")}
 EXPECTED = re.compile(r"  # (note|error): (.+)$")
 
@@ -34,18 +30,10 @@ def written(text: str, folder: Path) -> Path:
     return folder
 
 
-def run(folder: Path, *command: str) -> str:
+def run(folder: Path, *words: str) -> str:
     """Run Python in a package's folder, and return what it printed."""
-    environment = {**os.environ, "PYTHONPATH": "src", "MYPYPATH": "src"}
-    done = subprocess.run(
-        [sys.executable, *command],
-        cwd=folder,
-        env={**environment, "PYTHONDONTWRITEBYTECODE": "1"},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    return done.stdout + done.stderr
+    done = python(*words, cwd=folder, PYTHONPATH="src", MYPYPATH="src")
+    return done.out + done.err
 
 
 PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "tests")
@@ -55,12 +43,6 @@ PYTEST = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "tests")
 def test_stubs_pass(text: str, tmp_path: Path) -> None:
     """Under any names, in every place that a hook can have; and the package flies as it is."""
     assert re.search(r"^\d+ passed", run(written(text, tmp_path), *PYTEST), re.MULTILINE)
-
-
-@pytest.mark.parametrize("name", WITH_HOOKS)
-def test_they_hold_for_hooks_that_are_written(name: str, tmp_path: Path) -> None:
-    """A hooks.py beside the app becomes the package's, and the tests are none the wiser."""
-    assert re.search(r"^\d+ passed", run(compiled(name, tmp_path), *PYTEST), re.MULTILINE)
 
 
 def test_what_an_app_declares_a_type_checker_knows(tmp_path: Path) -> None:

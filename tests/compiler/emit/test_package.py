@@ -6,7 +6,7 @@ import ast
 import re
 import tomllib
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import partial
 from hashlib import sha256
 from importlib import import_module
@@ -24,7 +24,9 @@ from plutoc.emit.project_files import project_file
 from plutoc.emit.readme_file import readme
 from plutoc.emit.render import owned
 from plutoc.graph.app_names import taken_app_name
+from plutoc.graph.categories import PARAMS
 from plutoc.plan.model import Plan
+from plutoc_runtime.domain.model import Category
 from tests.compiler.emit.apps import ODD_NAMES, PARCELS, PLAIN, TYPED
 from tests.compiler.emit.plans import plan_of
 from tests.kit.apps import imported
@@ -227,3 +229,11 @@ def test_no_title_changes_the_shape_of_a_file(title: str) -> None:
     lines = readme(plan.checked.graph, "app.pluto", "flowchart TD").splitlines()
     differing = [line for line in lines if line not in README]
     assert len(differing) <= 1 and all(line.startswith("**") for line in differing)
+
+
+def test_a_category_that_is_left_at_its_defaults_means_the_same_to_the_runtime() -> None:
+    """The compiler writes what differs from the language's defaults; the runtime has its own."""
+    runtimes = {field.name: field.default for field in fields(Category)}
+    assert {param.name: param.default for param in PARAMS} == {
+        param.name: runtimes[param.name] for param in PARAMS
+    }

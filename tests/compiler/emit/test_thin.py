@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import ast
-import re
 from collections.abc import Iterator
 from functools import cache
 
@@ -73,48 +72,3 @@ def _imported(text: str) -> Iterator[str]:
             yield from (alias.name.partition(".")[0] for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and not node.level:
             yield (node.module or "").partition(".")[0]
-
-
-ONLY_WITH = {
-    "flow.judgement": "MissionEvaluator",
-    "flow.modification": "MissionModifier",
-}
-"""Modules of the runtime that a kind of block alone needs."""
-OF_HOOKS = {"hooks.calls", "hooks.context", "alone.testing", "time.virtual"}
-"""What calls the app's own code, and what that is given."""
-OF_STRANGERS = ("flow.declared",)
-"""What holds blocks of other packages to what they declare: no example has one."""
-
-
-@pytest.mark.parametrize("example", NAMES)
-def test_modules_that_nothing_needs_stay_behind(example: str) -> None:
-    """A module that some app carries is carried by those that need it, and by no other."""
-    text = (EXAMPLES / example / "app.pluto").read_text(encoding="utf-8")
-    carried = carried_by(example)
-    for module, kind in ONLY_WITH.items():
-        assert (module in carried) == (kind in text)
-    hooks = set(re.findall(r"^ *(action|evaluator|modifier|policy) ", text, re.MULTILINE))
-    assert carried & OF_HOOKS == (OF_HOOKS if hooks else set())
-    assert ("flow.asking" in carried) == bool(hooks - {"policy"})
-    assert not carried & set(OF_STRANGERS)
-    chosen = re.search(r"policy: (\w+)", text)
-    assert carried & POLICIES == NEEDED.get(chosen[1] if chosen else "least_makespan", OWN)
-
-
-NEEDED = {
-    "batch_optimal": {"fleet.assignment", "fleet.batch", "fleet.batch_optimal"},
-    "earliest_deadline": {"fleet.batch", "fleet.durations", "fleet.earliest_deadline"},
-    "least_makespan": {"fleet.batch", "fleet.durations", "fleet.least_makespan"},
-    **{name: set[str]() for name in ("first", "least_used", "nearest")},
-}
-"""The modules of each policy of ours, beside `fleet.policies`."""
-OWN = {"fleet.batch", "fleet.own_batch", "fleet.own_policy"}
-"""That of a policy that is a hook of the app's own."""
-POLICIES = OWN.union(*NEEDED.values())
-
-
-def carried_by(name: str) -> set[str]:
-    """Return the modules of the runtime that an app carries, its blocks' steps aside."""
-    paths = [path.partition("/_runtime/")[2] for path in package(name)]
-    names = {path.removesuffix(".py").replace("/", ".") for path in paths if path.endswith(".py")}
-    return {name for name in names if not name.startswith("blocks.") and "__init__" not in name}

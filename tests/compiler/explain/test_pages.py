@@ -16,7 +16,6 @@ from tests.compiler.explain.examples import (
     headings,
     said_of,
     type_in,
-    typed,
     write,
 )
 
@@ -53,9 +52,9 @@ def test_a_session_gives_its_code_and_no_other_and_nothing_once_it_is_mended(
     folder = tmp_path / "work"
     folder.mkdir()
     write(shown, folder)
-    done = type_in(typed(shown.console or ""), folder, tmp_path / "programs")
-    assert set(CODE.findall(done.said)) == (set() if mended else {code}), done.said
-    assert done.code == 0 or not mended, done.said
+    ended, said = type_in(shown.console or "", folder, tmp_path / "programs")
+    assert set(CODE.findall(said)) == (set() if mended else {code}), said
+    assert ended == 0 or not mended, said
 
 
 @pytest.mark.parametrize("code", CODES)

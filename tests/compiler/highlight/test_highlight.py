@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 from importlib import import_module
-from json import loads
 from pathlib import Path
 
 import pytest
 from pygments import token
 
 from plutoc.highlight.pygments_lexer import PlutoLexer
-from plutoc.highlight.rules import RULES, SCOPES, grammar
+from plutoc.highlight.rules import grammar
 from plutoc.syntax.tokens import OWNERS, SETTINGS, WORDS
 from plutoc_runtime.domain.quantities import UNITS
 from tests.paths import ROOT
@@ -82,13 +80,6 @@ def test_the_grammar_for_editors_is_current(update: bool) -> None:
     if update:
         TEXTMATE.write_text(grammar(), encoding="utf-8")
     assert TEXTMATE.read_text(encoding="utf-8") == grammar()
-
-
-def test_the_grammar_for_editors_has_each_rule_once() -> None:
-    patterns = loads(grammar())["patterns"]
-    assert [one["match"] for one in patterns] == [rule.pattern for rule in RULES]
-    assert {one["name"] for one in patterns} == {f"{scope}.pluto" for scope in SCOPES.values()}
-    assert all(re.compile(one["match"]) for one in patterns)
 
 
 def test_pygments_finds_the_lexer_where_the_package_says() -> None:

@@ -14,13 +14,11 @@ import pytest
 from plutoc.compile import analyse, check_hooks, policies_for_all
 from plutoc.diagnostic import Diagnostic, Rejected
 from plutoc.edits import applied
-from plutoc.emit.hooks_file import hooks_file
 from plutoc.emit.hooks_tests import hooks_test
 from plutoc.hooks.add import with_stubs
 from plutoc.hooks.awaits import MUST_BE_AWAITED
 from plutoc.source import Source
 from plutoc_runtime.hooks.context import Context, LiveDrone
-from tests.compiler.emit.apps import ODD_NAMES
 from tests.kit.findings import findings
 from tests.kit.sections import Section, compare, params
 
@@ -89,13 +87,6 @@ def test_stubs_import_what_they_name_once() -> None:
         "from . import Context, Mission, Results, Status, Verdict",
     ]
     assert with_stubs(CROP, Source("hooks.py", "def (")) == "def ("
-
-
-def test_fresh_stubs_are_right_for_all_names_of_an_app() -> None:
-    """Also where an action is called like a type of Python's."""
-    for app in (APP, ODD_NAMES):
-        checked = analyse(Source("app.pluto", app))[0]
-        assert found(Source("hooks.py", hooks_file(checked)), app) == ()
 
 
 def test_the_test_of_a_policy_is_written_for_its_shape() -> None:

@@ -73,30 +73,6 @@ def test_a_hook_goes_on_with_the_clock(kit: Kit) -> None:
     assert context.lines == ["carrier 1 has poured at 5 s"]
 
 
-def test_each_wait_ends_at_its_own_instant(kit: Kit) -> None:
-    """However far the clock is moved at once."""
-    seen: list[float] = []
-
-    async def look(drone: Drone, trip: Trip, context: Context) -> None:
-        for _ in range(3):
-            await context.sleep(2.0)
-            seen.append(context.now)
-
-    kit.start(look, kit.drone(), kit.trip(), kit.context())
-    kit.clock.advance(5.0)
-    assert seen == [2.0, 4.0] and kit.clock.now == 5.0
-    kit.clock.advance(1.0)
-    assert seen == [2.0, 4.0, 6.0]
-
-
-def test_call_lets_time_pass_until_the_hook_has_ended(kit: Kit) -> None:
-    """And no longer."""
-    context = kit.context()
-    context.sensors |= {"range.zrange": 900.0, "pump.poured": 20.0}
-    assert kit.call(pour, kit.drone(), kit.trip(), context, amount=20.0) == 20.0
-    assert kit.clock.now == 5.0
-
-
 def test_what_a_hook_raises_reaches_the_test_as_it_is(kit: Kit) -> None:
     """`ActionFailed`, a mistake, and what pytest itself raises."""
     context = kit.context()

@@ -11,7 +11,9 @@ import pytest
 from lsprotocol import types
 
 from plutoc.cli import main
+from plutoc.lsp.answers import Answers
 from plutoc.lsp.places import Places
+from plutoc.lsp.server import Server
 from plutoc.source import Source, Span
 from tests.compiler.lsp.client import Client, uri_of
 from tests.compiler.lsp.conftest import EXAMPLES, talk
@@ -109,3 +111,26 @@ def test_without_the_extra_one_line_says_how_to_get_it(monkeypatch: pytest.Monke
     monkeypatch.setitem(sys.modules, "lsprotocol", None)
     ran = run(main, "lsp")
     assert (ran.code, ran.err) == (2, 'plutoc: lsp needs a library: pip install "plutoc[editor]"\n')
+
+
+@pytest.mark.parametrize(("asked", "shows"), [("", False), ("1", True)])
+def test_a_mistake_of_ours_is_logged_with_its_place_where_that_is_asked_for(
+    monkeypatch: pytest.MonkeyPatch, asked: str, shows: bool
+) -> None:
+    logged: list[str] = []
+
+    def broken(*_: object) -> None:
+        raise KeyError("x")
+
+    def log(params: types.LogMessageParams) -> None:
+        logged.append(params.message)
+
+    monkeypatch.setenv("PLUTO_DEBUG", asked)
+    monkeypatch.setattr(Answers, "diagnostics", broken)
+    server = Server()
+    monkeypatch.setattr(server, "window_log_message", log)
+    server.apps.open("untitled:farm.pluto", "pluto 1\n", 1, "pluto")
+    server.publish("untitled:farm.pluto")
+    (said,) = logged
+    assert said.startswith("internal error (P9001): KeyError: 'x'")
+    assert ("Traceback" in said) == shows

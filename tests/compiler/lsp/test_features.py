@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from lsprotocol import types
 from lsprotocol.types import Position, PositionEncodingKind, Range
+from pygls.exceptions import JsonRpcException
 
 from plutoc.format.run import format_source
 from plutoc.lsp.places import Places
@@ -55,6 +56,12 @@ def test_renaming_and_back_gives_the_bytes_there_were(alfalfa: Path) -> None:
     async def act(client: Client) -> tuple[list[str], list[str]]:
         texts = {uri_of(path): path.read_text(encoding="utf-8") for path in (app, hooks)}
         before = dict(texts)
+        client.open(uri_of(app), texts[uri_of(app)])
+        taken = types.RenameParams(
+            types.TextDocumentIdentifier(uri_of(app)), place(texts[uri_of(app)], "retry ="), "first"
+        )
+        with pytest.raises(JsonRpcException, match="`first` is declared already"):
+            await client.text_document_rename_async(taken)
         for version, (old, new) in enumerate((("find_blooms", "see"), ("see", "find_blooms"))):
             text = texts[uri_of(app)]
             for uri, now in texts.items():
@@ -86,6 +93,14 @@ def test_a_hook_leads_to_its_function_and_back(alfalfa: Path) -> None:
     async def act(client: Client) -> tuple[object, object]:
         client.open(app, TEXT)
         client.open(hooks, code)
+        used = await client.text_document_references_async(
+            types.ReferenceParams(
+                types.ReferenceContext(True),
+                types.TextDocumentIdentifier(app),
+                place(TEXT, "-> retry", 4),
+            )
+        )
+        assert len(used or []) == TEXT.count("retry")
         there = await client.text_document_definition_async(
             types.DefinitionParams(types.TextDocumentIdentifier(app), place(TEXT, "find_blooms\n"))
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
+from typing import Any
 
 import pytest
 
@@ -87,6 +88,10 @@ WRONG: dict[str, tuple[Body, str]] = {
         loop(arm((End(),), "STANDBY", "COMPLETED"), arm((), "FAILED")),
         "from a no edge leads STANDBY to end",
     ),
+    "blocks that nothing leads to": (
+        (call("create"), Loop(head="a", body=(Continue(),))),
+        "missions can reach what the plan never does: a, b",
+    ),
     "a block left out": (
         (call("create"), Loop(head="a", body=(call("a"), Switch(arms=(ENDS, ON), decided=True)))),
         "from a no edge leads STANDBY to a",
@@ -107,15 +112,15 @@ def test_a_spoilt_plan_is_refused(name: str) -> None:
         verify(Plan(checked=GRAPH, body=body))
 
 
-def spoilt_join(**changes: object) -> Plan:
+def spoilt_join(**changes: Any) -> Plan:
     """The plan of a graph with a fork, with something else in the join's first branch."""
     first, join, *rest = FORKED.body
     assert isinstance(join, Join)
     left, right = join.branches
     spoilt = Branch(
-        name=str(changes.get("name", left.name)),
+        name=changes.get("name", left.name),
         path=left.path,
-        body=(Continue(),) if "body" in changes else left.body,
+        body=changes.get("body", left.body),
     )
     branches = (right, left) if "swapped" in changes else (spoilt, right)
     return replace(FORKED, body=(first, replace(join, branches=branches), *rest))
@@ -129,11 +134,12 @@ def spoilt_join(**changes: object) -> Plan:
         ({"name": "__left"}, "not a private name"),
         ({"name": "_"}, "not a private name"),
         ({"name": "_le-ft"}, "not a private name"),
-        ({"body": None}, "branch _left: continue outside of a loop"),
+        ({"body": (Continue(),)}, "branch _left: continue outside of a loop"),
+        ({"body": (Loop(head="left", body=(Continue(),)),)}, "the branch never comes to its gate"),
         ({"swapped": None}, "has other branches"),
     ],
 )
-def test_a_spoilt_branch_is_refused(changes: dict[str, object], message: str) -> None:
+def test_a_spoilt_branch_is_refused(changes: dict[str, Any], message: str) -> None:
     """A branch is a function: it has a name of its own and ends by itself."""
     with pytest.raises(BadPlan, match=message):
         verify(spoilt_join(**changes))

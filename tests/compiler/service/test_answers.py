@@ -7,6 +7,7 @@
 from __future__ import annotations
 
 import json
+import random
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -25,6 +26,7 @@ from plutoc.service.reading.hover import hover
 from plutoc.source import Source
 from tests.compiler.service.test_fields import APP as FIELD
 from tests.kit.sections import Section, compare, params
+from tests.lsp.holes import FIRST, cuts, mistakes, offered, rank
 from tests.paths import EXAMPLES
 
 HERE = Path(__file__).parent
@@ -117,3 +119,15 @@ def _explained(text: str) -> Iterator[str]:
         lines = said.splitlines()
         kept = lines if len(lines) < 16 else [*lines[:8], "..."]  # of a page, its beginning
         yield from (f"    {each}".rstrip() for each in kept)
+
+
+def test_what_was_cut_out_is_among_the_first_and_all_that_is_offered_is_legal() -> None:
+    """A share of the thousand holes of `python -m tests.lsp`."""
+    chosen = random.Random(3).sample(cuts(1000), 25)
+    among = 0
+    for cut in chosen:
+        made = offered(cut)
+        assert mistakes(cut, made) == [], (cut.path, cut.word)
+        found = rank(cut, made)
+        among += found is not None and found < FIRST
+    assert among >= 0.95 * len(chosen)

@@ -15,7 +15,7 @@ from plutoc.report.text import render
 from plutoc.source import LARGEST, Source
 from plutoc.syntax.layout import DEEPEST
 from plutoc.syntax.parse import parse
-from tests.compiler.syntax.test_parse import SAMPLE, statements
+from tests.compiler.syntax.test_parse import SAMPLE
 
 TOKENS = [match.span() for match in re.finditer(r"\w+|->|[^\w\s]", SAMPLE)]
 
@@ -79,16 +79,6 @@ def test_hidden_characters_are_refused_everywhere(char: str) -> None:
     assert in_app(f'a = K(x: "a{char}b")') == ["P0004 1"]
     assert in_app(f"a = K  # a{char}b") == ["P0004 1"]
     assert in_app(f"a {char}= K") == ["P0003 1"]
-
-
-def test_visible_texts_are_not_refused() -> None:
-    """Any script and any sign, joined as people join them."""
-    assert len(statements('a = K(x: "日本語 ü → 👩\u200d🌾 \u0645\u06cc\u200c")')) == 1
-
-
-def test_lone_carriage_return_is_refused() -> None:
-    """Printed, it would hide the text before it."""
-    assert in_app("a = K  # start\rb -> c") == ["P0004 1"]
 
 
 @settings(max_examples=150, deadline=None)

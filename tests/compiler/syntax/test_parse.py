@@ -11,7 +11,6 @@ from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
     Bool,
-    CategoryDecl,
     FieldsDecl,
     File,
     FlowDecl,
@@ -20,12 +19,10 @@ from plutoc.syntax.tree import (
     Name,
     Number,
     Quantity,
-    RequiresDecl,
     ResultDecl,
     Statement,
     Text,
     Value,
-    VersionDecl,
 )
 from tests.paths import CASES
 
@@ -54,32 +51,6 @@ def flow(text: str) -> list[tuple[str, ...]]:
     (found,) = statements(text)
     assert isinstance(found, FlowDecl)
     return [tuple(name.text for name in stop.names) for stop in found.stops]
-
-
-def test_sample_has_all_its_statements() -> None:
-    """The app of the thesis's section 6.1.2."""
-    file = parsed(SAMPLE)
-    assert (file.app.name.text, file.app.title and file.app.title.value) == (
-        "alfalfa",
-        "Alfalfa crop monitoring",
-    )
-    kinds = [type(statement) for statement in file.app.statements]
-    assert [kinds.count(k) for k in (CategoryDecl, ActionDecl, HookDecl, BlockDecl, FlowDecl)] == [
-        2,
-        1,
-        1,
-        10,
-        11,
-    ]
-
-
-def test_use() -> None:
-    """With and without another name."""
-    uses = parsed("pluto 1\nuse a\nuse b as c\napp demo {}").uses
-    assert [(use.package.text, use.alias and use.alias.text) for use in uses] == [
-        ("a", None),
-        ("b", "c"),
-    ]
 
 
 def test_values() -> None:
@@ -116,29 +87,6 @@ def test_hooks() -> None:
     assert [n.text for n in (*full.emits, *full.writes)] == ["STANDBY", "FAILED", "delay", "gap"]
     assert (full.kind, bare.kind, bare.parameters, bare.emits) == ("modifier", "policy", (), ())
     assert isinstance(action, ActionDecl) and action.repeat and action.repeat.text == "ask"
-
-
-def test_guards() -> None:
-    """`when` names statuses, `otherwise` names none."""
-    one, two, three = statements("a -> b when X, Y\na -> b otherwise\na -> b")
-    assert isinstance(one, FlowDecl) and isinstance(two, FlowDecl) and isinstance(three, FlowDecl)
-    assert one.guard and [n.text for n in one.guard.statuses] == ["X", "Y"]
-    assert two.guard and two.guard.otherwise and two.guard.statuses == ()
-    assert three.guard is None
-
-
-def test_prefix() -> None:
-    """A kind of a used package."""
-    (block,) = statements("scan = survey.GridScan(spacing: 2 m)")
-    assert isinstance(block, BlockDecl) and block.prefix and block.prefix.text == "survey"
-
-
-def test_settings() -> None:
-    """A version, and a list without brackets; its last comma may be there."""
-    version, requires = statements('version "1.2.0"\nrequires "numpy>=2", "requests",')
-    assert isinstance(version, VersionDecl) and version.version.value == "1.2.0"
-    assert isinstance(requires, RequiresDecl)
-    assert [text.value for text in requires.libraries] == ["numpy>=2", "requests"]
 
 
 @pytest.mark.parametrize("word", SOFT_WORDS)
@@ -222,11 +170,6 @@ def test_app_on_one_line(end: str) -> None:
     """A brace ends the last statement."""
     file = parsed("pluto 1\napp demo { a -> b }" + end)
     assert len(file.app.statements) == 1
-
-
-def test_byte_order_mark_is_tolerated() -> None:
-    """At the beginning, where some editors write one."""
-    assert parsed("\ufeff" + SAMPLE).app.name.text == "alfalfa"
 
 
 def test_spans_are_places_in_the_source() -> None:

@@ -119,14 +119,6 @@ def test_every_edit_has_a_tree_with_places_in_the_text(place: tuple[int, int], b
         behind = statement.span.end
 
 
-@settings(max_examples=100, deadline=None, derandomize=True)
-@given(st.text(max_size=80))
-def test_any_text_has_a_tree(text: str) -> None:
-    """All that stands in an app, or in the place of one."""
-    for whole in (text, f"pluto 1\n{text}", f"pluto 1\napp a {{\n{text}\n}}\n"):
-        assert isinstance(read_text(whole)[0], File)
-
-
 @pytest.mark.parametrize("before", ["", "ж"])
 def test_every_control_character_is_refused(before: str) -> None:
     """Beside plain letters as beside others; but tabs and what ends a line."""

@@ -1,8 +1,10 @@
-"""The examples that an app can begin with are in the wheel."""
+"""What comes first after an install or in a fresh checkout: an example to begin with, and a flown mission."""
 
 from __future__ import annotations
 
 import os
+import re
+import shutil
 import sys
 from pathlib import Path
 from zipfile import ZipFile
@@ -30,3 +32,18 @@ def test_an_installed_compiler_brings_the_examples(tmp_path: Path) -> None:
     assert made.code == 0, made.err
     checked = run(*program, "check", "mine/mine.pluto", cwd=tmp_path, PYTHONPATH=str(there))
     assert "no errors" in checked.out, checked.err
+
+
+NOT_SOURCES = shutil.ignore_patterns(".*_cache", ".git", ".hypothesis", ".venv", "__pycache__")
+
+
+def test_the_readmes_first_command_ends_with_a_flown_mission_on_the_screen(
+    tmp_path: Path,
+) -> None:
+    checkout = tmp_path / "checkout"
+    shutil.copytree(ROOT, checkout, ignore=NOT_SOURCES)
+    readme = (ROOT / "README.md").read_text()
+    commands = re.findall(r"^```\n(python3 .*)\n```$", readme, re.MULTILINE)
+    out = succeed("bash", "-c", commands[0], cwd=checkout)
+    assert "Mission 3: COMPLETED" in out
+    assert "3 of 3 missions completed" in out.splitlines()[-2]
