@@ -16,7 +16,6 @@ from tests.kit.browser import BREAKS, LAPTOP, PHONE, SCHEMES, Scheme, Watch
 from tests.kit.pictures import kept
 from tests.kit.station import Station
 from tests.library.station.browser.conftest import Serve, Visit
-from tests.library.station.browser.steps import settled
 from tests.pages.looking import in_language, looked_at
 from tests.pages.scenes import Scenes, a_flight, heat, scenes
 from tests.paths import EXAMPLES, ROOT
@@ -26,7 +25,6 @@ SHOWN = ("empty-missions", "missions", "trips", "monitor", "results", "history",
 
 FOLDER = ROOT / "docs" / "station"
 SIZES = {"laptop": LAPTOP, "phone": PHONE}
-SMALLER = (360, 740)
 SMALL = 100_000
 """Bytes of a picture."""
 
@@ -45,21 +43,10 @@ def look_through(page: Page, station: Station, play: Scenes, device: str, update
 
         found = looked_at(page, keep if scene in SHOWN else None)
         if device == "phone":
-            found += smaller(page)
             found += in_language(page, other, lambda: looked_at(page))
         if found:
             wrong[scene] = found
     assert wrong == {}
-
-
-def smaller(page: Page) -> list[str]:
-    """Look at the same on a screen that is smaller still."""
-    page.set_viewport_size({"width": SMALLER[0], "height": SMALLER[1]})
-    settled(page)
-    found = looked_at(page)
-    page.set_viewport_size({"width": PHONE[0], "height": PHONE[1]})
-    settled(page)
-    return found
 
 
 @pytest.mark.long  # minutes

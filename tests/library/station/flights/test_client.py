@@ -6,10 +6,10 @@ import asyncio
 import json
 import re
 import runpy
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Callable
+from contextlib import redirect_stdout
 from io import StringIO
-from typing import Any, TypeVar
+from typing import Any
 from zipfile import ZipFile
 
 import pytest
@@ -18,40 +18,26 @@ from jsonschema import Draft202012Validator
 from pluto_fleet.client import Outdated, Refused
 from pluto_fleet.client import Station as Client
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.web.guard import Guard
-from pluto_fleet.station.web.listening import listening, port_of
 from pluto_fleet.station.web.reads import DESCRIPTION
-from pluto_fleet.station.web.server import serve as serve_web
 from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
+from tests.library.station.server.serving import hosted
 from tests.paths import ROOT
 
 PAGE = (ROOT / "docs" / "http.md").read_text("utf-8")
 DESCRIBED = json.loads(DESCRIPTION.read_text("utf-8"))
-T = TypeVar("T")
 
 
-@contextmanager
-def on_a_port(station: Flown, **guard: Any) -> Iterator[str]:
-    """Serve a station where programs can ask it; give its address."""
-    with listening("127.0.0.1", 0) as listener:
-        port = port_of(listener)
-        api = station.served(Guard(host="127.0.0.1", port=port, **guard))
-        ready = asyncio.Event()
-        serving = station.world.loop.create_task(serve_web(api, listener, ready.set))
-        station.world.run(ready.wait())
-        yield f"http://127.0.0.1:{port}"
-        serving.cancel()
-        station.until(serving.done, "the server has ended")
+def beside(station: Flown, program: Callable[[str], None], **guard: Any) -> None:
+    """Serve a station, and run a program that is told where."""
 
+    async def both() -> None:
+        async with hosted(station.served, **guard) as guarded:
+            await asyncio.to_thread(program, f"http://127.0.0.1:{guarded.port}")
 
-def by(station: Flown, program: Callable[[], T]) -> T:
-    """Run a program beside the station."""
     station.world.loop.goes_on = True
-    try:
-        return station.world.run(asyncio.to_thread(program))
-    finally:
-        station.world.loop.goes_on = False
+    station.world.run(both())
+    station.world.loop.goes_on = False
 
 
 def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Serve) -> None:
@@ -75,8 +61,7 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
             client.discard()
         assert refused.value.status == 409
 
-    with on_a_port(station) as url:
-        by(station, lambda: program(url))
+    beside(station, program)
     assert said.getvalue() == output
     assert "night shift" in [line.get("by") for line in station.audit()]
 
@@ -96,8 +81,7 @@ def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: 
         with pytest.raises(Refused, match="this needs the token"):
             Client(url).plan()
 
-    with on_a_port(station, names=("ward.example",), token="sesame", watch_token="poppy") as url:
-        by(station, lambda: program(url))
+    beside(station, program, names=("ward.example",), token="sesame", watch_token="poppy")
     assert [begun["by"] for begun in station.events("journal.begun")] == ["Zübeyde"]
 
 

@@ -1,4 +1,4 @@
-"""Ways around no-fly areas, and the places of an area, as pages ask for them."""
+"""Ways around no-fly areas, the places of an area, and what a point is called, as pages ask for them."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Zone
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.ways import MOST_WAYS, DrawnWays
+from pluto_fleet.station.places import name_of
 from tests.library.files.an_app import APP
 
 LIFT = ((4.0, 0.0), (6.0, 0.0), (6.0, 6.0), (4.0, 6.0))
@@ -50,3 +52,31 @@ def test_an_area_that_is_closed_cannot_be_swept() -> None:
         asyncio.run(DrawnWays(MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
     with pytest.raises(BadInput):
         asyncio.run(DrawnWays(MAP).ways([[]] * (MOST_WAYS + 1)))
+
+
+WARD = Landmarks(
+    places=(NamedPlace(name="Bed", at=(2.0, 2.0)), NamedPlace(name="Chair", at=(2.6, 2.0, 0.5))),
+    zones=(
+        Zone(name="House", corners=((0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0))),
+        Zone(name="Room", corners=((0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0))),
+    ),
+)
+
+
+@pytest.mark.parametrize(
+    ("point", "name"),
+    [
+        ((2.0, 2.0), "Bed"),
+        ((1.5, 2.0, 3.0), "Bed"),
+        ((2.4, 2.0), "Chair"),
+        ((1.4, 2.0), "Room"),
+        ((4.0, 4.0), "Room"),
+        ((5.0, 4.0), "House"),
+        ((11.0, 4.0), None),
+    ],
+)
+def test_a_point_is_at_the_nearest_place_or_in_the_smallest_zone(
+    point: tuple[float, ...], name: str | None
+) -> None:
+    """A place within half a metre comes first; an edge belongs to its zone."""
+    assert name_of(WARD, point) == name

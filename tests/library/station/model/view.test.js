@@ -2,6 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { calibrated } from "../../../../runtime/pluto_fleet/station/pages/places/calibration.js";
 import * as view from "../../../../runtime/pluto_fleet/station/pages/map/view.js";
 
 const BOX = { width: 1000, height: 600 };
@@ -48,4 +49,12 @@ test("a place behind a wall, or beyond the map, cannot be flown to", () => {
   assert.equal(view.whyNot(map, [6.1, 2]), "map.in-no-fly");
   assert.equal(view.whyNot(map, [-0.1, 2]), "map.outside");
   assert.equal(view.whyNot(map, [5.9, 2]), "");
+});
+
+test("a floor plan becomes so large that two of its points are so far apart, and the first stays where it is", () => {
+  const laid = { x: 1, y: 2, width: 10, height: 5, turn: 30 };
+  const first = { x: 3, y: 4 };
+  const now = calibrated(laid, first, { x: 6, y: 8 }, 10);
+  assert.deepEqual(now, { x: -1, y: 0, width: 20, height: 10, turn: 30 });
+  assert.deepEqual(calibrated(now, first, { x: 9, y: 12 }, 5), laid);
 });

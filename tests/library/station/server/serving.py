@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,7 +12,6 @@ from typing import Any
 
 from websockets.typing import Origin
 
-from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
@@ -103,28 +102,29 @@ def status(answer: bytes) -> int:
 
 
 @asynccontextmanager
-async def served(
-    file: Path | None = None,
-    *,
-    addresses: Sequence[Address] = ADDRESSES,
-    station: AStation | None = None,
-    **guard: Any,
-) -> AsyncIterator[Served]:
-    """Serve a station on a port that is free."""
-    station = station or AStation()
+async def hosted(api: Callable[[Guard], Api], **guard: Any) -> AsyncIterator[Guard]:
+    """Serve what a guard lets in on a port that is free."""
     with listening("127.0.0.1", 0) as listener:
-        port = port_of(listener)
-        guarded = Guard(host="127.0.0.1", port=port, **guard)
-        api = Api(station, guarded, Audit(file), addresses=addresses)
+        guarded = Guard(host="127.0.0.1", port=port_of(listener), **guard)
         ready = asyncio.Event()
-        serving = asyncio.create_task(serve(api, listener, ready.set))
+        serving = asyncio.create_task(serve(api(guarded), listener, ready.set))
         try:
             await ready.wait()
-            yield Served(station, port, guarded.token)
+            yield guarded
         finally:
             serving.cancel()
             with suppress(asyncio.CancelledError):
                 await serving
+
+
+@asynccontextmanager
+async def served(
+    file: Path | None = None, *, station: AStation | None = None, **guard: Any
+) -> AsyncIterator[Served]:
+    """Serve a station that remembers what it is told."""
+    station = station or AStation()
+    async with hosted(lambda guard: Api(station, guard, Audit(file)), **guard) as guarded:
+        yield Served(station, guarded.port, guarded.token)
 
 
 Scene = Callable[[Served], Coroutine[object, object, None]]

@@ -46,24 +46,13 @@ def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_client(tmp_path: Pa
     assert "ZeroDivisionError: secret" in (tmp_path / "audit.log").read_text()
 
 
-@pytest.mark.parametrize(
-    ("headers", "status"),
-    [
-        ({}, 403),
-        ({"host": OURS["host"]}, 403),
-        (without("x-pluto"), 403),
-        (without(host="rebound.example"), 403),
-        (without(origin="http://evil.example"), 403),
-        (without(sec_fetch_site="cross-site"), 403),
-        (without("content-type"), 415),
-        (without(content_type="application/x-www-form-urlencoded"), 415),
-    ],
-)
-def test_a_page_of_another_site_changes_nothing(headers: dict[str, str], status: int) -> None:
+def test_a_page_of_another_site_changes_nothing() -> None:
+    elsewhere = without("x-pluto"), without(origin="http://evil.example"), without(host="rebound")
+    given = {"id": "one", "revision": 1, "missions": []}
     for address in COMMANDS:
-        if status == 403 or address.body is not None:
+        types = [(without(content_type="text/plain"), 415)] if address.body is not None else []
+        for headers, status in (*((one, 403) for one in elsewhere), *types):
             ask = asked()
-            given = {"id": "one", "revision": 1, "missions": []}
             reply = ask(address.method, address.path, given, headers, **query_of(address))
             assert (reply.status, ask.station.untouched) == (status, True), address.path
 

@@ -61,13 +61,8 @@ def test_what_is_long_is_cut(tmp_path: Path) -> None:
     deep: object = []
     for _ in range(20):
         deep = [deep]
-    given: dict[str, object] = {
-        "id": "one",
-        "text": "x" * 10_000,
-        "list": list(range(1000)),
-        "deep": {"a": deep},
-    }
-    given.update({f"key {n}": n for n in range(1000)})
+    given: dict[str, object] = {f"key {n}": n for n in range(1000)}
+    given |= {"id": "one", "text": "x" * 10_000, "list": list(range(1000)), "deep": {"a": deep}}
     asked(file=file)("POST", "/api/start", given)
     assert file.stat().st_size < 2000
     assert len(lines(file)) == 1

@@ -73,17 +73,12 @@ def test_the_first_message_bears_the_token(token: object) -> None:
 @pytest.mark.parametrize(
     "nonsense",
     [
-        "",
         "nonsense",
         "[]",
         {},
         {**SEEN, "flight": None},
         {**SEEN, "seen": 1.5},
-        {**SEEN, "seen": "1"},
         '{"flight": "", "seen": NaN, "log": 0, "results": 0}',
-        "[" * 40,
-        '{"flight": "\\ud800", "seen": 0, "log": 0, "results": 0}',
-        {**SEEN, "me": "Ana"},
         {**SEEN, "me": {"id": "abc"}},
     ],
 )
