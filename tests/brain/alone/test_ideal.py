@@ -160,6 +160,19 @@ def test_a_drone_that_is_told_to_break_off_hovers_and_reports_nothing() -> None:
     assert sky.drone.landed
 
 
+def test_an_order_that_is_cancelled_leaves_the_drone_hovering() -> None:
+    """And nothing is told of it; what it does not do cannot be cancelled."""
+    sky = Sky(seed=0)
+    way_up = sky.order("home")
+    assert sky.told(1.0) == {}
+    sky.order("cancel", order=way_up + 100)
+    assert sky.told(2.0) == {}
+    sky.order("cancel", order=way_up)
+    assert sky.told(5.0) == {}
+    assert sky.drone.location == pytest.approx((0.5, 0.5, 0.6))
+    assert not sky.drone.landed
+
+
 def test_a_flight_that_is_broken_off_as_it_is_ordered_leaves_no_ground() -> None:
     """The drone begins after all that is ordered with it."""
     sky = Sky()

@@ -57,6 +57,16 @@ def test_it_sees_all_that_wait_and_what_is_known_of_them() -> None:
     assert len(asked[1][0]) == 2
 
 
+def test_pairs_may_come_in_any_iterable() -> None:
+    def pairs(waiting: Waits, drones: Sequence[Drone], now: float) -> Assignment:
+        return zip(waiting, reversed(drones), strict=False)
+
+    outcome = fly(pairs, *missions(3.0, 9.0))
+    assert [(mission, drone) for mission, drone, _ in given(outcome)] == [
+        ("m0", "cf3"), ("m1", "cf2"),
+    ]  # fmt: skip
+
+
 def test_it_is_asked_for_each_priority_apart_the_highest_first() -> None:
     asked: list[list[int]] = []
 

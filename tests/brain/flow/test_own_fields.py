@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from pluto_fleet.app import App, described
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.files.missions import load_missions
-from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.files.missions import missions_of
+from pluto_fleet.files.reading import parsed
+from pluto_fleet.shared.domain.airspace import Airspace
 from tests.kit import apps
 from tests.kit.living import Living
 
@@ -83,55 +80,29 @@ PLAN = '[[mission]]\nname = "one"\npatient = "Ada"\n' + "".join(
 )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Made:
-    """A package that was compiled and imported."""
-
-    app: App
-    hooks: Any
-    package: Path
-
-    def missions(self, text: str = PLAN) -> list[Any]:
-        """Read a missions file."""
-        path = self.package / "missions.toml"
-        path.write_text(text, encoding="utf-8")
-        return load_missions(path, self.app, default_fleet(self.app).airspace)
-
-    def fly(self, text: str = PLAN, **hooks: Any) -> Any:
-        """Simulate a plan of one mission, perhaps with another hook."""
-        self.hooks.CALLS.clear()
-        app = self.app if not hooks else self.changed(hooks)
-        fleet = default_fleet(app)
-        outcome = simulate(
-            app, self.missions(text), fleet, seed=1, faults=Faults(), until=9e4, on_event=None
-        )
-        return outcome.missions[0]
-
-    def changed(self, hooks: Mapping[str, Any]) -> App:
-        """Return the app with other actions, in the place of those of these names."""
-        given: Any = self.app.given
-        actions = {
-            name: replace(one, hook=hooks.get(name, one.hook))
-            for name, one in given.actions.items()
-        }
-        return described(replace(given, actions=actions))
+def missions(made: apps.Loaded, text: str = PLAN) -> list[Any]:
+    """Read a missions file."""
+    return missions_of(parsed("missions.toml", text), made.app, Airspace())
 
 
-def made(source: str = SOURCE, hooks: str = HOOKS) -> Made:
-    """Compile and import an app under a name of its own."""
-    found = apps.loaded(source, hooks)
-    return Made(app=found.app, hooks=found.hooks, package=found.package)
+def fly(made: apps.Loaded, text: str = PLAN, *, spray: Any = None) -> Any:
+    """Simulate a plan of one mission, perhaps with another action."""
+    made.hooks.CALLS.clear()
+    given: Any = made.app.given
+    own = {"spray": replace(given.actions["spray"], hook=spray)} if spray else {}
+    app = apps.changed(made.app, actions={**given.actions, **own})
+    return apps.fly(app, *missions(made, text), on=default_fleet(app), seed=1).missions[0]
 
 
 @pytest.fixture
-def wards() -> Made:
+def wards() -> apps.Loaded:
     """The app of these tests."""
-    return made()
+    return apps.loaded(SOURCE, HOOKS)
 
 
-def test_hooks_read_and_write_them(wards: Made) -> None:
+def test_hooks_read_and_write_them(wards: apps.Loaded) -> None:
     """In SI units; what is left out has its default."""
-    mission = wards.fly()
+    mission = fly(wards)
     assert (mission.status.value, mission.reason) == ("COMPLETED", "")
     assert wards.hooks.CALLS[0] == ("strict", 3, 0.5, "ADA", 600.0)
     said, dose, photo, measured = wards.hooks.CALLS[1]
@@ -154,9 +125,9 @@ def test_hooks_read_and_write_them(wards: Made) -> None:
     ],
 )
 def test_the_blocks_settings_are_for_its_own_evaluator(
-    wards: Made, chosen: str, calls: tuple[object, ...]
+    wards: apps.Loaded, chosen: str, calls: tuple[object, ...]
 ) -> None:
-    wards.fly(PLAN.replace('patient = "Ada"', f'patient = "Ada"\n{chosen}'))
+    fly(wards, PLAN.replace('patient = "Ada"', f'patient = "Ada"\n{chosen}'))
     assert wards.hooks.CALLS[0][: len(calls)] == calls
 
 
@@ -175,8 +146,8 @@ class Index:
     ("value", "kept"),
     [(0.5, 0.5), (3, 3.0), (Fancy(2.5), 2.5), (Index(), 3.0), (10**18, 1e18), (float("inf"),) * 2],
 )
-def test_a_number_is_kept_as_one(wards: Made, value: object, kept: float) -> None:
-    mission = wards.fly(spray=lambda drone, trip, context, dose: value)
+def test_a_number_is_kept_as_one(wards: apps.Loaded, value: object, kept: float) -> None:
+    mission = fly(wards, spray=lambda drone, trip, context, dose: value)
     assert mission.status.value == "COMPLETED"
     given = wards.hooks.CALLS[1][1]
     assert (type(given), given) == (float, kept)
@@ -192,9 +163,11 @@ def test_a_number_is_kept_as_one(wards: Made, value: object, kept: float) -> Non
         (10**400, "not 1000"),
     ],
 )
-def test_a_value_of_another_type_fails_the_mission(wards: Made, value: object, said: str) -> None:
+def test_a_value_of_another_type_fails_the_mission(
+    wards: apps.Loaded, value: object, said: str
+) -> None:
     """As a fault of the hook: no other flight would mend it."""
-    mission = wards.fly(spray=lambda drone, trip, context, dose: value)
+    mission = fly(wards, spray=lambda drone, trip, context, dose: value)
     assert mission.status.value == "FAILED"
     assert mission.reason.startswith(f"hook spray must return a number, {said}")
     assert mission.attempts == 1
@@ -211,25 +184,21 @@ def test_a_value_of_another_type_fails_the_mission(wards: Made, value: object, s
     ],
 )
 def test_a_wrong_value_that_an_action_leaves_is_told(
-    wards: Made, field: str, value: object, said: str
+    wards: apps.Loaded, field: str, value: object, said: str
 ) -> None:
     def spray(drone: Any, trip: Any, context: Any, *, dose: float) -> float:
         setattr(trip, field, value)
         return dose
 
-    mission = wards.fly(spray=spray)
+    mission = fly(wards, spray=spray)
     assert mission.reason == f"hook spray left a trip that cannot go on: its {said}"
 
 
-def lived(app: Made) -> Living:
-    return Living(app.app, *app.missions(), on=default_fleet(app.app))
-
-
 @pytest.mark.parametrize("when", [0.5, 15.0, 40.0])
-def test_they_survive_a_crash_and_a_stop(wards: Made, when: float) -> None:
+def test_they_survive_a_crash_and_a_stop(wards: apps.Loaded, when: float) -> None:
     """At any time, as their hooks have left them."""
     for end in ("crash", "stop"):
-        life = lived(wards)
+        life = Living(wards.app, *missions(wards), on=default_fleet(wards.app))
         getattr(life, end)(when)
         assert life.run() == ["COMPLETED"]
         mission: Any = life.life.missions[0]
@@ -254,4 +223,4 @@ def test_a_new_trip_with_a_wrong_value_is_told_of_its_evaluator() -> None:
         hooks = HOOKS.replace(
             "    values = [", f"    return Verdict(add=[{made_of}])\n    values = ["
         )
-        assert made(hooks=hooks).fly().reason.startswith(said)
+        assert fly(apps.loaded(SOURCE, hooks)).reason.startswith(said)

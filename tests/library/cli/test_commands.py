@@ -1,4 +1,4 @@
-"""What the command line takes and refuses."""
+"""What the command line takes and refuses, and which fleet file it flies where none is named."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.cli.options import parse
+from pluto_fleet.cli.plans import take_fleet_beside
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP
 
@@ -39,3 +41,32 @@ def test_a_name_that_is_too_long_is_told(words: str, command: Command) -> None:
     code, _, said = command(*words.replace("N", "n" * 300).split())
     assert code == 2
     assert "too long" in said and "internal" not in said
+
+
+@pytest.mark.parametrize(
+    ("words", "is_taken"),
+    [
+        (["simulate", "M", "--runs", "2"], True),
+        (["size", "M"], True),
+        (["check", "M"], True),
+        (["fly", "M", "--sim"], True),
+        (["fly", "M", "--crtp-sim", "2"], True),
+        (["fly", "M", "--sim", "--dry-run"], True),
+        (["serve", "--sim", "--missions", "M"], True),
+        (["fly", "M"], False),
+        (["fly", "M", "--dry-run"], False),
+        (["serve", "--missions", "M"], False),
+        (["serve", "--sim"], False),
+        (["drones"], False),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_real_drones_fly_only_by_a_fleet_that_is_named(
+    missions: Path, words: list[str], is_taken: bool
+) -> None:
+    """A file that just lies there moves nothing."""
+    beside = missions.with_name("fleet.toml")
+    beside.touch()
+    options = parse(APP, [str(missions) if word == "M" else word for word in words])
+    take_fleet_beside(options)
+    assert options.fleet == (beside if is_taken else None)

@@ -111,6 +111,17 @@ def test_the_bar_comes_only_after_a_while() -> None:
     assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
 
 
+def test_without_a_terminal_a_line_comes_now_and_then() -> None:
+    """One in ten seconds: there is no long silence, and no log is flooded."""
+    now, said = [0.0], list[str]()
+    progress = Progress(io.StringIO(), lambda: now[0], shown=False, say=said.append)
+    for second in range(35):
+        now[0] = float(second)
+        progress.update(0.5, f"{second} runs")
+    progress.clear()
+    assert said == ["10 runs", "20 runs", "30 runs"]
+
+
 def test_a_table_lines_up() -> None:
     """Words to the left, numbers to the right, no blanks at the end, nothing unprintable."""
     assert list(table(("a", "n"), [("long", "1"), ("\x1b", "23")], right=(1,))) == [

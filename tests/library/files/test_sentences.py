@@ -17,7 +17,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.kit.sentences import check_sentences
 from tests.library.files.an_app import APP
-from tests.library.files.extremes import extreme_app
+from tests.library.files.test_limits import extreme_app
 
 SENTENCES = Path(__file__).parent / "sentences"
 FENCED = Airspace(size=(20.0, 12.0), no_fly=(((8.0, 0.0), (9.0, 0.0), (9.0, 5.0), (8.0, 5.0)),))

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import pluto_fleet
-from pluto_fleet import extras
+from pluto_fleet import api, extras
 from pluto_fleet.__main__ import main
 from pluto_fleet.shared.domain.app import SEAM
 
@@ -102,3 +102,9 @@ def test_output_that_cannot_be_written_ends_cleanly() -> None:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     said = "pluto-fleet: the output cannot be written: No space left on device\n"
     assert (done.returncode, done.stderr) == (2, said)
+
+
+@pytest.mark.parametrize("package", ["no_such_app", "json"])
+def test_what_is_no_app_is_refused(package: str) -> None:
+    with pytest.raises(api.BadInput, match=f"^{package} is no app that can be imported here: "):
+        api.load_app(package)

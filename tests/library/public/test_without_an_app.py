@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+import tomlkit
 
+import pluto_fleet
 from pluto_fleet.crtp import process as crtp
 from pluto_fleet.gateway.process import LOG
 from pluto_fleet.gateway.starting import connect
@@ -17,7 +20,6 @@ from pluto_fleet.process import respawn
 from tests.kit.apps import compiled
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import Brain, pid, played, settings
-from tests.library.public.installed import installed
 from tests.paths import ROOT
 
 pytestmark = [pytest.mark.long, pytest.mark.process]
@@ -41,6 +43,25 @@ name = "M"
 action = "measure"
 target = [2, 2]
 """
+
+
+_PROGRAM = (
+    "import sys; sys.path[:0] = sys.argv[1:3]; del sys.argv[1:3]; "
+    "from pluto_fleet.__main__ import main; sys.exit(main())"
+)
+
+
+def installed(folder: Path) -> tuple[str, ...]:
+    """Install the library, and what it needs, into a folder; return the command of its program.
+
+    Nothing else is on that program's path, and no variable of the environment changes that.
+    """
+    no_caches = shutil.ignore_patterns("__pycache__")
+    library = folder / "pluto_fleet"
+    shutil.copytree(pluto_fleet.__path__[0], library, ignore=no_caches)
+    needed = folder / "needed"
+    shutil.copytree(tomlkit.__path__[0], needed / "tomlkit", ignore=no_caches)
+    return (sys.executable, "-I", "-S", "-c", _PROGRAM, str(folder), str(needed))
 
 
 @pytest.fixture(scope="module")

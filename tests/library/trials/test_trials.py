@@ -1,8 +1,9 @@
-"""What a trial is: cases as text, files that show one again, and how one is made smaller."""
+"""What a trial is: cases as text, files that show one again, how one is made smaller, and that measuring changes none."""
 
 from __future__ import annotations
 
 import gc
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ from pluto_fleet.files.fleet import default_fleet, load_fleet
 from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.missions_text import missions_text
-from pluto_fleet.trials import explore
+from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.trials import command, explore, world
 from pluto_fleet.trials.case import (
     FAIR,
     Case,
@@ -28,6 +30,7 @@ from pluto_fleet.trials.case import (
 )
 from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions
 from pluto_fleet.trials.lives import TrialRun, tried
+from pluto_fleet.trials.record import TrialResult
 from pluto_fleet.trials.shrink import shrunk
 from tests.trials.examples import WAITING, app_of, example, fleet_of
 
@@ -148,3 +151,40 @@ def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
     trial = tried(app, Case(seed=1, missions=(mission,), fleet=default_fleet(app)))
     assert trial.wrong == ()
     assert trial.ends == {"m1": "COMPLETED"}
+
+
+def _measured(seed: int, monkeypatch: pytest.MonkeyPatch) -> TrialResult:
+    with monkeypatch.context() as patch:
+        patch.setattr(world, "Gateway", partial(Gateway, measures=True))
+        return tried(APP, random_case(APP, FLEET, seed))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_measurements_change_nothing(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """No row more, no other instant, no other event, whatever strikes."""
+    plain, measured = tried(APP, random_case(APP, FLEET, seed)), _measured(seed, monkeypatch)
+    others = tuple(event for event in measured.events if event["event"] != "drone.flew")
+    assert len(others) < len(measured.events)
+    assert others == plain.events
+    assert (measured.times, measured.acts, measured.ends) == (plain.times, plain.acts, plain.ends)
+    assert measured.wrong == plain.wrong == ()
+
+
+def test_the_bar_fills_as_runs_are_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of the first seeds there are hundreds of runs each: it is neither full at once nor empty for long."""
+    shares: list[float] = []
+
+    class Waiting:
+        def update(self, share: float, _: str) -> None:
+            shares.append(share)
+
+        def clear(self) -> None:
+            pass
+
+    monkeypatch.setattr(command, "trial_progress", lambda *, lines: Waiting())
+    monkeypatch.setattr(explore, "MOST_ROWS", 4)
+    assert command.test(example("drugs_distribution"), ["--seeds", "2", "--json"]) == 0
+    assert len(shares) > 50
+    assert shares[0] == 0
+    assert 0.4 < shares[len(shares) // 2] < 0.6
+    assert 0.9 < shares[-1] < 1.1
