@@ -4,8 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from plutoc_blocks.clock.step import wait_for_time
+from plutoc_blocks.drone_allocator.step import allocate_drone
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_repeater.step import repeat_mission
+from plutoc_blocks.trip_launcher.step import launch_trip
 from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
 from tests.brain.hand import charged, settled, trip
 from tests.kit import apps
 
@@ -68,4 +75,41 @@ def test_a_mission_goes_on_where_its_record_says() -> None:
     stands = later.standing()
     assert [one["name"] for one in stands["missions"]["m"]["done"]] == ["1"]
     assert (stands["missions"]["m"]["attempts"], stands["results"]) == (2, [["m", "1", 0, 1, 7]])
+    later.close()
+
+
+async def held_on_the_drone(run: Run[apps.Mission]) -> Status:
+    """Wait for the time of a round when a drone is allocated already."""
+    status = run.status if run.at else create_mission(run, run.status)
+    while True:
+        run.at = None
+        status = await allocate_drone(run, status, block="allocate", policy=apps.nearest)
+        status = await wait_for_time(run, status, block="wait", delay=None)
+        status = await apps.watched(run, launch_trip(run, status))
+        if status is Status.COMPLETED:
+            status = repeat_mission(run, status, repeat=run.mission.repeat)
+        if status is not Status.STANDBY:
+            return status
+
+
+def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> None:
+    """The Clock on its way would hold it until the time of the round after."""
+    brain = charged(app=apps.app(held_on_the_drone).given, recorded=True)
+    brain.go_on({"missions": {}}, FREE, 0.0)
+    brain.begin([{"name": "m", "trips": [trip(3.0)], "fields": {"repeat": 1, "every": 100.0}}], 0.0)
+    (first,) = settled(brain, 0.0)
+    brain.tell({"done": first["id"]}, 9.0)
+    assert [order for order in settled(brain, 99.0) if order["do"] == "fly"] == []
+    (second,) = (order for order in settled(brain, 100.0) if order["do"] == "fly")
+    record = brain.standing()
+    brain.close()
+    later = charged(app=apps.app(held_on_the_drone).given, recorded=True)
+    later.go_on({"missions": record["missions"]}, {}, 110.0)
+    (attached,) = settled(later, 110.0)
+    assert (attached["do"], attached["flight"]) == ("attach", second["flight"])
+    later.tell({"done": attached["id"]}, 111.0)
+    settled(later, 111.0)
+    assert [event["status"] for event in later.events() if event["event"] == "mission.ended"] == [
+        "COMPLETED"
+    ]
     later.close()

@@ -62,6 +62,10 @@ WRONG: dict[str, tuple[Body, str]] = {
     "a body without an end": ((call("create"),), "without a jump"),
     "steps behind a jump": ((call("create"), End(), call("a")), "never reached"),
     "continue outside of a loop": ((call("create"), Continue()), "continue outside of a loop"),
+    "continue in a case": (
+        (Dispatch(start="a", cases=(Case(label="a", body=(call("create"), Continue())),)),),
+        "continue outside of a loop",
+    ),
     "break outside of a loop": ((call("create"), Break()), "break outside of a loop"),
     "goto outside of a dispatch": ((call("create"), Goto(label="a")), "outside of a dispatch"),
     "a dispatch behind a step": (

@@ -25,9 +25,10 @@ def all_landed(field: Field) -> bool:
     return all(field.navigation.telemetry[drone.id].landed for drone in field.drones)
 
 
-def test_landing_breaks_off_every_flight() -> None:
+@pytest.mark.parametrize("apart", [APART, 0.0])
+def test_landing_breaks_off_every_flight(apart: float) -> None:
     """Jobs whose action has not begun may be flown again; nothing is reported of them."""
-    field, heard = Field(), list[object]()
+    field, heard = Field(apart=apart), list[object]()
     link = field.gateway.link(1)
     link.fly(Task(), heard.append)
     field.kernel.spawn(link.takeoff("cf2", 1.2), FLEET, "an errand")

@@ -270,9 +270,11 @@ def test_a_client_that_is_cut_off_hears_no_answer() -> None:
     field.advance(0)
     field.gateway.link(2)
     late = field.kernel.spawn(old.write("cf1", "range.front", 1.0), FLEET, "asked too late")
+    report = field.kernel.spawn(old.drone_report("cf1"), FLEET, "asked too late as well")
     field.advance(100)
     assert asked.is_set
     assert not late.is_set
+    assert not report.is_set
     assert field.navigation.bodies["cf1"].settings == {}
 
 
