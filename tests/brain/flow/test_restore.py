@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.policies import nearest
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.mission_repeater.step import repeat_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
-from pluto_fleet.shared.brain import Brain
-from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.flow.own_action import OwnAction
-from pluto_fleet.shared.flow.run import Run
 from tests.brain.hand import charged, settled, trip
 from tests.kit import apps
 
@@ -83,7 +84,7 @@ async def held_on_the_drone(run: Run[apps.Mission]) -> Status:
     status = run.status if run.at else create_mission(run, run.status)
     while True:
         run.at = None
-        status = await allocate_drone(run, status, block="allocate", policy=apps.nearest)
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
         status = await wait_for_time(run, status, block="wait", delay=None)
         status = await apps.watched(run, launch_trip(run, status))
         if status is Status.COMPLETED:
@@ -94,7 +95,8 @@ async def held_on_the_drone(run: Run[apps.Mission]) -> Status:
 
 def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> None:
     """The Clock on its way would hold it until the time of the round after."""
-    brain = charged(app=apps.app(held_on_the_drone).given, recorded=True)
+    given: Any = apps.app(held_on_the_drone).given
+    brain = charged(app=given, recorded=True)
     brain.go_on({"missions": {}}, FREE, 0.0)
     brain.begin([{"name": "m", "trips": [trip(3.0)], "fields": {"repeat": 1, "every": 100.0}}], 0.0)
     (first,) = settled(brain, 0.0)
@@ -103,7 +105,7 @@ def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> No
     (second,) = (order for order in settled(brain, 100.0) if order["do"] == "fly")
     record = brain.standing()
     brain.close()
-    later = charged(app=apps.app(held_on_the_drone).given, recorded=True)
+    later = charged(app=given, recorded=True)
     later.go_on({"missions": record["missions"]}, {}, 110.0)
     (attached,) = settled(later, 110.0)
     assert (attached["do"], attached["flight"]) == ("attach", second["flight"])
