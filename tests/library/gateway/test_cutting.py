@@ -177,6 +177,31 @@ def test_who_could_not_be_told_is_as_before(
     field.kernel.close()
 
 
+def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The gateway before died between its record and the cut: only what was done here keeps it down."""
+
+    async def killed(_: object, drone: str) -> None:
+        """Nothing reaches the drone."""
+
+    async def unreachable(_: object, drone: str) -> None:
+        raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
+
+    field = Kept(tmp_path)
+    fly(field.kernel, field.gateway.link(1).takeoff("cf1", 1.2))
+    with monkeypatch.context() as patch:
+        patch.setattr(type(field.navigation), "cut", killed)
+        cut(field)
+        field.is_killed()
+        patch.setattr(type(field.navigation), "cut", unreachable)
+        assert cut(field) == "cf1 cannot be reached"
+    assert field.problems(2) == ()
+    fly(field.kernel, field.gateway.link(3).bring_down(Down.LAND))
+    assert field.navigation.bodies["cf1"].landed
+    field.kernel.close()
+
+
 def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None:
     """What a person wants off is off."""
 
