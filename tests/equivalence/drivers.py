@@ -9,11 +9,10 @@ from heapq import heappop, heappush
 from typing import TYPE_CHECKING, Any, TypeVarTuple
 
 from pluto_fleet.flight.outcome import SimulationResult
-from pluto_fleet.flight.simulation import Simulation
-from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.kit.drones import TURN, JumpingLoop
+from tests.kit.in_real_time import flown
 
 if TYPE_CHECKING:
     from pluto_fleet.app import App
@@ -74,31 +73,10 @@ def in_real_time(
 ) -> SimulationResult:
     """Fly missions by the kernel of real flights; raise `BadInput` where they wait for ever."""
 
-    async def flown() -> SimulationResult:
-        kernel = _Midnight()
-        events: list[Event] = []
-
-        def hear(event: Event) -> None:
-            events.append(event)
-            if on_event is not None:
-                on_event(event)
-
-        hooks = RealHooks(kernel)
-        simulation = Simulation(app, fleet, kernel, seed, faults, hear, hooks=hooks)
-        try:
-            async with asyncio.timeout(until):
-                ended = await kernel.run(simulation.start(missions))
-        except TimeoutError:
-            ended = kernel.now
-        except asyncio.CancelledError:
-            raise BadInput("missions wait for ever") from None
-        finally:
-            simulation.close()
-        return simulation.outcome(missions, events, ended, "")
-
     loop = _ToTheLastBit()
+    heard = on_event or (lambda _: None)
     try:
-        task = loop.create_task(flown())
+        task = loop.create_task(flown(_Midnight, app, missions, fleet, heard, seed, faults, until))
         try:
             return loop.run_until_complete(task)
         except RuntimeError:  # nothing is left to wait for
@@ -106,6 +84,8 @@ def in_real_time(
                 raise
             task.cancel()
             return loop.run_until_complete(task)
+    except asyncio.CancelledError:
+        raise BadInput("missions wait for ever") from None
     finally:
         loop.close()
 

@@ -1,9 +1,10 @@
-"""Flies an app in real time, with the world in the same process and without a journal."""
+"""Flies an app by the kernel of real flights, with the world in the same process and without a journal."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
@@ -12,6 +13,7 @@ from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
 from tests.kit import apps
 
@@ -23,20 +25,32 @@ def fly(
     listener: Callable[[Event], object],
 ) -> SimulationResult:
     """Return what came of the missions."""
+    return asyncio.run(flown(RealTime, app, missions, fleet, listener))
 
-    async def flown() -> SimulationResult:
-        kernel = RealTime()
-        events: list[Event] = []
 
-        def hear(event: Event) -> None:
-            events.append(event)
-            listener(event)
+async def flown(
+    time: type[RealTime],
+    app: App,
+    missions: Sequence[Mission[Any]],
+    fleet: FleetFile,
+    listener: Callable[[Event], object],
+    seed: int = 0,
+    faults: Faults = apps.NO_FAULTS,
+    until: float | None = None,
+) -> SimulationResult:
+    """Fly them in the loop that runs."""
+    kernel, events = time(), list[Event]()
 
-        simulation = Simulation(app, fleet, kernel, 0, Faults(), hear, hooks=RealHooks(kernel))
-        try:
+    def hear(event: Event) -> None:
+        events.append(event)
+        listener(event)
+
+    simulation = Simulation(app, fleet, kernel, seed, faults, hear, hooks=RealHooks(kernel))
+    try:
+        async with asyncio.timeout(until):
             ended = await kernel.run(simulation.start(missions))
-        finally:
-            simulation.close()
-        return simulation.outcome(missions, events, ended, "")
-
-    return asyncio.run(flown())
+    except TimeoutError:
+        ended = kernel.now
+    finally:
+        simulation.close()
+    return simulation.outcome(missions, events, ended, "")

@@ -204,25 +204,7 @@ def known() -> list[Known]:
     boxes = [mission(f"M{n}", pick("A", 5.0 + n), release("B", 8.0 + n)) for n in range(2)]
     photo = Category(name="scout", actions=frozenset({"take_photo"}))
     return [
-        Known(name="one is enough", plan=_straight(*_there(3), by=None), drones=1),
         Known(name="one for each", plan=_straight(*_there(5), by=50.0), drones=5),
-        Known(name="two in turn", plan=_straight(*_there(6), by=200.0), drones=2),
-        Known(
-            name="too far for its time",
-            plan=_straight(*_there(3), by=20.0),
-            cause="alone",
-            said="even if it has 12 drones for itself",
-        ),
-        Known(
-            name="out of reach",
-            plan=_straight(
-                *_there(1),
-                by=None,
-                tested=app(flow(), categories=[replace(slow, flight_time=50.0)]),
-            ),
-            cause="reach",
-            said='mission "M0", trip "A": no drone of the fleet can do it: scout would need',
-        ),
         Known(
             name="of no category",
             plan=_straight(*boxes, by=None, tested=app(flow(), categories=[photo])),

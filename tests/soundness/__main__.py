@@ -20,13 +20,12 @@ from random import Random
 from plutoc.compile import analyse
 from plutoc.source import Source
 from tests.kit.campaign import Campaign
-from tests.soundness.app import App
+from tests.soundness.app import App, thesis_graphs
 from tests.soundness.compare import Compared, compare
 from tests.soundness.endings import End, endings
 from tests.soundness.mutants import mutants
 from tests.soundness.randoms import looping_app, random_app
 from tests.soundness.table import Tally, lines
-from tests.soundness.thesis import thesis_graphs
 
 
 def main() -> int:

@@ -9,7 +9,9 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from itertools import pairwise, product
+from pathlib import Path
 
+from tests.paths import EXAMPLES
 from tests.soundness.kinds import ACCEPTS, END_ACCEPTS, FIVE, GUARDED, Status
 
 START = "start"
@@ -88,6 +90,16 @@ def read(text: str) -> App:
         elif statement not in ("pluto 1", "}"):
             rest.append(statement)
     return App(name=name, rest=tuple(rest), blocks=tuple(blocks), arrows=tuple(arrows))
+
+
+def thesis_graphs() -> dict[str, App]:
+    """Return the graphs of the thesis by name, always in the same order: our examples, and what else it draws."""
+    examples = sorted(EXAMPLES.glob("*/app.pluto"))
+    drawn = sorted(Path(__file__).with_name("graphs").glob("*.pluto"))
+    return {
+        **{path.parent.name: read(path.read_text(encoding="utf-8")) for path in examples},
+        **{path.stem: read(path.read_text(encoding="utf-8")) for path in drawn},
+    }
 
 
 def takes(app: App) -> dict[Arrow, tuple[Status, ...]]:

@@ -6,13 +6,13 @@ from random import Random
 
 import pytest
 
+from tests.soundness.app import thesis_graphs
 from tests.soundness.compare import compare, refused
 from tests.soundness.mutants import EDITS, Mutant, mutants
 from tests.soundness.oracle import judge
 from tests.soundness.randoms import looping_app, random_app
 from tests.soundness.state import Verdict
 from tests.soundness.table import SOUND, UNSOUND, Tally
-from tests.soundness.thesis import thesis_graphs
 
 GRAPHS = thesis_graphs()
 SHARE = 40

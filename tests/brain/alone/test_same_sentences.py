@@ -223,29 +223,20 @@ def without(name: str) -> str:
     return (SENTENCES / name).read_text("utf-8")
 
 
-@settings(max_examples=60, deadline=None)
-@given(mistaken(without("fleet.toml")), mistaken(without("missions.toml")))
-def test_files_with_mistakes_at_random_are_read_alike(fleet: str, missions: str) -> None:
+@settings(max_examples=50, deadline=None)
+@given(*(mistaken(without(name)) for name in ("fleet.toml", "missions.toml", "own_missions.toml")))
+def test_files_with_mistakes_at_random_are_read_alike(fleet: str, missions: str, own: str) -> None:
     """Both accept them, or both refuse them with the same first sentence."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "x.toml")
-        path.write_text(fleet, "utf-8")
-        small, full = of_fleet(path)
-        assert small == full
-        path.write_text(missions, "utf-8")
-        small, full = of_missions(path)
-        assert small == full
-
-
-@settings(max_examples=40, deadline=None)
-@given(mistaken(without("own_missions.toml")))
-def test_fields_with_mistakes_at_random_are_read_alike(missions: str) -> None:
-    """Those of the app's own, and with them the others."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "x.toml")
-        path.write_text(missions, "utf-8")
-        small, full = of_missions(path, OWN)
-        assert small == full
+        for text, read in (
+            (fleet, of_fleet),
+            (missions, of_missions),
+            (own, lambda path: of_missions(path, OWN)),
+        ):
+            path.write_text(text, "utf-8")
+            small, full = read(path)
+            assert small == full
 
 
 def test_the_files_without_mistakes_are_accepted() -> None:

@@ -10,6 +10,7 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.soundness.thesis import thesis_graphs
 
 from plutoc.compile import planned
 from plutoc.diagnostic import Rejected
@@ -23,7 +24,6 @@ from tests.compiler.diff.pairs import EXAMPLES, difference, sentences, version
 from tests.format.layouts import Liberty, laid_out, words_of
 from tests.soundness.app import App
 from tests.soundness.mutants import mutants
-from tests.soundness.thesis import thesis_graphs
 
 GRAPHS = thesis_graphs()
 SHARE = 40
