@@ -155,3 +155,13 @@ def test_a_gateway_that_no_brain_ever_finds_lands_everything_too() -> None:
     field.another()
     field.advance(10)
     assert all_landed(field)
+
+
+def test_a_gateway_that_was_killed_lands_nothing() -> None:
+    """Its drones hover until another takes over: what was to be looked at later is not done by a dead one."""
+    field = Field(patience=3)
+    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.advance(5)
+    field.gateway.crash()
+    field.advance(20)
+    assert not field.navigation.telemetry["cf1"].landed
