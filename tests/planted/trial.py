@@ -86,7 +86,7 @@ class Copy:
         listed = self._folder / "tests.txt"
         listed.write_text("\n".join(tests), encoding="utf-8")
         command = [sys.executable, "-m", "pytest", "-x", "-q", "-n", "0", "--tb=no", "-rfE"]
-        command += ["-p", "no:cacheprovider", f"@{listed}"]
+        command += ["-p", "no:cacheprovider", f"--basetemp={self._folder / 'tmp'}", f"@{listed}"]
         paths = os.pathsep.join(str(self._folder / path) for path in _PATHS)
         environment = {**os.environ, "PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": ""}
         with subprocess.Popen(
