@@ -12,6 +12,7 @@ import pytest
 from pluto_fleet.cli import main as fleet_main
 from pluto_fleet.trials.invariants import violations
 from plutoc.cli import main
+from tests.kit import apps
 from tests.kit.apps import EXAMPLES, MISHAPS, NAMES, Example
 from tests.kit.command import run
 
@@ -20,6 +21,14 @@ FEW_OR_MANY = pytest.mark.parametrize(
     [range(3), pytest.param(range(3, 20), marks=pytest.mark.long)],
     ids=["few seeds", "many seeds"],
 )
+
+
+@pytest.fixture(params=NAMES)
+def example(request: pytest.FixtureRequest) -> Example:
+    """Return an example, compiled and imported."""
+    return apps.example(request.param)
+
+
 LEAST = 0.1
 """Half of the usual reserve: waiting for others on the way takes no more."""
 

@@ -7,6 +7,7 @@ from plutoc.service.document import Document
 from plutoc.service.editing.edit import edit
 from plutoc.service.editing.operations import Rename
 from plutoc.service.hooks.help import hover as hover_in_hooks
+from plutoc.service.reading.outline import outline
 from plutoc.source import Source
 
 GRAPH = """
@@ -59,6 +60,12 @@ def note_it(mission: Mission, context: Context) -> None:
 def document(text: str = APP) -> Document:
     hooks = Source("hooks.py", HOOKS)
     return Document(path="field.pluto", text=text, find_hooks=lambda _: hooks)
+
+
+def test_the_outline_has_each_field() -> None:
+    (app,) = outline(document())
+    listed = [(one.name, one.detail) for one in app.children]
+    assert listed[1:3] == [("margin", "mission has, time"), ("owner", "trip has, text")]
 
 
 def test_hooks_are_told_what_results_can_be() -> None:
