@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, expect, sync_playwright
 
 from tests.apart import apart
 from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
@@ -28,15 +28,6 @@ SIZES = ("360x740", "390x844", "1366x768", "1920x1080")
 LANGUAGES = ("en", "it", "de")
 PHONE = 760
 """Pixels of width below which a screen is touched."""
-
-
-def look(page: Page, name: str, language: str, folder: Path) -> list[str]:
-    """Look at what is on the screen in a language, by day and by night; return what is wrong."""
-
-    def keep(scheme: Scheme, taken: bytes) -> None:
-        (folder / f"{name}-{scheme}.png").write_bytes(taken)
-
-    return [f"{name}: {one}" for one in in_language(page, language, lambda: looked_at(page, keep))]
 
 
 def look_through(
@@ -54,7 +45,13 @@ def look_through(
     page.goto(station.url)
     for scene in play(page, station):
         for language in given.languages:
-            wrong += look(page, f"{scene}-{size}-{language}", language, given.pictures)
+            name = f"{scene}-{size}-{language}"
+
+            def keep(scheme: Scheme, taken: bytes, name: str = name) -> None:
+                (given.pictures / f"{name}-{scheme}.png").write_bytes(taken)
+
+            found = in_language(page, language, lambda: looked_at(page, keep))
+            wrong += [f"{name}: {one}" for one in found]
     context.close()
     return wrong
 

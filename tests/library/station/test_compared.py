@@ -41,11 +41,3 @@ def test_every_row_names_a_test_or_a_file_that_is_there() -> None:
             if not found.exists() or (test and f"def {test}(" not in found.read_text("utf-8")):
                 missing.append(name)
     assert missing == []
-
-
-def test_its_pictures_are_those_of_the_stations_page() -> None:
-    """Which are taken anew with the pages, and held to what they show."""
-    station = (ROOT / "docs" / "station.md").read_text(encoding="utf-8")
-    pictures = set(re.findall(r"\((station/[a-z-]+\.png)\)", PAGE))
-    assert pictures
-    assert {name for name in pictures if f"({name})" not in station} == set()

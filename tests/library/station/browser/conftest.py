@@ -11,33 +11,25 @@ from tests.kit.browser import LAPTOP, Contexts
 from tests.kit.station import Station, Stations
 from tests.library.station.browser.exercise import put_in
 
-
-class Serve:
-    """Gives the station of an example; one that is only this test's can be killed."""
-
-    def __init__(self, stations: Stations) -> None:
-        self._stations = stations
-        self.own_ones: list[Station] = []
-
-    def __call__(
-        self, app: str = "drugs_distribution", *options: str, own: bool = False
-    ) -> Station:
-        if "--speed" not in options:
-            options = ("--speed", "20", *options)
-        if not own:
-            return self._stations.shared(app, *options)
-        station = self._stations.fresh(app, *options)
-        self.own_ones.append(station)
-        station.start()
-        return station
+Serve = Callable[..., Station]
 
 
 @pytest.fixture
 def serve(stations: Stations) -> Iterator[Serve]:
-    """Serve examples; of those that are a test's own no process is left behind."""
-    serve = Serve(stations)
+    """Serve examples; one that is only this test's can be killed, and no process of it is left behind."""
+    own_ones: list[Station] = []
+
+    def serve(app: str = "drugs_distribution", *options: str, own: bool = False) -> Station:
+        if "--speed" not in options:
+            options = ("--speed", "20", *options)
+        if not own:
+            return stations.shared(app, *options)
+        own_ones.append(stations.fresh(app, *options))
+        own_ones[-1].start()
+        return own_ones[-1]
+
     yield serve
-    for station in serve.own_ones:
+    for station in own_ones:
         station.end()
 
 
@@ -53,14 +45,14 @@ def planned(ward: Station) -> Station:
     return put_in(ward)
 
 
-class Visit:
-    """Opens a station in a browser of its own, that shares nothing with the other ones."""
+Visit = Callable[..., Page]
 
-    def __init__(self, contexts: Contexts) -> None:
-        self._contexts = contexts
 
-    def __call__(
-        self,
+@pytest.fixture
+def visit(contexts: Contexts) -> Visit:
+    """Open stations in browsers of their own, which share nothing with each other."""
+
+    def visit(
         station: Station,
         *,
         size: tuple[int, int] = LAPTOP,
@@ -68,13 +60,9 @@ class Visit:
         path: str = "",
         prepare: Callable[[Page], object] = lambda _: None,
     ) -> Page:
-        page = self._contexts.page(size=size, has_touch=touch)
+        page = contexts.page(size=size, has_touch=touch)
         prepare(page)
         page.goto(f"http://127.0.0.1:{station.port}{path}" if path else station.url)
         return page
 
-
-@pytest.fixture
-def visit(contexts: Contexts) -> Visit:
-    """Open stations in browsers."""
-    return Visit(contexts)
+    return visit

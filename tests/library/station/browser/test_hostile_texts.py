@@ -6,7 +6,6 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from tests.kit.station import Station
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.steps import open_page, sees_all, start
 
@@ -39,25 +38,18 @@ def mission(number: int, text: str) -> dict[str, Any]:
     return {"key": f"mission-{number}", "name": text, "trips": trips}
 
 
-def put(station: Station, texts: tuple[str, ...]) -> None:
-    """Give the station a plan with these texts."""
-    station.plan([mission(number, text) for number, text in enumerate(texts)])
-
-
 def nothing_ran(page: Page) -> None:
     """No script of theirs ran, and no element is theirs."""
     assert page.evaluate("() => window.ran === undefined")
     assert page.evaluate("() => document.querySelectorAll('img[onerror], svg[onload]').length") == 0
-    assert page.evaluate("() => [...document.scripts].map((one) => one.type)") == [
-        "importmap",
-        "module",
-    ]
+    types = page.evaluate("() => [...document.scripts].map((one) => one.type)")
+    assert types == ["importmap", "module"]
 
 
 def test_script_in_every_text_is_shown_as_text_and_never_runs(serve: Serve, visit: Visit) -> None:
     """In the plan, in the flight, in the console, and in what is said of commands."""
     station = serve("drugs_distribution", "--speed", "60")
-    put(station, HOSTILE)
+    station.plan([mission(number, text) for number, text in enumerate(HOSTILE)])
     page = visit(station)
     for text in HOSTILE:
         expect(page.get_by_text(text, exact=True).first).to_be_visible()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import Any
 
-import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.kit.axe import violations
@@ -42,22 +41,6 @@ def flown(serve: Serve, visit: Visit, app: str) -> tuple[Page, list[dict[str, An
 
 def rows_of(page: Page) -> Locator:
     return page.get_by_role("table", name="Results").locator(".virtual-rows").get_by_role("row")
-
-
-@pytest.mark.long  # a whole flight
-def test_photos_lie_on_the_map_and_are_gone_through_by_keys(serve: Serve, visit: Visit) -> None:
-    page, results = flown(serve, visit, "aerial_mapping")
-    photos = sum(one["kind"] == "photo" for one in results)
-    expect(page.locator(".footprint:not(.chosen)")).to_have_count(photos)
-    page.get_by_role("tab", name="Photos").click()
-    page.get_by_role("tabpanel", name="Photos").get_by_role("button").first.click()
-    viewer = page.get_by_role("dialog")
-    expect(viewer).to_contain_text(f"Photo {photos} of {photos}")
-    page.keyboard.press("ArrowLeft")
-    expect(viewer).to_contain_text(f"Photo {photos - 1} of {photos}")
-    expect(viewer).to_contain_text("The camera left no picture of this photo.")
-    page.keyboard.press("Escape")
-    expect(viewer).to_have_count(0)
 
 
 def test_results_are_searched_filtered_sorted_and_shown_on_the_map(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.browser import Watch
@@ -50,23 +49,6 @@ def test_all_is_undone_and_done_again_step_by_step_over_a_reload(
     page.keyboard.press("Control+Shift+z")
     page.keyboard.press("Control+y")
     until(lambda: names(planned) == ["Beds"], "both are done again")
-
-
-@pytest.mark.long
-def test_who_else_is_here_is_seen_with_what_they_have_selected(
-    planned: Station, visit: Visit
-) -> None:
-    one, other = visit(planned), visit(planned)
-    select_mission(other, "Mission 2")
-    expect(one.get_by_role("img", name="1 other person looks at this station")).to_be_visible()
-    touched = one.get_by_role("option", name="Mission 2").get_by_role("img")
-    expect(touched).to_have_accessible_name("unnamed has this selected")
-    open_page(other, "Trips")
-    other.locator(".trip-head").first.click()
-    open_page(one, "Trips")
-    one.get_by_label("Mission", exact=True).select_option(label="Mission 2 (2 trips)")
-    seen = one.get_by_role("list", name="Trips").get_by_role("img", name="has this selected")
-    expect(seen).to_have_count(1)
 
 
 def test_what_one_draws_the_other_sees(serve: Serve, visit: Visit, watch: Watch) -> None:

@@ -20,11 +20,9 @@ def alerts(station: Flown, kind: str) -> list[dict[str, Any]]:
 
 def drawn_also(station: Flown, **mission: object) -> None:
     """Draw one more mission."""
-    plan = station.get("/api/plan")
     trip = {"key": "added-trip", "action": "measure", "target": [3, 5], "parameters": {}}
     added = {"key": "added-mission", "name": "More", "trips": [trip], **mission}
-    given = {"revision": plan["revision"], "missions": [*plan["missions"], added]}
-    assert station.put("/api/plan", given)[0] == 200
+    station.plan([*station.missions, added])
 
 
 def test_what_cannot_be_kept_is_said_when_it_starts(serve: Serve) -> None:
@@ -51,7 +49,7 @@ def test_missions_fly_to_their_end_and_can_be_flown_once_more(serve: Serve) -> N
     assert station.tell("start") == "1 mission started"
     station.completes_all_once()
     assert len(station.events("mission.created")) == 4 and len(station.journals()) == 1
-    assert not any(mission["launched"] for mission in station.get("/api/plan")["missions"])
+    assert not any(mission["launched"] for mission in station.missions)
     assert station.tell("start") == "4 missions started"
     station.comes_to("over")
     assert len(station.journals()) == 2
@@ -124,7 +122,7 @@ def test_what_was_interrupted_is_shown_and_flies_when_it_is_told_or_is_put_away(
     station.kill()
     station.start()
     assert station.phase == "interrupted"
-    assert all(mission["launched"] for mission in station.get("/api/plan")["missions"])
+    assert all(mission["launched"] for mission in station.missions)
     assert [drone["retired"] for drone in station.now()["drones"]] == [False, False, False, True]
     launched = len(station.events("trip.launched"))
     assert station.post("/api/retire", retire) == (200, {"said": "done already"})

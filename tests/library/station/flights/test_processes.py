@@ -39,30 +39,11 @@ def flying(station: Station) -> Station:
     return station
 
 
-def completes_all_once(station: Station) -> None:
-    until(lambda: station.phase == "over", "the flight is over")
-    assert set(station.statuses().values()) == {"COMPLETED"}
-    assert set(station.done().values()) <= {1}
-
-
-@pytest.mark.process
-def test_a_killed_station_shows_what_was_interrupted_and_a_resume_completes_all_once(
-    run: Run,
-) -> None:
-    station = flying(run("--name", "ward.example"))
-    assert oct(station.folder.joinpath("station").stat().st_mode)[-2:] == "00"
-    [address] = [line for line in station.said().splitlines() if line.startswith("to watch only:")]
-    station.kill()
-    station.start()
-    assert address in station.said()  # open pages keep their access
-    assert station.phase == "interrupted"
-    station.tell("resume")
-    completes_all_once(station)
-
-
 @pytest.mark.process
 def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(run: Run) -> None:
-    station = flying(run("--supervise"))
+    """Open pages keep their access."""
+    station = flying(run("--supervise", "--name", "ward.example"))
+    assert oct(station.folder.joinpath("station").stat().st_mode)[-2:] == "00"
     before = station.get("/api/app")["server"]
     serving = int((station.folder / "station" / "lock").read_text())
     assert serving != station.pid
@@ -75,7 +56,9 @@ def test_a_supervised_station_goes_on_by_itself_when_it_is_killed(run: Run) -> N
             return False
 
     until(is_another, "another process serves")
-    completes_all_once(station)
+    until(lambda: station.phase == "over", "the flight is over")
+    assert set(station.statuses().values()) == {"COMPLETED"}
+    assert set(station.done().values()) <= {1}
 
 
 @pytest.mark.long

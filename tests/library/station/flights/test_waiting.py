@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.station.wait_reasons import MISSIONS_A_LOOK, WaitReasons
+from pluto_fleet.station.wait_reasons import WaitReasons
 from pluto_fleet.station.wire import Words
 from tests.kit import apps
 from tests.kit.living import Living, enterable
@@ -120,13 +120,3 @@ def test_a_free_drone_with_little_more_than_its_reserve_or_too_little_for_all_is
     little = "its battery has little more than its reserve"
     assert sorted(why_low(living(near, low=0.3))) == ["", little, little]  # one flies
     assert why_low(living(near)) == ["", "", ""]
-
-
-def test_of_hundreds_that_wait_some_are_found_out_at_each_look() -> None:
-    """None is forgotten, and nothing is found out twice within seconds."""
-    fleet = living(*[far(f"m{n}") for n in range(3 * MISSIONS_A_LOOK)], low=0.25)
-    waiting, missions, seen = looking(fleet), fleet.life.records.missions.items(), list[int]()
-    for _ in range(4):
-        waiting.look(fleet.life.brain, fleet.fleet)
-        seen.append(sum(bool(waiting.why(name, one["todo"])) for name, one in missions))
-    assert seen == [MISSIONS_A_LOOK, 2 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK, 3 * MISSIONS_A_LOOK]

@@ -12,9 +12,8 @@ import pytest
 
 from pluto_fleet.app import described
 from pluto_fleet.station.graph.picture import app_graph
-from plutoc.compile import compile_source
-from plutoc.source import Source
 from tests.compiler.emit.apps import PLAIN
+from tests.kit.apps import compiled_file
 
 NAMES = iter(f"drawn_{number}" for number in range(100))
 
@@ -25,15 +24,11 @@ Made = tuple[str, Path]
 def made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Made:
     """The source folder of a package with a name that no other has; `src` of it is on the path."""
     name = next(NAMES)
-    text = PLAIN.replace("app plain", f"app {name}")
-    package = compile_source(
-        Source("app.pluto", text), source_name="app.pluto", find_hooks=lambda _: None
-    ).package
-    for path, written in {**package.owned, **package.once}.items():
-        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / path).write_text(written, encoding="utf-8")
-    monkeypatch.syspath_prepend(tmp_path / "src")
-    return name, tmp_path
+    source = tmp_path / "app.pluto"
+    source.write_text(PLAIN.replace("app plain", f"app {name}"), "utf-8")
+    package = compiled_file(source, tmp_path / "package")
+    monkeypatch.syspath_prepend(package / "src")
+    return name, package
 
 
 def found(name: str) -> Any:

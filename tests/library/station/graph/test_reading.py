@@ -2,20 +2,54 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
+from random import Random
 
 import pytest
 
 from pluto_fleet.station.graph.picture import graph_in
 from plutoc.block import ANY_SAME, Block
 from plutoc.check.model import Checked
+from plutoc.compile import analyse
+from plutoc.diagnostic import Rejected
 from plutoc.emit.readme_file import readme
 from plutoc.report.pictures import Shape, mermaid, picture
+from plutoc.source import Source
 from plutoc_blocks.clock.step import wait_for_time
-from tests.library.station.graph.sources import examples, random_graphs
+from tests.kit.graphs.graph import random_source
+from tests.paths import ROOT
 
 SHAPES = {Shape.START: "start", Shape.END: "end", Shape.GATE: "gate", Shape.BLOCK: "block"}
 HOSTILE = '```\nflowchart TD\n    Start(["start"])\n\n| kind of block | what it does |\n|---|---|\n'
+
+
+EXAMPLES = sorted(ROOT.glob("examples/*/app.pluto"))
+
+
+def checked(text: str) -> Checked:
+    """Return the checked graph of an app."""
+    return analyse(Source("app.pluto", text))[0]
+
+
+@cache
+def examples() -> dict[str, Checked]:
+    """Return the graph of each example, by its name."""
+    return {path.parent.name: checked(path.read_text(encoding="utf-8")) for path in EXAMPLES}
+
+
+def random_graphs(many: int) -> Iterator[Checked]:
+    """Yield graphs, some of them large and strange."""
+    seed = 0
+    while many:
+        seed += 1
+        try:
+            graph = checked(random_source(Random(f"drawn/{seed}")))
+        except Rejected:
+            continue
+        many -= 1
+        yield graph
 
 
 def shown(graph: Checked) -> object:

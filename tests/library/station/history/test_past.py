@@ -7,6 +7,7 @@ import os
 import shutil
 import time
 from collections import Counter
+from collections.abc import Iterator
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
@@ -56,15 +57,18 @@ def past_of(folder: Path, ours: Path | None = None) -> PastFlights:
     return PastFlights(FARM, config, lambda: ours)
 
 
-def frames_of(past: PastFlights, id: str) -> list[dict[str, Any]]:
-    """Return a whole replay, part by part."""
-    frames: list[dict[str, Any]] = []
+def parts_of(past: PastFlights, id: str) -> Iterator[list[dict[str, Any]]]:
+    """Yield the frames of a whole replay, part by part."""
     start: float | None = 0.0
     while start is not None:
         part: Any = past.replay(id, start)
-        frames += part["frames"]
+        yield part["frames"]
         start = part["next"]
-    return frames
+
+
+def frames_of(past: PastFlights, id: str) -> list[dict[str, Any]]:
+    """Return all frames of a replay."""
+    return [frame for part in parts_of(past, id) for frame in part]
 
 
 def test_what_is_told_of_a_flight_is_what_its_journal_tells(tmp_path: Path, update: bool) -> None:
@@ -257,18 +261,10 @@ def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> 
         rows = [{"id": f"cf{n}", "x": t / 7 + n, "why": "x" * 100} for n in range(50)]
         recording.write(float(t), {"phase": "flying"}, [], rows)
     recording.finish()
-    past = past_of(tmp_path)
-    sizes, times, start = [], [], 0.0
-    while True:
-        part: Any = past.replay(NEW, start)
-        sizes.append(len(json.dumps(part["frames"])))
-        times += [frame["t"] for frame in part["frames"]]
-        if part["next"] is None:
-            break
-        start = part["next"]
-    assert len(sizes) > 2
-    assert max(sizes) < 1_200_000
-    assert times == [float(t) for t in range(600)]
+    parts = list(parts_of(past_of(tmp_path), NEW))
+    assert len(parts) > 2
+    assert max(len(json.dumps(part)) for part in parts) < 1_200_000
+    assert [frame["t"] for part in parts for frame in part] == [float(t) for t in range(600)]
 
 
 def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: Path) -> None:

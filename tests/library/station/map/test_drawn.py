@@ -1,4 +1,4 @@
-"""What is drawn on the map is in the fleet file, and nothing else of that has changed."""
+"""What is drawn on the map is in the fleet file, and nothing else of that has changed; which pictures it may be on."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.map.drawn import DrawnMap, StaleMap
+from pluto_fleet.station.map.pictures import ending_of, safe_name
 from pluto_fleet.station.station import Station
 from tests.library.files.an_app import APP
 from tests.library.station.plan.drawing import FLEET as PLAIN_FLEET
@@ -197,3 +198,43 @@ def test_all_pages_learn_of_a_new_map(tmp_path: Path) -> None:
     assert after == before + 1
     assert station.plan.landmarks.place == {"Desk": (1.0, 2.0)}
     assert Station(APP, config, a_plan()).plan.landmarks == station.plan.landmarks
+
+
+@pytest.mark.parametrize(
+    ("content", "ending"),
+    [
+        (b"\x89PNG\r\n\x1a\n...", ".png"),
+        (b"\xff\xd8\xff\xe0...", ".jpg"),
+        (b"RIFF\x00\x00\x00\x00WEBPVP8 ", ".webp"),
+        ('\ufeff<?xml version="1.0"?>\n<!DOCTYPE svg>'.encode() + SVG, ".svg"),
+    ],
+)
+def test_a_picture_is_what_its_bytes_say(content: bytes, ending: str) -> None:
+    """Whatever it is called."""
+    assert ending_of(content) == ending
+    assert safe_name("evil.html", content).startswith("evil-")
+    assert safe_name("evil.html", content).endswith(ending)
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"GIF89a",
+        b"<html><script>alert(1)</script></html>",
+        b"<svg",
+        b"<svg/>",
+        b"RIFF....WAVE",
+        b'<!DOCTYPE svg [<!ENTITY a "b">]>' + SVG,
+    ],
+)
+def test_anything_else_is_refused(content: bytes) -> None:
+    with pytest.raises(BadInput):
+        ending_of(content)
+
+
+@pytest.mark.parametrize("name", ["", "..", "/etc/passwd", "a/../b.png", "\0", "é" * 300, "C:\\x"])
+def test_a_name_leads_nowhere_else(name: str) -> None:
+    """It is short, and has letters, digits and - alone."""
+    found = safe_name(name, SVG).removesuffix(".svg")
+    assert len(found) < 60 and found.replace("-", "").isalnum() and found.isascii()

@@ -150,13 +150,3 @@ def test_what_was_handed_out_in_flight_may_come_back_in_flight() -> None:
     plan.import_toml(plan.export_toml(), plan.revision)
     assert plan.export_toml() == FILE
     assert plan.launchable()[0][0].name == "South field"
-
-
-def test_some_missions_alone_are_a_file_too() -> None:
-    """Those of these keys, in the plan's order."""
-    plan = drawn(mission("mission-one"), mission("mission-two"), mission("mission-six"))
-    text = plan.export_toml(["mission-six", "mission-one"])
-    assert [line for line in text.split("\n") if line.startswith("name")] == [
-        'name = "mission-one"',
-        'name = "mission-six"',
-    ]

@@ -41,7 +41,7 @@ def kept(file: Path, *missions: Json) -> MissionPlan:
 
 
 def test_a_restart_finds_everything_as_it_was(file: Path) -> None:
-    """Keys, order, what was launched, and what is wrong; and the revision is a later one."""
+    """Keys, order, what was launched, and what is wrong; the revision is a later one, and nobody else may read it."""
     begun = trip(target=None, item={"mass": "4 g"}, parameters={"dose": "much"})
     plan = kept(file, mission(M, safe_time="3 min"), mission("mission-two", begun, repeat=True))
     plan.launched([M])
@@ -49,6 +49,8 @@ def test_a_restart_finds_everything_as_it_was(file: Path) -> None:
     assert again.revision > plan.revision
     assert again.trouble == ""
     assert {**again.data(), "revision": 0} == {**plan.data(), "revision": 0}
+    assert file.stat().st_mode & 0o777 == 0o600
+    assert [one.name for one in file.parent.iterdir()] == ["plan.json"]
 
 
 def test_no_revision_ever_means_two_plans(file: Path) -> None:
@@ -61,13 +63,6 @@ def test_no_revision_ever_means_two_plans(file: Path) -> None:
     assert a_plan(file, now=1001.0).revision > plan.revision
     late = kept(file, mission())
     assert a_plan(file, now=0.0).revision == late.revision + 1  # a clock may be set back
-
-
-def test_only_its_owner_may_read_it(file: Path) -> None:
-    """And nothing else is left beside it."""
-    kept(file, mission())
-    assert file.stat().st_mode & 0o777 == 0o600
-    assert [one.name for one in file.parent.iterdir()] == ["plan.json"]
 
 
 @pytest.mark.parametrize(

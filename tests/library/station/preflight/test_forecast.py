@@ -1,10 +1,11 @@
-"""A forecast is what many runs of the same missions say, with the drones as they are now."""
+"""A forecast is what many runs of the same missions say, with the drones as they are now; one is rehearsed."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,10 +14,15 @@ from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.history.past import PastFlights
+from pluto_fleet.station.preflight.preflight import KEPT
 from pluto_fleet.station.preflight.question import Question
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.trials.case import fresh
 from tests.kit.apps import example
+from tests.library.files.an_app import APP
+from tests.library.station.history.test_past import frames_of
 from tests.library.station.plan.drawing import handling, mission, trip
 from tests.library.station.preflight.asking import (
     FLEET,
@@ -129,3 +135,40 @@ def test_without_a_number_there_are_runs_enough_for_percentiles_and_one_is_in_th
     forecast = answer(question(photos("mission-one", 1), runs=None), tmp_path)
     assert forecast["runs"] >= 21
     assert forecast["runs"] % 2 == 1
+
+
+def test_a_rehearsal_ends_at_the_median_with_every_mission_done(tmp_path: Path) -> None:
+    forecast = answer(question(*THREE), tmp_path / "station")
+    assert forecast["rehearsal"] is not None
+    assert forecast["rehearsal"].startswith("rehearsal-")
+    config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
+    past = PastFlights(APP, config, lambda: None)
+    first: Any = past.replay(forecast["rehearsal"], 0.0)
+    frames, log = frames_of(past, forecast["rehearsal"]), first["log"]
+    assert forecast["median"] is not None
+    ends = [line["time"] for line in log if line["text"] == "COMPLETED"]
+    assert len(ends) == 3
+    assert max(ends) == round(forecast["median"], 6)
+    assert first["seconds"] >= forecast["median"]
+    missions = {row["name"]: row for frame in frames for row in frame["missions"]}
+    assert {row["status"] for row in missions.values()} == {"COMPLETED"}
+    rows = [row for frame in frames for row in frame["drones"]]
+    assert len({(row["x"], row["y"]) for row in rows}) > len(log) + 10  # also between two events
+    assert min(row["battery"] for row in rows) < 1.0
+
+
+def test_only_the_newest_are_kept_and_none_of_what_was_given_up(tmp_path: Path) -> None:
+    made = [
+        answer(question(photos("mission-one", 1), runs=1), tmp_path)["rehearsal"]
+        for _ in range(KEPT + 2)
+    ]
+    there = {path.stem for path in (tmp_path / "rehearsals").iterdir()}
+    assert there == set(made[-KEPT:])
+
+
+def test_a_rehearsal_that_cannot_be_written_takes_nothing_from_the_forecast(tmp_path: Path) -> None:
+    (tmp_path / "rehearsals").write_text("no folder")
+    forecast = answer(question(photos("mission-one", 1)), tmp_path)
+    assert forecast["rehearsal"] is None
+    assert forecast["median"] is not None
+    assert [one["key"] for one in forecast["assumed"]] == ["preflight.no-rehearsal"]

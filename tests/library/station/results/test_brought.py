@@ -1,10 +1,13 @@
-"""What a flight has brought in says of what it is, in which unit, where, when, and of which trip."""
+"""What a flight has brought in says of what it is, where, when and of which trip, as its app says or without a word."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
+
+import pytest
 
 from pluto_fleet.shared.domain.actions import BUILT_IN, Parameter
 from pluto_fleet.shared.domain.model import Photo
@@ -12,6 +15,7 @@ from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.plain_data import value_data
 from pluto_fleet.station.feed import Feed
+from pluto_fleet.station.results.meaning import REACH, Meanings
 from pluto_fleet.station.results.meaning import SIMULATED_UNITS as UNITS
 
 SPRAY = OwnAction(
@@ -28,19 +32,31 @@ class Sprays:
         self.actions = {**BUILT_IN, SPRAY.name: SPRAY}
 
 
-def told(action: str, value: object, units: dict[str, str], **parameters: object) -> dict[str, Any]:
-    """Return what is told of one trip that has done this."""
-    feed = Feed(Sprays(), units)  # type: ignore[arg-type]
+def trip(event: str = "completed", action: str = "spray", **more: object) -> dict[str, Any]:
+    """Return what a trip has done, or what else has become of it."""
+    did = {"action": action, "target": [3.0, 4.5, 1.2], "parameters": more.pop("parameters", {})}
     facts = {"mission": "Field", "trip": "A", "round": 0, "attempt": 2, "drone": "cf1"}
-    did = {"action": action, "target": [3.0, 4.5, 1.2], "parameters": parameters}
-    feed.take({"t": 12.5, "event": "trip.completed", **facts, "result": value, "did": did})
-    [found] = feed.brought()
+    return {"t": 12.5, "event": f"trip.{event}", "result": None, "did": did, **facts, **more}
+
+
+def taken(*events: dict[str, Any], units: dict[str, str] | None = None) -> Feed:
+    """Return what a flight tells after these events."""
+    feed = Feed(Sprays(), units or {}, "a-flight")  # type: ignore[arg-type]
+    for event in events:
+        feed.take(event)
+    return feed
+
+
+def told(action: str, value: object, **parameters: object) -> dict[str, Any]:
+    """Return what is told of one trip that has done this."""
+    done = trip(action=action, result=value, parameters=parameters)
+    [found] = taken(done, units=dict(UNITS)).brought()
     assert isinstance(found, dict)
     return found
 
 
 def test_a_measurement_says_of_what_it_is_and_where() -> None:
-    found = told("measure", 17.3, dict(UNITS), quantity="pm10")
+    found = told("measure", 17.3, quantity="pm10")
     assert found == {
         "number": 1,
         "time": 12.5,
@@ -64,14 +80,9 @@ def test_a_measurement_says_of_what_it_is_and_where() -> None:
 
 def test_what_was_done_beside_its_target_says_where() -> None:
     """A later attempt that was done just there says nothing of it, nor does another trip."""
-    feed = Feed(Sprays(), {})  # type: ignore[arg-type]
-    facts = {"t": 1.0, "mission": "Field", "trip": "A", "round": 0, "attempt": 1, "drone": "cf1"}
-    did = {"action": "measure", "target": [3.0, 4.5, 1.2], "parameters": {}}
-    beside = {"event": "trip.beside", "target": did["target"], "at": [3.7, 4.5, 1.2], **facts}
-    done = {"event": "trip.completed", "result": 1.0, "did": did, **facts}
-    failed = {"event": "trip.failed", "reason": "its link was lost", **facts}
-    for event in (beside, done, beside, failed, done, {**done, "trip": "B"}):
-        feed.take(event)
+    beside = trip("beside", target=[3.0, 4.5, 1.2], at=[3.7, 4.5, 1.2])
+    done, failed = trip(action="measure", result=1.0), trip("failed", reason="its link was lost")
+    feed = taken(beside, done, beside, failed, done, {**done, "trip": "B"})
     found: list[Any] = feed.brought()
     assert [one.get("at") for one in found] == [[3.7, 4.5, 1.2], None, None]
     assert "another drone is at its place" in feed.console()
@@ -80,20 +91,17 @@ def test_what_was_done_beside_its_target_says_where() -> None:
 def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a_parameter() -> (
     None
 ):
-    found = told("spray", 5e-05, dict(UNITS))
+    found = told("spray", 5e-05)
     assert (found["kind"], found["action"]) == ("result", "spray")
     assert found["parameters"] == {"dose": 5e-05}
     assert found["values"] == found["layers"] == []
-    assert told("spray", True, {}, dose=1e-05)["parameters"] == {"dose": 1e-05}
-    assert told("release_item", None, {})["kind"] == "handling"
+    assert told("spray", True, dose=1e-05)["parameters"] == {"dose": 1e-05}
+    assert told("release_item", None)["kind"] == "handling"
 
 
-def shown(value: object, action: str = "spray") -> tuple[object, object]:
+def shown(value: object) -> tuple[object, object]:
     """Return what pages get of a result, and what there is to download."""
-    feed = Feed(Sprays(), {})  # type: ignore[arg-type]
-    did = {"action": action, "target": [3.0, 4.5, 1.2], "parameters": {}}
-    event = {"t": 1.0, "event": "trip.completed", "mission": "Field", "trip": "A", "drone": "cf1"}
-    feed.take({**event, "result": value_data(value), "did": did})
+    feed = taken(trip(result=value_data(value)))
     [page], [found] = feed.results.since(0), feed.brought()
     assert isinstance(found, dict)
     return json.loads(page)["value"], found["value"]
@@ -118,11 +126,67 @@ def test_a_photo_has_an_address_where_its_camera_has_left_a_picture() -> None:
     photo = Photo(position=(1.0, 2.0, 1.0), width=1.0, height=1.0, sees=("bloom",))
     address = "/api/photo?result=1&flight=a-flight"
     for file, picture in ((None, None), ("w1-1.png", address)):
-        feed = Feed(Sprays(), {}, "a-flight")  # type: ignore[arg-type]
-        did = {"action": "take_photo", "target": [1.0, 2.0, 1.0], "parameters": {}}
-        event = {"t": 1.0, "event": "trip.completed", "mission": "F", "trip": "A", "drone": "cf1"}
-        feed.take({**event, "result": value_data(replace(photo, file=file)), "did": did})
-        [found] = feed.brought()
+        value = value_data(replace(photo, file=file))
+        [found] = taken(trip(action="take_photo", result=value)).brought()
         assert isinstance(found, dict)
-        value: Any = found["value"]
-        assert (found["kind"], value["sees"], value["picture"]) == ("photo", ["bloom"], picture)
+        told: Any = found["value"]
+        assert (found["kind"], told["sees"], told["picture"]) == ("photo", ["bloom"], picture)
+
+
+OWN = ("weigh", "open_hatch")
+DUST = {"action": "measure", "as": "heat", "quantity": "pm10", "unit": "µg/m³", "reach": 2.0}
+
+
+def meanings(*said: Mapping[str, object]) -> Meanings:
+    return Meanings(said, (*BUILT_IN, *OWN), UNITS)
+
+
+def test_an_app_that_says_nothing_has_the_usual_layers() -> None:
+    found = meanings()
+    assert [one["id"] for one in found.layers] == [
+        "measure",
+        "take_photo:photos",
+        "take_photo:findings",
+    ]
+    assert found.layers[0]["reach"] == REACH
+    temperature = found.of("measure", "temperature")
+    assert (temperature.kind, temperature.unit) == ("measurement", "°C")
+    assert found.of("pick_item").kind == found.of("release_item").kind == "handling"
+    assert (found.of("weigh").kind, found.of("weigh").layers) == ("result", ())
+
+
+def test_one_quantity_has_a_layer_of_its_own_and_the_others_keep_theirs() -> None:
+    found = meanings(DUST)
+    assert [one["id"] for one in found.layers][:2] == ["measure:pm10", "measure"]
+    assert found.of("measure", "pm10").layers == ("measure:pm10",)
+    assert found.of("measure", "radon").layers == ("measure",)
+    assert found.of("measure", "radon").unit is None
+
+
+def test_what_an_app_says_of_photos_is_all_of_it() -> None:
+    found = meanings({"action": "take_photo", "as": "photos", "label": "The site"})
+    assert found.of("take_photo").layers == ("take_photo:photos",)
+    assert found.of("take_photo").finds is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "value", "shown"),
+    [
+        ("mass", "mg", 5e-05, (50.0, "mg")),
+        ("mass", None, 0.25, (0.25, "kg")),
+        ("temperature", "C", 294.15, (21.0, "C")),
+        ("percent", None, 0.4, (40.0, "%")),
+        ("speed", "km/h", 10.0, (36.0, "km/h")),
+    ],
+)
+def test_a_quantity_is_shown_in_its_unit(
+    kind: str, unit: str | None, value: float, shown: tuple[float, str]
+) -> None:
+    said = {"action": "weigh", "as": "values", "type": kind} | ({"unit": unit} if unit else {})
+    number = meanings(said).of("weigh").number(value)
+    assert number == {"quantity": "weigh", "value": shown[0], "unit": shown[1]}
+
+
+@pytest.mark.parametrize("value", [None, True, "3", float("nan"), float("inf"), 10**400, [1.0]])
+def test_what_is_no_finite_number_is_none(value: object) -> None:
+    assert meanings(DUST).of("measure", "pm10").number(value) is None

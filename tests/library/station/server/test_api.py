@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from openapi_spec_validator import validate
 
-from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.commands import Malformed
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.reads import DESCRIPTION
 from station_interface.made import made
@@ -24,15 +22,6 @@ def query_of(address: Address) -> dict[str, str]:
     """Return what must be asked with an address."""
     needed = {name: one.type for name, one in address.query.items() if one.needed}
     return {name: "one" if type is str else "1" for name, type in needed.items()}
-
-
-@pytest.mark.parametrize(
-    ("error", "status"), [(BadInput("nothing flies"), 409), (Malformed("no mission is named"), 400)]
-)
-def test_why_a_command_was_not_done_is_said(error: Exception, status: int) -> None:
-    reply = asked(AStation(wrong=error))("POST", "/api/pause", {"id": "one"})
-    assert reply.status == status
-    assert said(reply).startswith(str(error))
 
 
 def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_client(tmp_path: Path) -> None:
@@ -105,18 +94,6 @@ async def test_many_who_guess_keep_no_owner_out() -> None:
     assert len(ask.paused) == 32  # the others are answered at once
     gate.set()
     assert {(await each).status for each in guesses} == {401}
-
-
-def test_an_address_takes_the_methods_that_it_has() -> None:
-    ask, taken = asked(), {(one.path, one.method) for one in ADDRESSES}
-    paths = [*{path for path, _ in taken}, "/", "/pages/main.js", "/map", "/nowhere", "*"]
-    for path in paths:
-        for method in ("DELETE", "PATCH", "OPTIONS", "TRACE", "PROPFIND", "get", "POST", "PUT"):
-            if (path, method) not in taken:
-                reply = ask(method, path)
-                assert reply.status in (404, 405)
-                assert ("Allow" in dict(reply.headers)) is (reply.status == 405)
-    assert ask.station.untouched
 
 
 def test_of_too_many_commands_some_are_refused_but_never_what_brings_drones_down() -> None:

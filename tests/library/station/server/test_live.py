@@ -175,12 +175,6 @@ def test_people_see_who_else_is_there() -> None:
     assert first["people"] == [{**ME, "role": "fly"}] and "people" not in second
 
 
-def test_a_page_that_hangs_up_makes_room() -> None:
-    ask = asked()
-    for _ in range(100):
-        assert len(talk(ask, ALine(SEEN)).heard) == 1
-
-
 def test_when_the_station_ends_no_client_is_waited_for() -> None:
     gate = asyncio.Event()
     ask = asked(AStation(busy=gate.wait))

@@ -27,22 +27,6 @@ from tests.library.station.map.test_drawn import ward
 from .asking import SEEN, AStation
 from .serving import Served, play, served, status
 
-
-def test_pages_and_answers_come_over_a_socket() -> None:
-    async def scene(station: Served) -> None:
-        page = await station.say(station.request("GET", "/"))
-        assert status(page) == 200 and page.lower().count(b"content-security-policy") == 1
-        assert b"\nserver:" not in page.lower()
-        head = await station.say(station.request("HEAD", "/"))
-        assert status(head) == 200 and head.endswith(b"\r\n\r\n")
-        assert status(await station.say(station.request("POST", "/api/start", {"id": "1"}))) == 200
-        assert station.station.done == [("start", {})]
-        poll = await station.say(station.request("GET", "/api/live?flight=a+b&seen=3"))
-        assert json.loads(poll.split(b"\r\n\r\n")[1]) == {"version": 1, "flight": "a b"}
-
-    play(scene)
-
-
 LARGE = b"x" * (1024 * 1024 + 1)
 CHUNK = b"%x\r\n" % 65536 + b"x" * 65536 + b"\r\n"
 
@@ -80,24 +64,6 @@ def test_a_floor_plan_may_be_larger_than_other_bodies(tmp_path: Path) -> None:
         assert station.map.image is not None and station.map.image.read_bytes() == png
 
     run(scene())
-
-
-NO_HTTP = (
-    b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + bytes(range(256)),
-    b"GET / HTTP/1.1\r\nHost: a\r\nConnection: close\r\nX: " + b"x" * 100_000 + b"\r\n\r\n",
-    b"POST /api/start HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: gzip\r\n\r\n",
-)
-
-
-def test_what_is_no_http_and_what_leads_nowhere_is_refused() -> None:
-    async def scene(station: Served) -> None:
-        assert status(await station.say(station.request("GET", "/pages/..%2f..%2fhttp.py"))) == 404
-        for raw in NO_HTTP:
-            answer = await station.say(raw)
-            assert 400 <= status(answer) < 500 or status(answer) == 501
-            assert b"Traceback" not in answer
-
-    play(scene)
 
 
 def test_what_is_said_twice_counts_for_nothing_and_no_proxy_is_believed(tmp_path: Path) -> None:
