@@ -96,7 +96,7 @@ class PageSocket(Protocol):
 
 
 def json_reply(status: int, data: object) -> Reply:
-    """Answer with data as JSON; numbers that JSON lacks become null."""
+    """Answer with data as JSON; numbers that JSON lacks become texts."""
     try:
         text = json.dumps(data, separators=(",", ":"), allow_nan=False)
     except ValueError:  # a hook returned NaN or infinity

@@ -67,7 +67,11 @@ def test_a_start_is_forecast_and_rehearsed_and_what_is_missing_is_flown_again_al
     replay = station.get("/api/flights/replay", flight=told["rehearsal"])
     assert replay["seconds"] >= told["median"]
     assert {one["name"] for one in replay["frames"][0]["missions"]} == {*station.ends()}
-    for wrong, status in (({"revision": 1}, 409), ({"only_failed": "yes"}, 400)):
+    for wrong, status in (
+        ({"revision": 1}, 409),
+        ({"runs": 0}, 409),
+        ({"only_failed": "yes"}, 400),
+    ):
         assert forecast(station, **wrong)[0] == status
 
     station.tell("start", revision=told["revision"])

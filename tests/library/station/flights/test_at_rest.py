@@ -155,15 +155,18 @@ def test_a_lost_drone_stays_lost_over_ends_restarts_and_starts_until_it_is_broug
 def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason_and_place(
     serve: Serve,
 ) -> None:
-    """While no station runs, or while one shows what its crash has broken off; both outlast that."""
+    """While no station runs, while one shows what its crash has broken off, and after that was put away."""
     station = serve(speed=3.0)
     station.tell("start")
     station.until(lambda: station.in_the_air(1.0), "a drone is in the air")
-    first, second = (row["id"] for row in rows(station)[:2])
+    first, second, third = (row["id"] for row in rows(station)[:3])
     folder = gateway_folder(station.journals()[-1])
 
+    def cut(drone: str) -> None:
+        station.world.run(asyncio.to_thread(cut_directly, folder, drone, 60.0))
+
     station.kill()
-    station.world.run(asyncio.to_thread(cut_directly, folder, first, 60.0))
+    cut(first)
     station.start()
     station.until(lambda: station.drone(first)["status"] == "LOST", "it is seen")
     comes_true(station)
@@ -171,11 +174,14 @@ def test_a_drone_that_falls_with_the_gateway_alone_there_is_lost_with_its_reason
     station.tell("cut-motors", drone=second)
     station.until(lambda: station.drone(second)["status"] == "LOST", "it is seen")
     comes_true(station)
+    cut(third)
     station.tell("discard")
+    station.until(lambda: station.drone(third)["status"] == "LOST", "it is seen")
+    comes_true(station)
     station.start()
-    assert [row["id"] for row in rows(station) if row["status"] == "LOST"] == [first, second]
+    assert [row["id"] for row in rows(station) if row["status"] == "LOST"] == [first, second, third]
     assert station.tell("bring-back", drone=second).startswith(f"{second} is brought back")
-    assert station.tell("start").endswith(f"without {first}, lost until brought back")
+    assert station.tell("start").endswith(f"without {first}, {third}, lost until brought back")
 
 
 def test_who_is_lost_is_remembered_without_journals_and_with_no_drone_left_nothing_flies(

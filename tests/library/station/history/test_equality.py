@@ -148,6 +148,7 @@ def test_a_flight_is_replayed_over_all_its_lives(serve: Serve) -> None:
     assert {row["status"] for row in connecting["drones"]} <= {"UNKNOWN", "LANDED", "ALOFT"}
     [flight] = station.get("/api/flights")
     assert (flight["end"], flight["completed"]) == ("over", 3)
+    assert station.ask("GET", "/api/flights/mcap", flight=flight["id"]).body.startswith(b"\x89MCAP")
 
 
 def test_a_recording_that_cannot_be_written_is_said_and_the_flight_goes_on(

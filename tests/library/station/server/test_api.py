@@ -10,6 +10,7 @@ import pytest
 from openapi_spec_validator import validate
 
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
+from pluto_fleet.station.web.http import json_reply
 from pluto_fleet.station.web.reads import DESCRIPTION
 from station_interface.made import made
 
@@ -33,6 +34,11 @@ def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_client(tmp_path: Pa
         assert reply.status == 500
         assert b"secret" not in reply.body and b"Traceback" not in reply.body
     assert "ZeroDivisionError: secret" in (tmp_path / "audit.log").read_text()
+
+
+def test_a_number_that_json_does_not_have_is_a_word() -> None:
+    reply = json_reply(200, [{"value": float("nan")}, {"value": (1.5, float("inf"))}])
+    assert json.loads(reply.body) == [{"value": "nan"}, {"value": [1.5, "inf"]}]
 
 
 def test_a_page_of_another_site_changes_nothing() -> None:
