@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.journal.fold import Records
 
-PLAN = {"index": 0, "fields": {}, "trips": [{"name": "A", "action": "measure"}]}
+PLAN: dict[str, Any] = {"index": 0, "fields": {}, "trips": [{"name": "A", "action": "measure"}]}
 CREATED = {"event": "mission.created", "plan": PLAN}
 
 
@@ -47,3 +47,11 @@ def test_what_a_hook_makes_of_a_mission_is_remembered(
 
 def test_a_mission_that_was_late_stays_so_when_it_restarts() -> None:
     assert folded(CREATED, {"event": "mission.late"}, CREATED).missions["m"]["late"]
+
+
+def test_a_trip_that_is_skipped_behind_another_is_the_one_that_is_gone() -> None:
+    trips = [{**PLAN["trips"][0], "name": name} for name in "ABC"]
+    created = {**CREATED, "plan": {**PLAN, "trips": trips}}
+    record = folded(created, {"event": "trip.skipped", "trip": "B"}).missions["m"]
+    left, gone = ([one["name"] for one in record[key]] for key in ("todo", "gone"))
+    assert (left, gone) == (["A", "C"], ["B"])
