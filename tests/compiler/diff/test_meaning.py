@@ -10,7 +10,6 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.soundness.thesis import thesis_graphs
 
 from plutoc.compile import planned
 from plutoc.diagnostic import Rejected
@@ -22,7 +21,7 @@ from plutoc.plan.show import show
 from plutoc.source import Source
 from tests.compiler.diff.pairs import EXAMPLES, difference, sentences, version
 from tests.format.layouts import Liberty, laid_out, words_of
-from tests.soundness.app import App
+from tests.soundness.app import App, thesis_graphs
 from tests.soundness.mutants import mutants
 
 GRAPHS = thesis_graphs()
