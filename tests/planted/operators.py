@@ -32,6 +32,8 @@ _COMPUTED: dict[type[ast.operator], tuple[str, str]] = {
 _CALLED = {"min": "max", "max": "min", "any": "all", "all": "any"}
 _TOLERANCE = 1e-3
 """Smaller numbers are there for rounding: twice as much of it is nothing that anybody could see."""
+_DECLARES = {"strict", "init", "repr"}
+"""Arguments that assert something, or say how a class may be made and shown: nothing that happens."""
 _JUMPS = (ast.Return, ast.Continue, ast.Break, ast.Raise)
 
 
@@ -136,7 +138,7 @@ class Proposals(ast.NodeVisitor):
         for argument in node.args:
             self.visit(argument)
         for keyword in node.keywords:
-            if keyword.arg != "strict":  # of a zip: an assertion
+            if keyword.arg not in _DECLARES:
                 self.visit(keyword.value)
 
     def visit_Constant(self, node: ast.Constant) -> None:
