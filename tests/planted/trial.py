@@ -55,6 +55,8 @@ class Copy:
                 (folder / name).parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy2(ROOT / name, folder / name)
         self._changed = time.time()
+        self._fit: dict[str, bool] = {}
+        """Whether a test that has failed passes in this copy when no bug is in it."""
 
     def try_out(self, bug: Bug) -> Verdict:
         """Plant a bug, look who catches it, and take it back."""
@@ -63,18 +65,30 @@ class Copy:
         tests = self._reach.tests(bug, text)
         began = time.monotonic()
         catcher = None
-        self._write(file, bug.planted(text))
-        try:
-            for some in _parts(tests):
-                catcher = self._first_failure(some)
-                if catcher is not None:
-                    break
-        finally:
-            self._write(file, text)
+        for some in _parts(tests):
+            catcher = self._catcher(some, file, text, bug.planted(text))
+            if catcher is not None:
+                break
         seconds = time.monotonic() - began
         return Verdict(
             bug=bug, line=bug.line(text), reached=len(tests), catcher=catcher, seconds=seconds
         )
+
+    def _catcher(self, tests: Sequence[str], file: Path, sound: str, planted: str) -> str | None:
+        """Return the first test that fails with a bug and passes without it."""
+        while left := [test for test in tests if self._fit.get(test, True)]:
+            self._write(file, planted)
+            try:
+                failure = self._first_failure(left)
+            finally:
+                self._write(file, sound)
+            if failure not in left:  # none, or the whole run
+                return failure
+            if failure not in self._fit:
+                self._fit[failure] = self._first_failure([failure]) is None
+            if self._fit[failure]:
+                return failure
+        return None
 
     def _write(self, file: Path, text: str) -> None:
         """Write a file so that what was compiled of it before is out of date: that is looked up by the second."""
@@ -105,8 +119,12 @@ class Copy:
                 return "one that then never ends"
         if run.returncode == 0:
             return None
-        found = re.search(r"^(?:FAILED|ERROR) (\S+)", said, re.MULTILINE)
-        return found[1] if found else f"the run itself: {said.strip()[-200:]}"
+        found = re.search(r"^(?:FAILED|ERROR) (.+)$", said, re.MULTILINE)
+        if found is None:
+            return f"the run itself: {said.strip()[-200:]}"
+        # a name may have blanks, and a reason stands behind it
+        named = [test for test in tests if found[1].startswith(test)]
+        return max(named, key=len, default=found[1])
 
     def _longest(self, tests: Sequence[str]) -> float:
         return max(self._limit, _TIMES * sum(self._reach.seconds[test] for test in tests))

@@ -1,5 +1,8 @@
-// Where a floor plan lies, by two of its points and the length between them: the same formula as the
-// station's (station/map/calibration.py). Pure.
+// Where a floor plan lies, by two of its points and the length between them. Pure.
+//
+// A picture has its pixels counted from its upper left corner, x to the right and y down; the map has its
+// metres counted from its lower left corner, y up. The first point comes to lie where it is on the map, and
+// all lengths of the picture are right then; it is turned if it is known where the second is as well.
 
 /** @typedef {{ x: number, y: number }} At */
 /** @typedef {{ x: number, y: number, width: number, height: number, turn: number }} Placement */
