@@ -8,6 +8,7 @@ import pytest
 
 from plutoc.plan.build import build
 from plutoc.plan.show import show
+from plutoc.plan.structure import MOST_NESTED_ARMS, MOST_NESTED_LOOPS
 from plutoc.plan.verify import verify
 from tests.compiler.check.graphs import checked
 from tests.compiler.plan.graphs import routes
@@ -59,11 +60,14 @@ def test_a_long_graph_stays_flat(graph: Callable[[int], str]) -> None:
     assert depth(show(plan)) <= 5
 
 
-@pytest.mark.parametrize("graph", [onion, loops])
-def test_a_deep_graph_becomes_a_dispatch_before_it_is_too_deep(graph: Callable[[int], str]) -> None:
+@pytest.mark.parametrize(("graph", "most"), [(onion, MOST_NESTED_ARMS), (loops, MOST_NESTED_LOOPS)])
+def test_a_deep_graph_becomes_a_dispatch_before_it_is_too_deep(
+    graph: Callable[[int], str], most: int
+) -> None:
     """Python refuses a hundred indentations, and twenty loops in each other."""
-    shallow, deep = (build(checked(graph(count))) for count in (6, 120))
-    verify(shallow)
-    verify(deep)
-    assert "dispatch" not in show(shallow)
+    deepest, deeper, deep = (build(checked(graph(count))) for count in (most, most + 1, 120))
+    for plan in (deepest, deeper, deep):
+        verify(plan)
+    assert "dispatch" not in show(deepest)
+    assert "dispatch" in show(deeper)
     assert depth(show(deep)) <= 5
