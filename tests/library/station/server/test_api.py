@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from openapi_spec_validator import validate
 
+from pluto_fleet.station.results.exports import Exports
 from pluto_fleet.station.web.addresses import ADDRESSES, Address
 from pluto_fleet.station.web.http import json_reply
 from pluto_fleet.station.web.reads import DESCRIPTION
@@ -39,6 +40,18 @@ def test_a_mistake_of_ours_is_told_to_the_log_and_not_to_the_client(tmp_path: Pa
 def test_a_number_that_json_does_not_have_is_a_word() -> None:
     reply = json_reply(200, [{"value": float("nan")}, {"value": (1.5, float("inf"))}])
     assert json.loads(reply.body) == [{"value": "nan"}, {"value": [1.5, "inf"]}]
+
+
+def test_the_picture_of_a_result_is_given_whole_or_small(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def picture(_: object, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:
+        return f"{flight}/{number}".encode(), "image/jpeg" if small else "image/png"
+
+    monkeypatch.setattr(Exports, "picture", picture)
+    ask = asked()
+    for size, kind in (("", "image/png"), ("full", "image/png"), ("thumb", "image/jpeg")):
+        reply = ask("GET", "/api/photo", flight="a-flight", result="7", size=size)
+        assert (reply.status, reply.type, reply.body) == (200, kind, b"a-flight/7")
+    assert ask("GET", "/api/photo", result="7", size="huge").status == 400
 
 
 def test_a_page_of_another_site_changes_nothing() -> None:
