@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import signal
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
 from pluto_fleet.gateway import remote, starting
-from pluto_fleet.gateway.process import LOG, main
+from pluto_fleet.gateway.process import LOG, Ending, main
 from pluto_fleet.gateway.starting import (
     connect,
     cut_directly,
@@ -23,8 +25,9 @@ from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
+from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.library.gateway.flights import THERE, Task
+from tests.library.gateway.flights import THERE, Field, Task
 from tests.library.gateway.processes import (
     SPEED,
     Brain,
@@ -152,6 +155,22 @@ def test_all_can_be_brought_down_by_the_brain_and_without_it(tmp_path: Path) -> 
         assert report.drones["cf1"].location[0] > 3
 
     played_inside(tmp_path, play)
+
+
+def test_one_that_is_told_to_end_leaves_its_brain_time_to_stop() -> None:
+    """The same signal may have reached both: the brain brings its drones down by itself."""
+    field, over = Field(), Future[None]()
+    settings: Any = SimpleNamespace(speed=1.0, idle=60.0, patience=3.0, real=None)
+    server: Any = SimpleNamespace(has_a_brain=True)
+    ending = Ending(field.gateway, over, settings)
+    ending.server = server
+    ending.look()
+    field.advance(10)
+    ending.told_to_end()
+    field.advance(2.5)
+    assert not over.is_set
+    field.advance(2)
+    assert over.is_set
 
 
 def test_an_older_brain_is_refused_and_a_newer_one_cuts_it_off(tmp_path: Path) -> None:
