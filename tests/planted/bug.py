@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from tests.paths import ROOT
 
@@ -62,12 +63,26 @@ def named_bugs() -> list[Bug]:
     return found
 
 
-def words_on_the_rest() -> dict[tuple[str, str, str], str]:
-    """Return why each bug that nothing catches is left: most change nothing that anybody could see."""
-    return {(e["file"], e["before"], e["after"]): e["why"] for e in _entries("left.toml")}
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Left:
+    """Why a bug that nothing catches is left."""
+
+    why: str
+    equivalent: bool
+    """Nobody could see it: what the change does is the same, so it is no bug."""
 
 
-def _entries(name: str) -> list[Mapping[str, str]]:
+def left() -> Mapping[tuple[str, str, str], Left]:
+    """Return why each bug that nothing catches is left."""
+    return {
+        (one["file"], one["before"], one["after"]): Left(
+            why=one["why"], equivalent=bool(one.get("equivalent"))
+        )
+        for one in _entries("left.toml")
+    }
+
+
+def _entries(name: str) -> list[Mapping[str, Any]]:
     text = (HERE / name).read_text(encoding="utf-8")
-    entries: list[Mapping[str, str]] = tomllib.loads(text).get("bug", [])
+    entries: list[Mapping[str, Any]] = tomllib.loads(text).get("bug", [])
     return entries
