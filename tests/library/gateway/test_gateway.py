@@ -288,3 +288,23 @@ def test_a_late_report_is_not_told_to_a_brain_that_is_gone() -> None:
     field.gateway.link(2)
     field.advance(100)
     assert heard == []
+
+
+@pytest.mark.parametrize("carried", [True, False])
+def test_a_drone_that_cannot_fly_home_is_back_once_it_was_carried_there(
+    carried: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where nobody carries it, it is lost."""
+
+    async def fetched(_: object, drone: str) -> bool:
+        return carried
+
+    field, heard = Field(), list[object]()
+    monkeypatch.setattr(type(field.navigation), "fetched", fetched)
+    link = field.gateway.link(1)
+    link.fly(Task(), heard.append)
+    field.advance(5)
+    field.navigation.strike("cf1", Failure.BATTERY)
+    field.advance(60)
+    assert isinstance(heard[0], FlightFailed)
+    assert fly(field.kernel, link.recover("cf1")) is carried

@@ -11,8 +11,9 @@ from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
+from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import PILLS
-from tests.library.gateway.traffic.skies import Sky
+from tests.library.gateway.traffic.skies import ENDURING, Sky
 
 APART = 0.5
 LOW = Airspace(ceiling=1.3)
@@ -232,3 +233,15 @@ def test_no_drone_flies_below_one_that_sinks() -> None:
         sky.advance(0.1)
     assert below.result() is None
     assert nearest == APART
+
+
+@pytest.mark.parametrize(("most", "limited"), [(None, False), (2, True)])
+def test_who_joins_may_fly_beside_all_others_where_no_limit_is_set(
+    most: int | None, limited: bool
+) -> None:
+    sky = Sky([(1, 1), (4, 1)], max_airborne=most)
+    traffic = sky.gateway.traffic
+    assert traffic is not None
+    assert not traffic.is_limited
+    traffic.join(SimulatedDrone(id="cf3", category=ENDURING, home=(7.0, 1.0, 0.0), index=2))
+    assert traffic.is_limited is limited
