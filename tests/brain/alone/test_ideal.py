@@ -15,6 +15,7 @@ from pluto_fleet.flight import simulate as library
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.alone.simulate import IDLE
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Drone, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status
@@ -217,3 +218,12 @@ def test_a_simulation_ends_at_its_time() -> None:
     (drone,) = outcome.drones
     assert drone.location == pytest.approx((0.5, 0.5, 0.9))  # on its way up
     assert drone.battery_level == pytest.approx(1.0 - 3.0 / 420.0)
+
+
+def test_a_simulation_goes_on_through_delays_of_years() -> None:
+    """It is given up only when nothing is to come."""
+    years = 3 * IDLE
+    trips = [apps.trip("1", 2.0, delay=years), apps.trip("2", 3.0, delay=years)]
+    outcome = fly(apps.app(apps.flow(clock=True)), [apps.mission("a", *trips)], apps.fleet())
+    assert outcome.completed
+    assert 2 * years < outcome.duration < 2 * years + 120.0
