@@ -104,3 +104,16 @@ def test_without_it_one_would_wait_for_all(monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setattr(batch, "OLD", 1e9)
     since, without = crowd(earliest_deadline, [18.0], TIRELESS)["far 0"]
     assert without > got + LONGEST
+
+
+def test_a_trip_is_as_old_as_it_has_waited_and_not_as_the_day() -> None:
+    """One that comes late in the day is shared out like any other: its nearest drone is the other's."""
+    late = 0.9 * OLD
+    missions = [
+        apps.mission(name, apps.trip("1", x, 0.5, delay=late))
+        for name, x in (("a", 3.5), ("b", 5.5))
+    ]
+    on = apps.fleet((0.5, 0.5, 0.0), (4.5, 0.5, 0.0))
+    outcome = apps.fly(apps.app(apps.flow(policy=batch_optimal, clock=True)), *missions, on=on)
+    got = {one["mission"]: one["drone"] for one in apps.events(outcome, "trip.allocated")}
+    assert got == {"a": "cf1", "b": "cf2"}

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.model import Results
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
+from pluto_fleet.shared.hooks.context import Verdict
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
@@ -114,4 +118,30 @@ def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> No
     assert [event["status"] for event in later.events() if event["event"] == "mission.ended"] == [
         "COMPLETED"
     ]
+    later.close()
+
+
+@pytest.mark.parametrize(("judged", "seen"), [(0, [7]), (1, [])])
+def test_an_evaluator_is_given_what_it_has_not_seen_before_the_stop(
+    judged: int, seen: list[int]
+) -> None:
+    given: list[list[Any]] = []
+
+    def judge(mission: Any, results: Results[Any, Any]) -> Verdict:
+        given.append([one.value for one in results.new if one.trip.name == "1"])
+        return Verdict()
+
+    first, _ = recorded(trip(3.0), trip(4.0))
+    (order,) = settled(first, 1.0)
+    first.tell({"done": order["id"], "value": 7}, 9.0)
+    record: Any = first.standing()
+    first.close()
+    record["missions"]["m"]["judged"] = judged
+    app: Any = apps.app(apps.flow(evaluator=judge)).given
+    later = charged(app=app, recorded=True)
+    later.go_on({"missions": record["missions"], "results": record["results"]}, FREE, 20.0)
+    (flight,) = (order for order in settled(later, 20.0) if order["do"] == "fly")
+    later.tell({"done": flight["id"], "value": 8}, 30.0)
+    settled(later, 30.0)
+    assert given == [seen]
     later.close()

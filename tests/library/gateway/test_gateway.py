@@ -308,3 +308,9 @@ def test_a_drone_that_cannot_fly_home_is_back_once_it_was_carried_there(
     field.advance(60)
     assert isinstance(heard[0], FlightFailed)
     assert fly(field.kernel, link.recover("cf1")) is carried
+
+
+def test_a_mishap_is_refused_where_drones_are_real() -> None:
+    field = Field()
+    why = fly(field.kernel, field.gateway.link(1).mishap("cf1", "crash", None))
+    assert why == "mishaps happen to simulated drones only"
