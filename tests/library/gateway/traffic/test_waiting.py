@@ -245,3 +245,10 @@ def test_who_joins_may_fly_beside_all_others_where_no_limit_is_set(
     assert not traffic.is_limited
     traffic.join(SimulatedDrone(id="cf3", category=ENDURING, home=(7.0, 1.0, 0.0), index=2))
     assert traffic.is_limited is limited
+
+
+def test_who_hovers_too_near_to_another_already_may_fly_away_from_it() -> None:
+    sky = Sky([(1, 1), (9, 9)])
+    sky.puts((5, 5, 1.2), (5.3, 5, 1.2))
+    assert sky.until(sky.gives("cf1", (1, 5, 1.2)), 30)
+    assert sky.at("cf1") == (1, 5, 1.2)
