@@ -6,7 +6,7 @@
 
 A bug is one small change of the brain, of plutoc/check, plutoc/plan or the gateway; those of `named.toml` were
 planted by hand, all over the product. For each the tests of the default run are tried that reach its line: first
-those of its own room, last the campaigns, so that a group of tests that catches a bug at the end is the only one
+those of its own room, last those of no room, so that a group of tests that catches a bug at the end is the only one
 that does. Exits with 1 if a named bug, or more than one in ten of the others, is caught by none; those do not count
 of which `left.toml` says why they are equivalent, that is, no bugs.
 """
@@ -137,7 +137,7 @@ def summary(named: Sequence[Verdict], others: Sequence[Verdict]) -> Iterator[str
         yield "caught by none:"
     for verdict in rest:
         bug = verdict.bug
-        word = words.get(bug.key)
+        word = words.get(_key(bug))
         why = "nobody has said why" if word is None else word.why
         same = "equivalent: " if word is not None and word.equivalent else ""
         yield f"  {verdict.place}: {_short(bug.before)} -> {_short(bug.after)}: {same}{why}"
@@ -158,9 +158,13 @@ def _missed(verdicts: Sequence[Verdict]) -> Iterator[Verdict]:
     """Yield those that nobody catches, but for those of which is known that they change nothing."""
     words = left()
     for verdict in verdicts:
-        word = words.get(verdict.bug.key)
+        word = words.get(_key(verdict.bug))
         if verdict.catcher is None and (word is None or not word.equivalent):
             yield verdict
+
+
+def _key(bug: Bug) -> tuple[str, str, str, str]:
+    return bug.key((ROOT / bug.file).read_text(encoding="utf-8"))
 
 
 def _room(verdict: Verdict) -> str:

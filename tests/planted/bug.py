@@ -43,10 +43,10 @@ class Bug:
         assert text[self.start : end] == self.before
         return text[: self.start] + self.after + text[end:]
 
-    @property
-    def key(self) -> tuple[str, str, str]:
-        """What it is, wherever in its file it stands."""
-        return self.file, self.before, self.after
+    def key(self, text: str) -> tuple[str, str, str, str]:
+        """Return what it is, by the line on which it begins, wherever in its file that stands."""
+        line = text.splitlines()[self.line(text) - 1].strip()
+        return self.file, line, self.before, self.after
 
 
 def named_bugs() -> list[Bug]:
@@ -72,10 +72,10 @@ class Left:
     """Nobody could see it: what the change does is the same, so it is no bug."""
 
 
-def left() -> Mapping[tuple[str, str, str], Left]:
+def left() -> Mapping[tuple[str, str, str, str], Left]:
     """Return why each bug that nothing catches is left."""
     return {
-        (one["file"], one["before"], one["after"]): Left(
+        (one["file"], one["line"], one["before"], one["after"]): Left(
             why=one["why"], equivalent=bool(one.get("equivalent"))
         )
         for one in _entries("left.toml")
