@@ -78,4 +78,4 @@ def test_a_dongle_that_is_pulled_out_is_a_lost_link_and_back_it_is_used_again(
         asyncio.run(fly())
     for drone in air.drones.values():
         assert not drone.body.airborne and not drone.supervisor.locked
-    assert left() == []
+    assert eventually(lambda: left() == [], PATIENCE), left()
