@@ -81,17 +81,19 @@ _NEVER_ALONE = (
     "test_mutations.py",
 )
 """Shares of campaigns. Of 338 bugs that were planted (`python -m tests.planted`) none was caught by these alone."""
+_LONG = (*_NEVER_ALONE, "release")
+"""Rooms that the default run leaves out: in the last each test waits for pip or for a wheel."""
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Leave out of the default run what never was the only one to catch a bug.
+    """Leave some rooms out of the default run, and begin with what takes long in one piece.
 
-    And begin with what takes long in one piece: at the end, all workers but one would wait for it.
+    At the end, all workers but one would wait for that.
     """
     here = Path(__file__).parent
     for item in items:
-        if any(here / name in (item.path, *item.path.parents) for name in _NEVER_ALONE):
+        if any(here / name in (item.path, *item.path.parents) for name in _LONG):
             item.add_marker(pytest.mark.long)
     items.sort(key=lambda item: item.get_closest_marker("first") is None)
 

@@ -16,11 +16,3 @@ def test_a_message_is_on_its_way_as_soon_as_it_is_told(monkeypatch: pytest.Monke
     monkeypatch.setattr(sys, "stderr", io.TextIOWrapper(there, "utf-8", line_buffering=False))
     output.tell("cf1 does not answer")
     assert there.getvalue() == b"cf1 does not answer\n"
-
-
-def test_a_message_that_cannot_be_written_is_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
-    closed = io.StringIO()
-    closed.close()
-    monkeypatch.setattr(sys, "stderr", closed)
-    output.tell("cf1 does not answer")
-    assert sys.stderr is closed

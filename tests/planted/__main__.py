@@ -175,7 +175,7 @@ def _room(verdict: Verdict) -> str:
 def _group(verdict: Verdict) -> str:
     """Return the folder of the test that caught it, and how far that is from the bug."""
     assert verdict.catcher
-    far = ("beside it", "in its part", "in another part", "a campaign")
+    far = ("beside it", "in its part", "in another part", "in no room")
     if not verdict.catcher.startswith("tests/"):
         return verdict.catcher
     folder = verdict.catcher.split("::")[0].rpartition("/")[0]

@@ -57,7 +57,7 @@ class Reach:
     root: Path = field(default=ROOT)
 
     def tests(self, bug: Bug, text: str) -> list[str]:
-        """Return the tests that reach a bug: those beside its file first, campaigns last, quick ones before slow."""
+        """Return the tests that reach a bug: those beside its file first, quick ones before slow."""
         by_line = self.data.contexts_by_lineno(str(self.root / bug.file))
         first = bug.line(text)
         # a statement of several lines is counted at its first
@@ -81,7 +81,7 @@ class Reach:
 
 
 def distance(file: str, test: str) -> int:
-    """Return how far a test is from a file: 0 in its own room, 1 in its part of the house, 2 elsewhere, 3 a campaign."""
+    """Return how far a test is from a file: 0 in its own room, 1 in its part of the house, 2 elsewhere, 3 in no room."""
     for place, room in _MIRRORED.items():
         if file.startswith(f"{place}/"):
             inner = file.removeprefix(f"{place}/").split("/")[0]

@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import Any
-
 import pytest
 
 from pluto_fleet.shared.domain.status import DroneStatus, Status
-from pluto_fleet.shared.trips.flight import Limit
 from tests.kit import apps
 
 
@@ -66,24 +62,3 @@ def test_of_several_limits_each_comes_at_its_own_time() -> None:
     outcome = apps.flown(*missions, watch=apps.timed, on=on)
     failed = apps.moments(outcome, "trip.failed")
     assert failed == {"a": 12.0, "b": 9.0, "c": 15.0, "d": 9.0}
-
-
-@pytest.mark.parametrize(
-    ("flight_is_over", "branch_is_over", "void"),
-    [
-        (False, None, False),
-        (False, False, False),
-        (False, True, True),
-        (True, None, True),
-        (True, False, True),
-    ],
-)
-def test_a_limit_is_void_once_the_flight_or_the_branch_that_set_it_is_over(
-    flight_is_over: bool, branch_is_over: bool | None, void: bool
-) -> None:
-    limit = Limit(0.0, 1.0, lambda trip, span: "late")
-    flight: Any = SimpleNamespace(is_set=flight_is_over)
-    limit.flight = flight
-    task = None if branch_is_over is None else SimpleNamespace(is_set=branch_is_over)
-    branch: Any = SimpleNamespace(task=task)
-    assert limit.is_void(branch) is void
