@@ -189,6 +189,11 @@ class Block:
         return frozenset(self.transitions) | frozenset(self.guarded)
 
     @property
+    def needs_trip(self) -> bool:
+        """Whether a mission that comes with no trip left to fly ends there, FAILED."""
+        return self.allocates or self.retries
+
+    @property
     def asks(self) -> bool:
         """Whether its step gets what a user wrote: in the source, in the missions file."""
         return bool(self.params or self.needs or self.uses)

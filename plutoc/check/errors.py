@@ -19,6 +19,7 @@ from plutoc.check.phrases import (
     related_to,
     taken_by,
     warning,
+    whole_mission,
     with_emits,
 )
 from plutoc.diagnostic import Diagnostic, Fix
@@ -122,6 +123,8 @@ def starved(
 def _fed(graph: Graph, node: Node, leaving: Mapping[str, Sequence[Status]]) -> str:
     if node.block.holds and all(Status.RUNNING in statuses for statuses in leaving.values()):
         return f"it cannot hold a mission in flight: put it {before_allocation(graph, node)}"
+    if node.block.limits:
+        return f"lead an arrow here from a block that launches; {whole_mission(graph)}"
     return "lead an arrow here from a block that emits what it accepts"
 
 
@@ -137,13 +140,12 @@ def untaken(graph: Graph, edge: Edge, leaving: Sequence[Status], way: Way) -> Di
     )
 
 
-def nothing_to_fly(graph: Graph, node: Node, edges: Sequence[Edge], way: Way) -> Diagnostic:
+def nothing_to_fly(graph: Graph, edge: Edge, status: Status, way: Way) -> Diagnostic:
     return error(
         "P2008",
-        (graph, edges[0].span),
-        f"no mission ever takes the arrow `{node.name} -> {edges[0].target}`",
-        label=f"a mission that comes to `{node.name}` has no trip left, and ends there FAILED",
-        related=tuple(related_to(graph, edge.span, "nor this one") for edge in edges[1:]),
+        (graph, edge.guard_span or edge.span),
+        f"no mission that takes the arrow `{edge.source} -> {edge.target}` {status.value} has a trip left",
+        label=f"it ends at `{edge.target}`, FAILED",
         help="lead FAILED elsewhere: a mission can fly on only where a trip of it failed, or where an "
         "evaluator asked for more trips, STANDBY",
         ways=(way,),
@@ -179,8 +181,7 @@ def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagn
         f"nothing is left for the arrow `{edge.source} -> {edge.target}`",
         label="takes what no other arrow takes",
         related=(emits_here(graph, edge, leaving),),
-        help="remove it: "
-        + ("the other arrows take every status" if leaving else "missions end before it"),
+        help="remove it: the other arrows take every status",
         fix=without_arrow(graph.source, (edge.source, edge.target), edge.span, edge.guard_span),
     )
 
@@ -400,15 +401,19 @@ def failures_stop(graph: Graph, node: Node) -> Diagnostic:
         (graph, node.name_span),
         "a failed trip ends its mission: nothing here puts the trip back",
         label="FAILED leaves here",
-        help="if failed trips shall be flown again, lead FAILED through a block that retries",
+        help="if failed trips shall be flown again, lead FAILED through a block that retries; "
+        "if not, say so: `-> end when FAILED`",
     )
 
 
-def fails_forever(graph: Graph, node: Node, round_: Sequence[str]) -> Diagnostic:
+def fails_forever(
+    graph: Graph, node: Node, round_: Sequence[str], others: Sequence[Node]
+) -> Diagnostic:
     return warning(
         "P2056",
         (graph, node.name_span),
         f"a trip that always fails is put back by `{node.name}` for ever",
+        related=tuple(related_to(graph, each.name_span, "here, too") for each in others),
         help=f"bound the number of attempts in the loop {_round(round_)}",
     )
 

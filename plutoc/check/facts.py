@@ -41,7 +41,7 @@ def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
     A block that can be reached again without a flight has a number, for its remembered answer.
     """
     facts, bound = place.facts, bound_of(node)
-    if facts.spent and (node.block.allocates or node.block.retries):
+    if facts.spent and node.block.needs_trip:
         return  # with no trip left the mission ends here
     emitted = ordered(node.emitted(place.status))
     if node.block.watches and facts.outcome in emitted:

@@ -15,8 +15,8 @@ from plutoc.graph.digraph import loops, reachable, round_of
 from plutoc.graph.model import Graph, Node
 from plutoc_runtime.domain.status import Status
 
-_MOST_LOOPS = 10
-"""The most loops that are shown."""
+_MOST_SHOWN = 9
+"""The most blocks that are shown beside the first."""
 
 
 def undrawn(flow: Flow) -> list[Diagnostic]:
@@ -54,37 +54,47 @@ def _first(
 
 
 def unmended(flow: Flow) -> list[Diagnostic]:
-    """Warn if a failed trip ends its mission because no block retries it."""
+    """Warn if a failed trip ends its mission though nobody said so: no block retries it, no guard takes it."""
     failing = [
         node
         for node in flow.graph.nodes
         if node.block.watches and Status.FAILED in flow.leaves[node.name]
     ]
-    if not failing or any(_mends(flow, node) for node in flow.graph.nodes):
+    if not failing or any(_mends(flow, node) for node in flow.graph.nodes) or _is_decided(flow):
         return []
     return [errors.failures_stop(flow.graph, failing[0])]
 
 
+def _is_decided(flow: Flow) -> bool:
+    """Whether a guard says where a mission goes whose trip has failed."""
+    guarded = {(e.source, e.target) for e in flow.edges if Status.FAILED in (e.guard or ())}
+    return any(
+        before.facts.outcome is place.status is Status.FAILED
+        for before, place in flow.after.edges
+        if (before.node, place.node) in guarded
+    )
+
+
 def unbounded(flow: Flow) -> list[Diagnostic]:
-    """Warn of loops in which a trip that always fails would be retried for ever."""
+    """Warn once of all loops in which a trip that always fails would be retried for ever."""
     after = nx.DiGraph()
     after.add_nodes_from(flow.places)
     steps = [(p, target) for p, target in flow.after.edges if _is_failure(flow, p, target)]
     # of ways round that are as short, the one over places that were found first is shown
     found_as = {place: number for number, place in enumerate(flow.places)}
     after.add_edges_from(sorted(steps, key=lambda step: found_as[step[1]]))
-    found: dict[str, Diagnostic] = {}
+    shown: tuple[str, ...] = ()
+    mending: dict[str, Node] = {}
     for part in loops(after):
         inside = set(part)
         for place in part:
-            node = flow.graph.node[place.node]
-            mended = _is_mended(place, [t for t in after[place] if t in inside])
-            if len(found) == _MOST_LOOPS:
-                return list(found.values())
-            if mended and node.name not in found:
-                names = blocks_of(round_of(after, part, place))
-                found[node.name] = errors.fails_forever(flow.graph, node, names)
-    return list(found.values())
+            if _is_mended(place, [t for t in after[place] if t in inside]):
+                shown = shown or blocks_of(round_of(after, part, place))
+                mending.setdefault(place.node, flow.graph.node[place.node])
+    if not mending:
+        return []
+    first, *others = mending.values()
+    return [errors.fails_forever(flow.graph, first, shown, others[:_MOST_SHOWN])]
 
 
 def _is_mended(place: Place, targets: Iterable[Place]) -> bool:

@@ -14,6 +14,7 @@ from plutoc.check.phrases import (
     fork_of,
     is_flown,
     related_to,
+    whole_mission,
     with_emits,
 )
 from plutoc.diagnostic import Diagnostic
@@ -28,8 +29,9 @@ def astray(
     gates: Sequence[str],
     way: Way,
     beside: Branch | None,
+    limited: bool,
 ) -> Diagnostic:
-    """`beside` is the branch in which a block holds the mission that others fly."""
+    """`beside` is the branch in which a block holds the mission that others fly; `limited` is a fork with a limit."""
     first, lost = branches[0]
     guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
     if gates:
@@ -42,6 +44,8 @@ def astray(
             f"`{holds.name}` holds only what comes through it, and not the branch beside it: "
             f"put it {before_allocation(graph, holds)}; or, if {guard} with `when`"
         )
+    elif limited and is_flown(lost):
+        mend += f"; a limit is for one flight: {whole_mission(graph)}"
     to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
         "P2012" if is_flown(lost) else "P2011",

@@ -104,7 +104,8 @@ def _open(flow: Flow, found: Branches, branches: Branched, shown: bool) -> Diagn
         astray.insert(0, astray.pop(nearest))
         flies = is_flown(astray[0][1])
         beside = next((b for b in branches if flies and _holds(graph, b)), None)
-        return errors.astray(graph, astray, gates, ways[nearest], beside)
+        limited = any(_limits(graph, branch) for branch in found[branches[0].fork])
+        return errors.astray(graph, astray, gates, ways[nearest], beside, limited)
     if len(gates) > 1:
         first = {gate: place for b in reversed(branches) for gate, place in b.gates.items()}
         ways = [flow.way(first[gate]) for gate in gates]
@@ -122,6 +123,11 @@ def _holds(graph: Graph, branch: Branch) -> bool:
     """Whether a branch begins with a block that holds missions."""
     first = graph.node.get(branch.edge.target)
     return first is not None and first.block.holds
+
+
+def _limits(graph: Graph, branch: Branch) -> bool:
+    """Whether a branch limits the flight that the fork is about."""
+    return any(graph.node[name].block.limits for name in branch.nodes)
 
 
 def handed_on(graph: Graph, gate: str, way: Way) -> Node | None:

@@ -114,8 +114,17 @@ def related_to(graph: Graph, span: Span, label: str) -> Related:
 
 def emits_here(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Related:
     """A note on what the block before an arrow emits."""
-    here = f"emits {listed(leaving)}" if leaving else "what comes here has no trip left"
+    here = f"emits {listed(leaving)}"
     return related_to(graph, graph.node[edge.source].name_span, here)
+
+
+def whole_mission(graph: Graph) -> str:
+    """How a mission is limited as a whole, which blocks that limit a flight do not do."""
+    allocates = next((node.name for node in graph.nodes if node.block.allocates), "the allocator")
+    return (
+        "to limit the mission as a whole, give it a `deadline` in the missions file, and "
+        f"`fail_late: yes` to `{allocates}`, if it shall end then"
+    )
 
 
 def is_flown(astray: Astray) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Container, Iterator
 import networkx as nx
 
 from plutoc.check import errors
-from plutoc.check.flow import Flow, is_final, ordered
+from plutoc.check.flow import Flow, Place, is_final, ordered
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import components, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph, Node
@@ -107,19 +107,29 @@ def untaken(flow: Flow, stopped: Flow) -> list[Diagnostic]:
     ]
 
 
-def spent(flow: Flow) -> list[Diagnostic]:
-    """Find blocks that missions reach only when no trip is left, and where they end.
+def spent(flow: Flow, stopped: Flow) -> list[Diagnostic]:
+    """Find edges along which every mission comes to a block that needs a trip with none left, and ends there.
 
-    What lies behind is not reached, if nothing else leads to it, even by an `otherwise`.
+    Each status is looked at by itself: what an edge takes besides may well be flown.
     """
+    ends: dict[tuple[str, str, Status], tuple[Flow, Place] | None] = {}
+    for explored in (flow, stopped):
+        for before, place in explored.after.edges:
+            node = flow.graph.node.get(place.node)
+            if node is not None and node.block.needs_trip:
+                taken = before.node, place.node, place.status
+                if place.facts.spent:
+                    ends.setdefault(taken, (explored, before))
+                else:
+                    ends[taken] = None
     found = []
-    edges: dict[str, list[Edge]] = {}
-    for edge in _unflown(flow):
-        if not (edge.otherwise and (edge.target == END or flow.arrives[edge.target])):
-            edges.setdefault(edge.source, []).append(edge)
-    for name, left in edges.items():
-        way = flow.way_to(name)
-        found.append(errors.nothing_to_fly(flow.graph, flow.graph.node[name], left, way))
+    for edge in flow.edges:
+        for status in ordered(edge.takes):
+            last = ends.get((edge.source, edge.target, status))
+            if last is not None:
+                explored, before = last
+                way = explored.way(before, status)
+                found.append(errors.nothing_to_fly(flow.graph, edge, status, way))
     return found
 
 
@@ -132,14 +142,7 @@ def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
             found.append(errors.spare_guard(flow.graph, edge, never, leaving))
         elif not taken and edge.otherwise:
             found.append(errors.idle_otherwise(flow.graph, edge, leaving))
-    found += [errors.idle_otherwise(flow.graph, e, ()) for e in _unflown(flow) if e.otherwise]
     return found
-
-
-def _unflown(flow: Flow) -> list[Edge]:
-    """Return the edges of blocks at which every mission ends, since it has no trip left."""
-    ended = {p.node for p in flow.places if p.facts.spent and not flow.after[p]}
-    return [e for e in flow.edges if e.source in ended and not flow.leaves[e.source]]
 
 
 def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ...], bool]]:

@@ -37,18 +37,17 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     lacking = reach.unreached(flow, creator.name, _missed(open_forks, unwatched))
     if not flown:
         lacking += reach.starved(flow)
-        found += reach.spent(flow)
         found += parallel.written_twice(flow, parallels)
     found += _in_flight(sure, flow, parallels, lacking=bool(lacking or unwatched))
     found += open_forks
     found += lacking
     found += unwatched
-    if found and (flown or not reach.untaken(flow, flow)):
+    if found and (flown or not _vain(flow, flow)):
         raise Rejected(in_order(found))  # what missions do after a Stop would change none of it
     points = resume.nearest(flow)
     stopped, points_then = _after_a_stop(flow, points)
     if not flown:
-        found += reach.untaken(flow, stopped)
+        found += _vain(flow, stopped)
     if found or (found := forks.too_deep(flow, parallels)):
         raise Rejected(in_order(found))  # the same errors would recur after a Stop
     again = branches(stopped)
@@ -81,6 +80,11 @@ def _missed(unclosed: list[Diagnostic], unwatched: list[Diagnostic]) -> Callable
         return closes or (bool(unwatched) and block.watches and not block.limits)
 
     return missed
+
+
+def _vain(flow: Flow, stopped: Flow) -> list[Diagnostic]:
+    """Return what is said of edges that lead no mission on, not even after a Stop."""
+    return [*reach.untaken(flow, stopped), *reach.spent(flow, stopped)]
 
 
 def _warnings(flow: Flow, stopped: Flow) -> list[Diagnostic]:

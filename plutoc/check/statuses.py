@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import networkx as nx
 
 from plutoc.block import Gate
-from plutoc.check import errors, gate_outcomes
+from plutoc.check import errors, fork_errors, gate_outcomes
 from plutoc.check.facts import (
     elsewhere,
     is_over,
@@ -25,6 +25,7 @@ from plutoc.check.facts import (
     unless_failed,
 )
 from plutoc.check.flow import Facts, Flow, Fork, Frame, Place, Split, Step
+from plutoc.check.forks import MOST_NESTED
 from plutoc.diagnostic import Rejected
 from plutoc.graph.digraph import endless_loops, loops, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph
@@ -134,6 +135,8 @@ class _Walk:
     """Forks whose gate does not wait for a branch that never arrives."""
     outgoing: dict[str, list[Edge]] = field(default_factory=dict)
     steps: int = 0
+    depths: dict[Split, int] = field(default_factory=dict)
+    """How deep each fork lies in others, itself included, on the shortest way to it."""
     widths: dict[Split, int] = field(default_factory=dict)
     queue: deque[Place] = field(default_factory=deque)
     places: dict[Place, Step | None] = field(default_factory=dict)
@@ -213,6 +216,7 @@ class _Walk:
             if all(self.rounds.get(edge.target) != turns for edge in taken):
                 facts = elsewhere(facts)
             split = Split(node=place.node, status=status, facts=facts)
+            self.nest(split, place.frame)
             self.entries.setdefault(split, {})[place] = None
             if split.fork in self.barred:
                 self.after.add_edge(place, place._replace(node=END))  # it goes on, unseen
@@ -227,6 +231,12 @@ class _Walk:
                     self.go_on(arrival, passed, place)
             for lost in tuple(self.strays.get(split, ())):
                 self.go_on(lost, (lost.status, lost.facts), place)
+
+    def nest(self, split: Split, frame: Frame | None) -> None:
+        """Raise `Rejected` where a fork begins too deep in others: the longer they go on, the longer all takes."""
+        depth = self.depths.setdefault(split, self.depths[frame.split] + 1 if frame else 1)
+        if depth > MOST_NESTED:
+            raise Rejected([fork_errors.too_deep(self.graph, split.fork, MOST_NESTED)])
 
     def close(self, place: Place, frame: Frame, gate: Gate) -> None:
         """Process a clone that arrives at the gate of its fork."""

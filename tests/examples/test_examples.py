@@ -34,7 +34,6 @@ LEAST = 0.1
 
 WARNED = {
     "drugs_distribution": ["P2055"],
-    "object_finder": ["P2055"],
     "warehouse_item_finder": ["P2055"],
 }
 """The basic graph of the thesis retries nothing; its examples say so. The others have no warning."""

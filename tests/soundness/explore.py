@@ -23,6 +23,8 @@ class Seen:
     wrong: dict[Verdict, Run] = field(default_factory=dict)
     """A shortest run for each verdict."""
     taken: set[tuple[Arrow, Status]] = field(default_factory=set)
+    with_trips: set[tuple[Arrow, Status]] = field(default_factory=set)
+    """Those of them that were taken by a mission with a trip left to fly or to be put back."""
     closed: dict[tuple[str, Status], set[str]] = field(default_factory=dict)
     """The gates at which the branches of each fork arrived."""
     limited: set[tuple[str, Stack]] = field(default_factory=set)
@@ -136,6 +138,9 @@ class Explorer:
         self, state: State, rest: tuple[Token, ...], token: Token, status: Status
     ) -> State | Wrong:
         """Return the state when a mission or a clone has left its block with this status."""
+        if not state.spent:
+            arrows = self.leaving.get((token.block, status), [])
+            self.seen.with_trips.update((arrow, status) for arrow in arrows)
         try:
             come = self.routed(token, status)
         except Wrong as wrong:

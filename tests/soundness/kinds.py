@@ -39,6 +39,9 @@ ACCEPTS: dict[str, tuple[Status, ...]] = {
 GUARDED: dict[str, tuple[Status, ...]] = {"DroneAllocator": (F,)}
 """What a kind accepts besides, where a guard says so."""
 
+NEED_A_TRIP = ("DroneAllocator", "PriorityManager")
+"""A mission that comes there with no trip left ends."""
+
 WATCHES = "TripMonitor"
 LIMITS = ("TimerMonitor", "GapMonitor")
 MONITORS = (WATCHES, *LIMITS)

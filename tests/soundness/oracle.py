@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from tests.soundness.app import START, App, is_rest
 from tests.soundness.explore import Explorer, Seen, first_block, unlike_bounds
+from tests.soundness.kinds import NEED_A_TRIP
 from tests.soundness.state import Verdict
 from tests.soundness.walk import Run
 
@@ -47,7 +48,11 @@ def judge(app: App) -> Judgement:
 
 def _judged(app: App, first: str, *, strict: bool) -> Judgement:
     seen = _seen(app, first, strict=strict)
-    faults = () if seen.cut else (*_dead(app, seen, first), *_scattered(seen), *_unwatched(seen))
+    faults = (
+        ()
+        if seen.cut
+        else (*_dead(app, seen, first), *_spent(app, seen), *_scattered(seen), *_unwatched(seen))
+    )
     return Judgement(
         runs=seen.wrong,
         faults=faults,
@@ -75,6 +80,16 @@ def _dead(app: App, seen: Seen, first: str) -> tuple[str, ...]:
     arrows = [f"nothing takes {arrow}" for arrow in dead]
     blocks = [f"nothing comes to {b.name}" for b in app.blocks if b.name not in come]
     return (*blocks, *arrows)
+
+
+def _spent(app: App, seen: Seen) -> tuple[str, ...]:
+    """Return the arrows along which missions come only to end, as they have no trip left."""
+    kind = {block.name: block.kind for block in app.blocks}
+    return tuple(
+        f"what takes {arrow} {status} has no trip left"
+        for arrow, status in sorted(seen.taken - seen.with_trips, key=str)
+        if kind.get(arrow.target) in NEED_A_TRIP
+    )
 
 
 def _scattered(seen: Seen) -> tuple[str, ...]:

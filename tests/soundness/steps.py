@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from tests.soundness.app import Block
-from tests.soundness.kinds import FIVE, MONITORS, C, F, R, S, Status, U
+from tests.soundness.kinds import FIVE, MONITORS, NEED_A_TRIP, C, F, R, S, Status, U
 from tests.soundness.state import State, Token, Verdict, Wrong
 
 MOST_TRIPS = 3
@@ -21,7 +21,7 @@ def outcomes(
     match block.kind:
         case "MissionCreator":
             yield U, state
-        case "DroneAllocator" | "PriorityManager" if state.spent:
+        case kind if kind in NEED_A_TRIP and state.spent:
             yield None, state
         case "DroneAllocator":
             yield (S if token.status == F else token.status), state._replace(drone=True)
