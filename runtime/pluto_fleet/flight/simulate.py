@@ -102,7 +102,7 @@ def simulate(
     with closing(simulation):
         run = partial(kernel.run, simulation.start(missions))
         seen = _looked_at(run, kernel, simulation.brain, simulation.bodies, sampling)
-        ended, given_up = see_through(simulation.brain, kernel, seen, app.name, bound, until)
+        ended, given_up = see_through(simulation.brain, kernel, seen, bound, until)
         return simulation.outcome(missions, events, ended, given_up)
 
 

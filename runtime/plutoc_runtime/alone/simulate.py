@@ -15,12 +15,11 @@ from typing import TYPE_CHECKING, Any
 from ..brain import Brain
 from ..domain.airspace import Airspace
 from ..domain.app import moving
-from ..domain.errors import BadInput
 from ..domain.fleet_data import DroneData, FleetData
 from ..domain.model import Mission
 from ..domain.motion import CRAZYFLIE
 from ..domain.status import DroneStatus
-from ..domain.text import counted, duration, quoted
+from ..domain.text import counted, quoted
 from ..domain.trace import Clock, Event
 from ..flow.standing import fleet_data
 from ..hooks.plain_data import mission_data
@@ -102,7 +101,7 @@ def simulate(
         flown = Alone(app, fleet, faults, seed, brain, listen)
         run = flown.run if prepare is None else prepare(flown)
         flown.begin(missions)
-        ended, given_up = see_through(brain, flown, run, app.name, bound, until)
+        ended, given_up = see_through(brain, flown, run, bound, until)
         return Outcome(
             duration=ended,
             standing=brain.standing(),
@@ -199,7 +198,7 @@ class Bound:
 
 
 def see_through(
-    brain: Brain, clock: Clock, run: Run, name: str, bound: Bound, until: float | None
+    brain: Brain, clock: Clock, run: Run, bound: Bound, until: float | None
 ) -> tuple[float, str]:
     """Fly the missions that have begun until the last one has ended or a time is reached.
 
@@ -218,10 +217,8 @@ def see_through(
     except Stuck:
         if not (waiting := brain.standing()["waiting"]):
             raise
-        raise BadInput(
-            f"{name}: the simulation stops at {duration(clock.now)}: missions wait for ever, "
-            f"because the policy gives them none of the drones ({waiting})"
-        ) from None
+        never = "missions wait for ever, because the policy gives them none of the drones"
+        return clock.now, f"{never} ({waiting})"
 
 
 def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:

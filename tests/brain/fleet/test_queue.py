@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from random import Random
 from typing import Any
 
 import pytest
 
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.report.report import exit_code
 from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.needs import Request
@@ -116,9 +118,17 @@ def test_what_no_drone_can_reach_is_refused_as_it_is_asked_for() -> None:
     assert apps.moments(flown, "mission.ended")["far"] == 0.0
 
 
-def test_a_policy_that_never_gives_a_drone_stops_the_simulation_with_the_reason() -> None:
-    with pytest.raises(BadInput, match=r"gives them none of the drones \(3 free\)"):
-        apps.flown(*missions("a"), policy=own_policy(lambda trip, drones: None), on=THREE)
+@pytest.mark.parametrize("on", [THREE, replace(THREE, apart=0.0)])
+@pytest.mark.parametrize("until", [None, 60.0])
+def test_a_simulation_whose_policy_never_gives_a_drone_is_given_up_with_the_reason(
+    on: FleetFile, until: float | None
+) -> None:
+    """Its end is a result like others: missions, JSON and exit code 1."""
+    policy = own_policy(lambda trip, drones: None)
+    outcome = apps.flown(*missions("a"), policy=policy, on=on, until=until)
+    assert "the policy gives them none of the drones (3 free)" in outcome.given_up
+    assert outcome.missions[0].status is Status.UNEXECUTED
+    assert exit_code(outcome) == 1
 
 
 # Drones that are too low
