@@ -7,12 +7,8 @@ from collections.abc import Container, Iterable
 from dataclasses import dataclass
 from datetime import time
 from enum import Enum
-from math import isfinite, nan
-from operator import index
-from typing import SupportsFloat, SupportsIndex, cast
 
-from .errors import ANY_ERROR
-from .guard import unless_by_a_person
+from .plain import number_of, plain_of
 from .quantities import Type
 from .text import bounded, shown
 
@@ -49,10 +45,11 @@ class Field:
 
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
-        if value is None or (type(value) is bool and self.type is FieldType.ROUNDS):
+        plain = plain_of(value)
+        if value is None or (type(plain) is bool and self.type is FieldType.ROUNDS):
             return ""
         if self.type is FieldType.EVALUATOR:
-            is_right = type(value) is str and value in evaluators
+            is_right = type(plain) is str and plain in evaluators
             return "" if is_right else "an evaluator's name"
         return "" if number_of(value) is not None else "a number"
 
@@ -60,7 +57,10 @@ class Field:
 def wrong_field(
     fields: Iterable[Field], entity: Entity, of: object, evaluators: Container[str]
 ) -> str | None:
-    """Return what is wrong with a field that a hook has set, or None."""
+    """Return what is wrong with a field that a hook has set, or None.
+
+    A number, a truth or a text of another library becomes a plain one there.
+    """
     for field in fields:
         if field.on is not entity:
             continue
@@ -68,21 +68,9 @@ def wrong_field(
         if wanted := field.wanted(value, evaluators):
             there = bounded(shown(value), _LONGEST)
             return f"{field.name} must be {wanted}, and a hook has put {there} there"
+        if value is not None and type(plain := plain_of(value)) is not type(value):
+            setattr(of, field.name, plain)
     return None
-
-
-def number_of(value: object) -> float | None:
-    """Return a finite number of bounded size as a plain `int` or `float`; None: it is not one."""
-    kind, number = type(value), nan
-    try:
-        if kind is not bool and hasattr(kind, "__index__"):
-            number = int.__pos__(index(cast("SupportsIndex", value)))
-        elif kind is not bool and hasattr(kind, "__float__"):
-            number = float.__pos__(float(cast("SupportsFloat", value)))
-        return number if isfinite(number) and abs(number) < _LARGEST else None
-    except ANY_ERROR as error:  # an error of its own class
-        unless_by_a_person(error)
-        return None
 
 
 def time_of_day(value: object) -> float:
@@ -94,5 +82,5 @@ def time_of_day(value: object) -> float:
     return int(match[1]) * 3600.0 + int(match[2]) * 60.0 + int(match[3] or 0)
 
 
-_LARGEST, _LONGEST = 1e12, 100
+_LONGEST = 100
 _TIME_OF_DAY = re.compile(r"([01]?\d|2[0-3]):([0-5]\d)(?::([0-5]\d))?")

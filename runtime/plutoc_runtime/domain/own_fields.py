@@ -6,7 +6,8 @@ from collections.abc import Container
 from dataclasses import dataclass
 
 from .actions import Plain
-from .fields import Field, number_of
+from .fields import Field
+from .plain import number_of, plain_of
 from .quantities import Type, units_of
 
 
@@ -31,9 +32,9 @@ class OwnField(Field):
         """Return what a value must be that a hook has set, if it is not that; None never is."""
         match self.type:
             case Type.TEXT:
-                return "" if type(value) is str else "a text"
+                return "" if type(plain_of(value)) is str else "a text"
             case Type.BOOL:
-                return "" if type(value) is bool else "True or False"
+                return "" if type(plain_of(value)) is bool else "True or False"
         number = number_of(value)
         if self.type is Type.INT:
             return "" if type(number) is int else "a whole number"

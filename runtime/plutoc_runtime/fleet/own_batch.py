@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import islice
-from math import inf
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
@@ -13,6 +12,7 @@ from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
 from ..domain.guard import unless_by_a_person
 from ..domain.model import Drone, Mission, Trip
+from ..domain.plain import number_of
 from ..domain.text import class_of, quoted, said
 from ..hooks.calls import hook_name, trace_of
 from ..time.kernel import FLEET, EventKind
@@ -183,14 +183,15 @@ class _Asked:
             timer.cancel()
         if after is None:
             return
-        if type(after) not in (int, float) or not SOONEST <= after < inf:
+        seconds = number_of(after)
+        if seconds is None or seconds < SOONEST:
             wants = f"wants to be asked again after {_what(after)}"
             raise self._fault(f"{wants}: that must be a number of seconds, {SOONEST} or more")
         in_vain = 0 if gives else in_vain + 1
         if in_vain > MOST_IN_VAIN:
             wants = f"has asked {MOST_IN_VAIN:,} times to be asked again"
             raise self._fault(f"{wants}, and given no drone meanwhile")
-        when = queue.kernel.now + after
+        when = queue.kernel.now + seconds
         timer = queue.kernel.at(when, EventKind.CLOCK, FLEET, queue.changed)
         queue.plans[key] = timer, in_vain
 

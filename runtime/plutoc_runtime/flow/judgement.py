@@ -10,8 +10,9 @@ from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
+from ..domain.plain import as_a
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
-from ..domain.text import class_of, said, shown, text_of
+from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import miss_of
 from ..hooks.calls import hook_name
 from ..hooks.context import Verdict
@@ -61,11 +62,10 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
 
 
 def _is_ok(who: str, value: object) -> bool:
-    try:
-        return bool(value)
-    except ANY_ERROR as error:
-        unless_by_a_person(error)
-        raise HookFault(f"{who} must give `ok` as True or False: {said(error)}") from None
+    truth = as_a(bool, value)
+    if truth is None:
+        raise HookFault(f"{who} must give `ok` as True or False, not {shown(value)}")
+    return truth
 
 
 def _listed(who: str, field: str, value: object) -> Sequence[Any]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..domain.actions import Action
 from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.guard import NOT_ITS_OWN
+from ..domain.plain import as_a
 from ..domain.text import LONGEST_REASON, bounded, text_of
 from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
@@ -93,7 +94,7 @@ class OwnAction(Action):
             raise
         except ANY_ERROR as error:  # it cannot tell: a person must
             core.log(trace_of(error), state.mission.name)
-        return answer if type(answer) is bool else None
+        return as_a(bool, answer)
 
 
 async def _call(kernel: ToldTime, hook: Hook, /, *args: object, **named: object) -> object:

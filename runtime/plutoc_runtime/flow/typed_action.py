@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from ..domain.errors import HookFault
-from ..domain.fields import number_of
 from ..domain.model import Photo
+from ..domain.plain import as_a, plain_of
 from ..domain.text import bounded, class_of, shown
 from .own_action import OwnAction
 
@@ -24,35 +24,21 @@ class TypedAction(OwnAction):
 
     async def _value(self, state: MissionState, flight: Flight) -> object:
         value = await OwnAction._value(self, state, flight)
-        plain = _plain(self.returns, value)
+        plain: object = value if type(value) is Photo is self.returns else None
+        if self.returns is not Photo:
+            plain = as_a(self.returns, value)
         if plain is None:
-            given = "None" if value is None else f"{_shown(value)}, which is {class_of(value)}"
-            reason = f"hook {self.name} must return {_SAID[self.returns]}, not {given}"
+            reason = f"hook {self.name} must return {_SAID[self.returns]}, not {_given(value)}"
             raise HookFault(reason, reason)
         return plain
 
 
-def _plain(kind: type[object], value: object) -> object | None:
-    """Return a hook's value as a plain one of a type; None: it is not of that type."""
-    given = type(value)
-    if kind is str and issubclass(given, str):
-        return str.__str__(cast("str", value))
-    if kind is float and issubclass(given, float):
-        return float.__pos__(cast("float", value))  # NaN and infinity, too: a sensor may give them
-    if kind is float and given is int and abs(cast("int", value)) < _LARGEST:
-        return float(cast("int", value))
-    if kind in (int, float) and given not in (int, bool):
-        number = number_of(value)  # such as numpy's
-        fits = type(number) is int or (kind is float and number is not None)
-        return cast("type[float]", kind)(cast("float", number)) if fits else None
-    return value if given is kind else None
-
-
-_LARGEST = 1 << 1000  # a float holds it
-
-
-def _shown(value: object) -> str:
-    return bounded(shown(value), 100)
+def _given(value: object) -> str:
+    if value is None:
+        return "None"
+    is_odd = type(plain_of(value)) in (int, float) and as_a(float, value) is None
+    why = "not finite, or too large" if is_odd else class_of(value)
+    return f"{bounded(shown(value), 100)}, which is {why}"
 
 
 _SAID: dict[type[object], str] = {

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from ..domain.errors import ActionFailed, FlightFailed
 from ..domain.model import NO_RESULT, Result, Results
+from ..domain.plain import number_of
 from ..domain.text import class_of, text_of
 from ..time.future import Future
 from ..time.kernel import EventKind, mission_key
@@ -107,9 +108,10 @@ class Context:
 
 def _finite(seconds: float) -> float:
     """Return seconds to wait; a hook that waits for ever would keep its mission for ever."""
-    if not isfinite(seconds):
+    plain = number_of(seconds)
+    if plain is None:
         raise ValueError(f"{seconds} seconds is no time to wait for")
-    return seconds
+    return plain
 
 
 class Instruments(Protocol):

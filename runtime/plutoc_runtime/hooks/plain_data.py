@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from math import isfinite, log10
-from typing import TYPE_CHECKING, Any, cast
+from math import isfinite
+from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
 from ..domain.model import Item, Photo
+from ..domain.plain import MOST_BITS, plain_of
 from ..domain.status import TripStatus
-from ..domain.text import MOST_DIGITS, shown
+from ..domain.text import shown
 
 if TYPE_CHECKING:
     from ..domain.app import App
@@ -57,16 +58,10 @@ def _plain(value: object) -> object:
     kind = type(value)
     if value is None or kind is bool or kind is float or kind is str:
         return value
-    if issubclass(kind, int):
-        number = int.__pos__(cast("int", value))
-        return number if number.bit_length() <= _MOST_BITS else shown(value)
-    if issubclass(kind, float):
-        real = float.__pos__(cast("float", value))
-        return real if isfinite(real) else shown(value)
-    return str.__str__(cast("str", value)) if issubclass(kind, str) else shown(value)
-
-
-_MOST_BITS = int(MOST_DIGITS / log10(2))  # bits of a number; a longer one is kept as text
+    plain = plain_of(value)
+    is_long = type(plain) is int and plain.bit_length() > MOST_BITS
+    is_odd = plain is None or (type(plain) is float and not isfinite(plain))
+    return shown(value) if is_long or is_odd else plain
 
 
 def _place(point: Sequence[float]) -> list[object]:
@@ -189,13 +184,14 @@ class _Writer:
             return {self._text(name): self.write(part, deeper) for name, part in items}
         if kind is Photo:
             return {"$photo": self._photo(value)}
-        if issubclass(kind, float) and not isfinite(real := float.__pos__(value)):
-            return {"$number": repr(real)}
+        known = plain_of(value)
+        if type(known) is float and not isfinite(known):
+            return {"$number": repr(known)}
         plain = _plain(value)
         if type(plain) is not str:
             return plain
         text = self._text(plain)
-        return text if issubclass(kind, str) else {"$text": text}
+        return text if type(known) is str else {"$text": text}
 
     def _text(self, value: str) -> str:
         self._characters += str.__len__(value)

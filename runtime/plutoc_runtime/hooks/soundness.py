@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, ParamSpec, cast
 
 from ..domain.errors import ANY_ERROR
-from ..domain.fields import number_of
 from ..domain.guard import unless_by_a_person
 from ..domain.model import Item
+from ..domain.plain import number_of, plain_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import class_of, said, shown
 from ..domain.values import parameters
@@ -103,15 +103,17 @@ def _wrong_action(app: App, trip: Trip) -> str | None:
         return f"its parameters must be a dict, not {class_of(trip.parameters)}"
     given = dict(trip.parameters) if trip.parameters else {}
     for name, value in given.items():
-        if type(value) not in (bool, int, float, str) or value != keepable(value):
+        plain = given[name] = plain_of(value)
+        if plain is None or plain != keepable(plain):
             return f"its parameter {shown(name)} must be a number or a text, not {shown(value)}"
     try:
         read = parameters(action, {n if type(n) is str else shown(n): v for n, v in given.items()})
     except ValueError as error:
         return str(error)
-    plain = {name: read[name] if type(value) is str else value for name, value in given.items()}
-    if plain != given:  # "50 mg", as in a missions file
-        trip.parameters = plain
+    if given:  # "50 mg", as in a missions file
+        trip.parameters = {
+            n: read[n] if type(value) is str else value for n, value in given.items()
+        }
     return None
 
 

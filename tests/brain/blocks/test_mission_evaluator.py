@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import UserList, deque
 from typing import Any
 
+import numpy as np
 import pytest
 
 from pluto_fleet.shared.domain.model import Category, Mission, Results
@@ -108,6 +109,8 @@ LINES: Any = "all is well"
         (Verdict(fail=NUMBERS), "([1],)"),
         (Verdict(fail=" "), "did not accept it"),
         (Verdict(ok=False), "<lambda> did not accept it"),
+        (Verdict(ok=np.False_), "<lambda> did not accept it"),  # type: ignore[arg-type]
+        (Verdict(ok=LINES), "must give `ok` as True or False, not 'all is well'"),
         (Verdict(fail="the field is flooded"), "the field is flooded"),
         (Verdict(add=(apps.trip("B", 2.0, parameters=NOTHING),)), "parameters must be a dict"),
         (Verdict(redo=(apps.trip("B", 1.0),)), "redo a trip that mission m has not completed"),
@@ -135,6 +138,8 @@ def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, s
         ({}, "pollinate needs the parameter dose"),
         # such as no missions file can have
         ({"dose": 1, 3: 1}, 'unknown parameter "3"; there may be: dose, '),
+        ({"dose": np.True_}, "dose true is not a mass: write a number"),
+        ({"dose": np.float32("inf")}, "dose inf is not a finite number"),
         ({"dose": [1]}, "its parameter 'dose' must be a number or a text, not [1]"),
     ],
 )
@@ -147,7 +152,9 @@ def test_a_trips_parameters_are_checked_as_those_of_a_missions_file(given: Any, 
 
 def test_a_parameter_with_a_unit_is_read_as_in_a_missions_file() -> None:
     """What is a number already stays as it was given."""
-    outcome = judged_with_parameters({"strokes": 3, "note": "3 m", "dose": "50 mg", "force": 2})
+    outcome = judged_with_parameters(
+        {"strokes": np.int8(3), "note": np.str_("3 m"), "dose": "50 mg", "force": 2}
+    )
     (mission,) = outcome.missions
     assert mission.status is Status.COMPLETED
     flown = {**mission.completed_trips[1].parameters}
@@ -157,7 +164,7 @@ def test_a_parameter_with_a_unit_is_read_as_in_a_missions_file() -> None:
         "dose": 5e-05,
         "force": 2,
     }
-    assert type(flown["force"]) is int
+    assert [type(flown[one]) for one in ("strokes", "note", "force")] == [int, str, int]
 
 
 def judged_with_parameters(given: Any) -> apps.SimulationResult:

@@ -8,7 +8,7 @@ from datetime import time
 import pytest
 
 from pluto_fleet.shared.domain import text
-from pluto_fleet.shared.domain.fields import number_of, time_of_day
+from pluto_fleet.shared.domain.fields import time_of_day
 from pluto_fleet.shared.domain.quantities import UNITS, Type, parse_quantity, time_from, units_of
 
 
@@ -110,15 +110,3 @@ def test_a_time_of_day_is_seconds_since_midnight() -> None:
     for wrong in ("24:00", "8:60", "08", "08:00:60", 8, None):
         with pytest.raises(ValueError, match='is not a time of day: write it like "08:00"'):
             time_of_day(wrong)
-
-
-@pytest.mark.parametrize(
-    ("value", "number"),
-    [
-        *((3, 3), (2.5, 2.5), (0.99e12, 0.99e12), (10**12 - 1, 10**12 - 1)),
-        *((wrong, None) for wrong in (True, None, "3", 1e12, -1e12, float("nan"), float("inf"))),
-    ],
-)
-def test_a_number_of_a_hook_is_finite_and_of_bounded_size(value: object, number: object) -> None:
-    assert number_of(value) == number
-    assert type(number_of(value)) is type(number)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf, nan
 from typing import Any
 
+import numpy as np
 import pytest
 
 from pluto_fleet.files.fleet import default_fleet
@@ -144,7 +146,14 @@ class Index:
 
 @pytest.mark.parametrize(
     ("value", "kept"),
-    [(0.5, 0.5), (3, 3.0), (Fancy(2.5), 2.5), (Index(), 3.0), (10**18, 1e18), (float("inf"),) * 2],
+    [
+        (0.5, 0.5),
+        (3, 3.0),
+        (Fancy(2.5), 2.5),
+        (Index(), 3.0),
+        (10**18, 1e18),
+        (np.float32(0.5), 0.5),
+    ],
 )
 def test_a_number_is_kept_as_one(wards: apps.Loaded, value: object, kept: float) -> None:
     mission = fly(wards, spray=lambda drone, trip, context, dose: value)
@@ -161,6 +170,8 @@ def test_a_number_is_kept_as_one(wards: apps.Loaded, value: object, kept: float)
         ("5 mg", "not '5 mg', which is str"),
         ([1.0], "not [1.0], which is list"),
         (10**400, "not 1000"),
+        (np.True_, "not np.True_, which is bool"),
+        *((odd, f"not {odd!r}, which is not finite") for odd in (nan, inf, np.float16(inf))),
     ],
 )
 def test_a_value_of_another_type_fails_the_mission(
@@ -180,6 +191,8 @@ def test_a_value_of_another_type_fails_the_mission(
         ("note", b"x", "note must be a text, and a hook has put b'x' there"),
         ("layers", 1.5, "layers must be a whole number, and a hook has put 1.5 there"),
         ("layers", True, "layers must be a whole number, and a hook has put True there"),
+        ("gentle", np.int8(1), "gentle must be True or False, and a hook has put np.int8(1) there"),
+        ("layers", np.True_, "layers must be a whole number, and a hook has put np.True_ there"),
         ("gentle", 1, "gentle must be True or False, and a hook has put 1 there"),
     ],
 )
@@ -192,6 +205,25 @@ def test_a_wrong_value_that_an_action_leaves_is_told(
 
     mission = fly(wards, spray=spray)
     assert mission.reason == f"hook spray left a trip that cannot go on: its {said}"
+
+
+def test_another_librarys_values_are_plain_from_then_on(wards: apps.Loaded) -> None:
+    """In results, fields and parameters: what is kept of them is what was given."""
+
+    def spray(drone: Any, trip: Any, context: Any, *, dose: float) -> object:
+        trip.gentle, trip.layers, trip.note = np.False_, np.int64(7), np.str_("hm")
+        return np.bool_(True)
+
+    given: Any = wards.app.given
+    own = replace(given.actions["spray"], hook=spray, returns=bool)
+    app = apps.changed(wards.app, actions={**given.actions, "spray": own})
+    life = Living(app, *missions(wards), on=default_fleet(app))
+    life.crash(30.0)
+    wards.hooks.CALLS.clear()
+    assert life.run() == ["COMPLETED"]
+    trip: Any = life.life.missions[0].completed_trips[0]
+    assert repr((trip.gentle, trip.layers, trip.note)) == "(False, 7, 'hm')"
+    assert wards.hooks.CALLS[1][1] is True
 
 
 @pytest.mark.parametrize("when", [0.5, 15.0, 40.0])
