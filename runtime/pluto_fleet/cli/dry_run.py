@@ -28,7 +28,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number
 from .plans import load
-from .preflight import OR_SIMULATED, check_real, made
+from .preflight import OR_SIMULATED, check_real, made, warn_of_the_radio
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -91,6 +91,7 @@ def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
         return
     if options.crtp_sim is not None:  # they have all the equipment that the plan needs
         return
+    warn_of_the_radio(plan.fleet, where)
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
     for drone in plan.fleet.drones:

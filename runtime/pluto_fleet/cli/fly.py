@@ -36,7 +36,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
 from .interrupts import Interrupts
 from .plans import load
-from .preflight import OR_SIMULATED, check_real
+from .preflight import OR_SIMULATED, check_real, warn_of_the_radio
 from .shutdown import run as run_until_complete
 from .supervise import STOPS, Supervised, supervise
 
@@ -57,6 +57,8 @@ def fly(app: App, options: Options) -> int:
         where = str(options.fleet or app.name)
         sim = options.crtp_sim is not None
         check_real(app, plan.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
+        if not sim and not options.supervised:
+            warn_of_the_radio(plan.fleet, where)
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..files.crtp_fleet import fleet_from, missing_categories
-from ..files.fleet import FleetFile, fleet_of, too_fast
+from ..files.fleet import FleetFile, fleet_of, radio_warnings, too_fast
 from ..files.missions import missions_of
 from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
@@ -143,7 +143,12 @@ def check(app: App, options: Options) -> int:
     if options.write is not None and os.path.lexists(options.write):
         raise BadInput(f"{options.write}: it is there already, and is not replaced")
     plan = load(app, options)
-    for sentence in [*too_fast(app, plan.fleet), *idle_actions(app, plan.fleet)]:
+    doubts = [
+        *too_fast(app, plan.fleet),
+        *radio_warnings(plan.fleet),
+        *idle_actions(app, plan.fleet),
+    ]
+    for sentence in doubts:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
     broken = impossible(plan.missions, plan.app, plan.fleet, options.start)
     if broken:

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
 from ..drones import plugins
-from ..drones.loading import hears, load_localization, load_navigation
+from ..drones.loading import canonical_uri, hears, load_localization, load_navigation
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
-from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real
+from ..files import errors
+from ..files.drones import which
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, radio_warnings
 from ..files.reading import shortened
+from ..shared import output
 from ..shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
@@ -48,16 +51,34 @@ def check_real(
     _check_options(app, fleet, where)
 
 
+def warn_of_the_radio(fleet: FleetFile, where: str) -> None:
+    """Say in which ways the fleet's drones are in each other's way on the air."""
+    for sentence in radio_warnings(fleet):
+        output.tell(f"{where}: warning: {sentence}")
+
+
 def _check_options(app: App, fleet: FleetFile, where: str) -> None:
     problems: list[str] = []
+    reached: dict[str, str] = {}
     with TemporaryDirectory() as folder:
         for drone in fleet.drones:
             try:
                 made(app, fleet, drone, Path(folder))
+                _check_alone(fleet, drone, reached)
             except BadInput as error:
                 problems.append(f"{where}:{drone.line}: {error}" if drone.line else str(error))
     if problems:
         raise BadInput(shortened(problems))
+
+
+def _check_alone(fleet: FleetFile, drone: DroneEntry, reached: dict[str, str]) -> None:
+    """Raise `BadInput` if a drone is reached as another one: to its navigation they are the same."""
+    uri = canonical_uri(navigation_of(fleet, drone), drone.id, drone.uri)
+    if uri is None:
+        return
+    other = reached.setdefault(which(uri), drone.id)
+    if other != drone.id:
+        raise BadInput(f"{drone.id}: {errors.shared_uri(other, None)}")
 
 
 def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:

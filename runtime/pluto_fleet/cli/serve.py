@@ -34,7 +34,7 @@ from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from .interrupts import Interrupts
 from .plans import load_fleet
-from .preflight import OR_SIMULATED, check_real
+from .preflight import OR_SIMULATED, check_real, warn_of_the_radio
 from .shutdown import run
 from .supervise import Supervised, supervise
 
@@ -59,6 +59,8 @@ def serve(app: App, options: Options) -> int:
         where = str(options.fleet or app.name)
         sim = options.crtp_sim is not None
         check_real(app, config.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
+        if not sim and not options.supervised:
+            warn_of_the_radio(config.fleet, where)
     _make_room(config)
     if options.supervise:
         return _supervised(app, options, config)

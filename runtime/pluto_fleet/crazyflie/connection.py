@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import asyncio
 import socket
+from collections.abc import Iterator
 from contextlib import suppress
 from math import hypot
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..drones.errors import LinkLost
-from ..shared.domain.errors import BadInput
-from ..shared.domain.text import number, quoted
+from ..files.addresses import CHANNELS, USUAL, radio_bytes
+from ..shared.domain.text import number
 from . import logs, messages, parameters
 from .driver import (
     LINK_CONTROL,
@@ -147,9 +148,7 @@ async def send_external_position(session: CrazyflieSession, position: Point) -> 
 
 _RATES = ((2, "2M"), (1, "1M"), (0, "250K"))
 """The data rates by the dongle's number and in URIs; most drones use the first."""
-_CHANNELS = 125
 _PROBE = 0xFF
-_USUAL = "E7E7E7E7E7"
 _LIMIT = 60.0
 _ANSWER = 0.2
 
@@ -168,42 +167,47 @@ def _look(options: CrazyflieOptions) -> list[str]:
     if not options.addresses:
         return found
     load()
+    from cflib.drivers.crazyradio import get_serials
+
+    dongles = 1
+    with suppress(Exception):  # to open the first says what is wrong
+        dongles = max(dongles, len(get_serials()))
+    there, refused = set[str](), list[LinkLost]()
+    for dongle in range(dongles):
+        try:
+            radio = _radio(dongle)
+        except LinkLost as error:  # another program may have it
+            refused.append(error)
+            continue
+        try:
+            for address in options.addresses:
+                heard = [one for one in _on_the_air(radio, address) if one not in there]
+                there.update(heard)
+                found += [f"radio://{dongle}/{one}" for one in heard]
+        finally:
+            radio.close()
+    if len(refused) == dongles:
+        raise refused[0]
+    return found
+
+
+def _radio(dongle: int) -> Any:
     from cflib.crtp.radiodriver import RadioManager
 
     try:
-        radio = RadioManager.open(0)
+        return RadioManager.open(dongle)
     except Exception as error:  # cflib raises just that
         raise LinkLost(f"the radio finds no drone: {messages.cause(str(error))}") from error
-    try:
-        for address in options.addresses:
-            found += _on_the_air(radio, address)
-    finally:
-        radio.close()
-    return found
 
 
-def _on_the_air(radio: Any, address: str) -> list[str]:
-    bytes_ = _bytes(address)
-    radio.set_address(bytes_)
+def _on_the_air(radio: Any, address: str) -> Iterator[str]:
+    """Yield what answers at a radio address: the end of its URI, behind the dongle."""
+    radio.set_address(tuple(radio_bytes(address)))
     radio.set_arc(1)
-    found = []
     for code, rate in _RATES:
         radio.set_data_rate(code)
-        for channel in radio.scan_channels(0, _CHANNELS, (_PROBE,)):
-            uri = f"radio://0/{channel}/{rate}"
-            name = bytes(bytes_).hex().upper()
-            found.append(uri if name == _USUAL else f"{uri}/{name}")
-    return found
-
-
-def _bytes(address: str) -> tuple[int, ...]:
-    try:
-        found = tuple(bytes.fromhex(address.rjust(10, "0")))
-    except ValueError:
-        found = ()
-    if len(found) != 5:
-        raise BadInput(f'{quoted(address)} is no radio address: five bytes, such as "E7E7E7E7E1"')
-    return found
+        for channel in radio.scan_channels(0, CHANNELS - 1, (_PROBE,)):
+            yield f"{channel}/{rate}" if address == USUAL else f"{channel}/{rate}/{address}"
 
 
 def _answers(uri: str) -> bool:

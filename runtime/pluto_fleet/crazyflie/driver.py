@@ -49,7 +49,7 @@ def load() -> None:
         # errors are reported here
         logging.getLogger("cflib").addHandler(logging.NullHandler())
         if not cflib.crtp.CLASSES:  # once per process: each call adds all drivers
-            cflib.crtp.init_drivers()
+            cflib.crtp.init_drivers(enable_serial_driver=True)
 
 
 def packet(port: int, channel: int, data: bytes) -> CRTPPacket:

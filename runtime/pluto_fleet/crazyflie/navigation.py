@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
 from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
+from ..files.addresses import address_of
+from ..shared.domain.text import quoted
 from . import (
     actions,
     connection,
@@ -70,6 +72,10 @@ class Crazyflie:
             raise NotReady(
                 f"{self._id} has no uri in the fleet file: it says how to reach a Crazyflie"
             )
+        try:
+            address_of(uri)
+        except ValueError as error:
+            raise NotReady(f"{self._id}: uri {quoted(uri)} {error}") from error
         if self._session is not None and self._session.alive:
             return
         if self._opening is None or self._opening.done():
@@ -255,6 +261,11 @@ class Crazyflie:
     async def facts(self) -> Mapping[str, str]:
         """Return its firmware and its decks."""
         return await firmware_facts(self._linked())
+
+    @staticmethod
+    def canonical_uri(uri: str) -> str:
+        """Return a URI with all that it leaves out, as cflib reads it."""
+        return address_of(uri).uri
 
     @staticmethod
     async def scan(options: Mapping[str, object]) -> Sequence[str]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from math import sqrt
 from sys import float_info
 
+from ..files.addresses import USUAL, radio_bytes
 from ..shared.domain.actions import BUILT_IN, PICK
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import number, quoted
@@ -70,7 +71,6 @@ LOST_BEYOND = sqrt(0.05)
 """Metres, about 0.22: three times the largest deviation while it receives its beacons."""
 _LONGEST = 10.0
 _CELLS = 6
-_ADDRESS = "E7E7E7E7E7"
 
 
 def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
@@ -95,7 +95,7 @@ def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
         sure_within=sure_within,
         lost_beyond=lost_beyond,
         starts_at_home=reading.flag("starts_at_home"),
-        addresses=reading.texts("addresses", (_ADDRESS,)),
+        addresses=reading.radio_addresses("addresses"),
         udp=reading.texts("udp", ()),
     )
 
@@ -140,6 +140,13 @@ class _OptionReader:
         if not isinstance(value, (list, tuple)) or not all(isinstance(one, str) for one in value):
             raise self.bad(key, 'a list of texts, such as ["bcLighthouse4"]')
         return tuple(value)
+
+    def radio_addresses(self, key: str) -> tuple[str, ...]:
+        found = self.texts(key, (USUAL,))
+        try:
+            return tuple(radio_bytes(one).hex().upper() for one in found)
+        except ValueError as error:
+            raise BadInput(f"its option {key}: {error}") from error
 
     def names(self, key: str) -> Mapping[str, str]:
         value = self.given.get(key, {})

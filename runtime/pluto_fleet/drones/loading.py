@@ -22,6 +22,7 @@ from ..shared.domain.text import quoted
 from . import plugins
 from .inspection import look_up, problems, try_import
 from .plugins import CAPABILITIES, LOCALIZATION_METHODS, NAVIGATION_METHODS, PluginKind
+from .protocol import Addressed
 from .timeouts import shortened
 
 if TYPE_CHECKING:
@@ -67,7 +68,24 @@ def hears(name: str) -> bool:
 
 def make_navigation(name: str, setup: DroneSetup) -> DroneNavigation:
     """Return the navigation of one drone; raise `BadInput` if there cannot be one."""
+    canonical_uri(name, setup.id, setup.uri)
     return _made(NAVIGATION, name, load_navigation(name), setup, f" for {setup.id}")
+
+
+def canonical_uri(name: str, drone: str, uri: str | None) -> str | None:
+    """Return a drone's URI as its navigation writes it in full; as it is, if that does not say.
+
+    Raises `BadInput` if it is none to that navigation.
+    """
+    by = load_navigation(name)
+    if uri is None or not isinstance(by, Addressed):
+        return uri
+    try:
+        return str(by.canonical_uri(uri))
+    except ValueError as error:
+        raise BadInput(f"{drone}: uri {quoted(uri)} {shortened(str(error))}") from error
+    except ANY_ERROR as error:
+        raise NAVIGATION.refused(name, f"cannot read a uri: {_said(error)}") from error
 
 
 def make_localization(name: str, options: Mapping[str, object]) -> Localization:

@@ -78,6 +78,7 @@ CAPABILITIES = (
     (Method("looked_after"),),
     (Method("identify"),),
     (Method("scan", takes=("options",), of_class=True),),
+    (Method("canonical_uri", CallStyle.AT_ONCE, ("uri",), of_class=True),),
 )
 LOCALIZATION_METHODS = (Method("positions", CallStyle.ITERATES),)
 

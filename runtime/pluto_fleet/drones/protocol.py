@@ -250,3 +250,16 @@ class Scannable(Protocol):
         The options are the table `[navigation.NAME]` of the fleet file. Commands no drone.
         """
         ...
+
+
+@runtime_checkable
+class Addressed(Protocol):
+    """A class that knows how the addresses of its drones are written."""
+
+    def canonical_uri(self, uri: str) -> str:
+        """Return a drone's URI with all that it leaves out; a static method of the class.
+
+        Two that reach one drone are the same text then. Raises `ValueError` with what is wrong, to be said
+        after the URI. Called before anything flies, also by `--dry-run`; reaches for nothing.
+        """
+        ...

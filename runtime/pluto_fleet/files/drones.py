@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING
 
 from ..shared.domain import values
@@ -12,12 +14,16 @@ from ..shared.domain.fleet_data import DroneData
 from ..shared.domain.text import quoted
 from ..shared.domain.values import Cells, crowded
 from . import errors
+from .addresses import address_of
 from .options import Options, options_under
 from .reading import Document, Table, shortened
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
+
+CRAZYFLIE = "crazyflie"
+"""The default navigation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,14 +39,16 @@ class DroneEntry(DroneData):
     line: int | None = None
 
 
-def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneEntry, ...]:
-    """Return the drones whose entries are valid."""
+def read_drones(
+    top: Table, app: App, airspace: Airspace | None, flown_by: str
+) -> tuple[DroneEntry, ...]:
+    """Return the drones whose entries are valid; `flown_by`: the fleet's navigation."""
     drones: list[DroneEntry] = []
     ids: dict[str, Table] = {}
     uris: dict[str, Table] = {}
     homes = Cells()
     for index, table in enumerate(top.tables("drone", "drone")):
-        drone = _drone(table, index, app, airspace, ids, homes)
+        drone = _drone(table, index, app, airspace, flown_by, ids, homes)
         _answers_alone(table, uris)
         if drone is not None:
             drones.append(drone)
@@ -50,7 +58,11 @@ def read_drones(top: Table, app: App, airspace: Airspace | None) -> tuple[DroneE
 
 
 def joining_drone(
-    app: App, airspace: Airspace, drones: Sequence[DroneEntry], data: Mapping[str, object]
+    app: App,
+    airspace: Airspace,
+    flown_by: str,
+    drones: Sequence[DroneEntry],
+    data: Mapping[str, object],
 ) -> DroneEntry:
     """Read a drone that joins these, given as in a fleet file; raise `BadInput` with all that is wrong."""
     document = Document("", {"drone": [{**data}]})
@@ -62,7 +74,7 @@ def joining_drone(
         ids[one.id] = other
         if one.uri is not None:
             uris[which(one.uri)] = other
-    drone = _drone(table, len(drones), app, airspace, ids, homes)
+    drone = _drone(table, len(drones), app, airspace, flown_by, ids, homes)
     _answers_alone(table, uris)
     if document.problems or drone is None:
         raise BadInput(shortened([one.sentence for one in document.problems]))
@@ -84,6 +96,7 @@ def _drone(
     index: int,
     app: App,
     airspace: Airspace | None,
+    flown_by: str,
     ids: dict[str, Table],
     homes: Cells,
 ) -> DroneEntry | None:
@@ -95,8 +108,8 @@ def _drone(
         table.differs("drone", "id", name, ids)
     category = _category(table, app)
     home = table.position("home", airspace, 0.0, required=True)
-    uri = table.read("uri", values.name)
     navigation = table.read("navigation", values.name)
+    uri = table.read("uri", partial(_uri, navigation or flown_by))
     options = options_under(table, "options", "drone.options")
     crowd = None if home is None else crowded(home, name or f"{index + 1}", homes)
     if crowd is not None:
@@ -136,8 +149,18 @@ def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
             table.problem(errors.shared_uri(other.who, other.line("uri")), "uri")
 
 
+def _uri(navigation: str, value: object) -> str:
+    uri: str = values.name(value)
+    if navigation == CRAZYFLIE:
+        address_of(uri)
+    return uri
+
+
 def which(uri: str) -> str:
-    """Return a drone's uri in a canonical form, whichever dongle it names."""
-    plain = uri.strip().casefold().partition("?")[0].rstrip("/")
-    scheme, _, rest = plain.partition("://")
-    return rest.partition("/")[2] if scheme == "radio" else plain
+    """Return a drone's uri in a canonical form, whichever dongle it names.
+
+    What is no address of a Crazyflie is compared as a text.
+    """
+    with suppress(ValueError):
+        return address_of(uri.strip()).drone
+    return uri.strip().casefold().partition("?")[0].rstrip("/")

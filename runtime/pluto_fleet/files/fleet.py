@@ -16,7 +16,8 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import motion_of
 from ..shared.domain.quantities import Type
 from . import errors
-from .drones import DroneEntry, joining_drone, named_navigations, read_drones
+from .addresses import address_of, crowded_air
+from .drones import CRAZYFLIE, DroneEntry, joining_drone, named_navigations, read_drones
 from .landmarks import NO_LANDMARKS, Landmarks
 from .landmarks_reading import KEYS as LANDMARK_KEYS
 from .landmarks_reading import read_landmarks
@@ -36,9 +37,6 @@ APART = 0.5
 
 BETWEEN = values.Quantity(Type.LENGTH, 0.05, 10.0, or_none=True)
 """What may lie between two drones."""
-
-CRAZYFLIE = "crazyflie"
-"""The default navigation."""
 
 OWN = "own"
 """The default localization: the drones' own."""
@@ -171,7 +169,7 @@ def _source(entry: Table) -> Source | None:
     return Source(quantity=quantity, at=at, peak=peak, radius=radius)
 
 
-__all__ = ["DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
+__all__ = ["CRAZYFLIE", "DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
 
 DEFAULT_SIZE, ROW = 5, 18
 """Drones of the default fleet, and how many stand in a row."""
@@ -223,7 +221,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     )
     airspace, landmarks = read_map(top)
     behaviour, motion = read_behaviour(top), read_motion(top)
-    drones = read_drones(top, app, airspace)
+    drones = read_drones(top, app, airspace, behaviour.navigation)
     options = navigation_options(top, named_navigations(top, behaviour.navigation))
     localization_options = options_under(top, "localization")
     if "localization" in top.data and behaviour.localization == OWN:
@@ -259,7 +257,7 @@ def options_of(fleet: FleetFile, drone: DroneEntry) -> Options:
 def with_joined(app: App, fleet: FleetFile, joined: Sequence[Mapping[str, object]]) -> FleetFile:
     """Return the fleet with the drones that have joined it, each as it was given."""
     for data in joined:
-        drone = joining_drone(app, fleet.airspace, fleet.drones, data)
+        drone = joining_drone(app, fleet.airspace, fleet.navigation, fleet.drones, data)
         fleet = replace(fleet, drones=(*fleet.drones, drone))
     return fleet
 
@@ -285,3 +283,9 @@ def too_fast(app: App, fleet: FleetFile) -> list[str]:
         for category in app.categories
         if fleet.motion.smooth and category.name in flown and category.speed > limit
     ]
+
+
+def radio_warnings(fleet: FleetFile) -> list[str]:
+    """Return a sentence for each way in which its Crazyflies are in each other's way on the air."""
+    flown = [d for d in fleet.drones if d.uri and navigation_of(fleet, d) == CRAZYFLIE]
+    return list(crowded_air({one.id: address_of(one.uri) for one in flown if one.uri}))

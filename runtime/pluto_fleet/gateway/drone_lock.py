@@ -14,6 +14,7 @@ from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 
+from ..files.drones import which
 from ..process import locks
 from ..process.ipc import is_private
 from ..shared.domain.errors import BadInput
@@ -72,15 +73,7 @@ def _taken(file: Path, id: str, uri: str, until: float) -> int:
 
 def _name(uri: str) -> str:
     """Return the lock file's name, the same for all forms of a drone's URI, whichever dongle it names."""
-    plain = uri.strip().casefold().partition("?")[0].rstrip("/")
-    scheme, has_host, rest = plain.partition("://")
-    if scheme == _RADIO and has_host:
-        plain = rest.partition("/")[2]
-    return sha256(plain.encode("utf-8", "surrogatepass")).hexdigest()[:24]
-
-
-_RADIO = "radio"
-"""In these URIs the first part is the number of a dongle: another one reaches the same drone."""
+    return sha256(which(uri).encode("utf-8", "surrogatepass")).hexdigest()[:24]
 
 
 def _folder() -> Path:

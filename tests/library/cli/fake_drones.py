@@ -123,3 +123,14 @@ class Mocap:
         while True:
             yield "cf1", (1.0, 1.0, 0.0)
             await asyncio.sleep(0.01)
+
+
+class Counted(Bare):
+    """One whose addresses are numbers."""
+
+    @staticmethod
+    def canonical_uri(uri: str) -> str:
+        number = uri.removeprefix("fake://")
+        if not number.isdecimal():
+            raise ValueError("is of no fake: they are counted")
+        return f"fake://{int(number)}"

@@ -126,9 +126,10 @@ class Dongle:
     """The USB dongle, as cflib's driver uses it."""
 
     DR_250KPS, DR_1MPS, DR_2MPS = 0, 1, 2
-    ether: Ether
+    ethers: Sequence[Ether]
 
     def __init__(self, device: object = None, devid: int = 0, serial: str | None = None) -> None:
+        self.ether = self.ethers[devid]
         if self.ether.unplugged:
             raise RuntimeError("Cannot find a Crazyradio Dongle")  # in cflib's own words
         self.version = 0.54
@@ -178,17 +179,23 @@ class Dongle:
 
 
 @contextmanager
-def plugged_in(ether: Ether) -> Iterator[None]:
-    """Give cflib this dongle, and no other; take it away again."""
+def plugged_in(*ethers: Ether) -> Iterator[None]:
+    """Give cflib a dongle for each of these, and no other; take them away again."""
     driver = import_module("cflib.crtp.radiodriver")
     usb = import_module("cflib.drivers.crazyradio")
-    dongle = type("Dongle", (Dongle,), {"ether": ether})
+    dongle = type("Dongle", (Dongle,), {"ethers": ethers})
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(driver, "Crazyradio", dongle)
         patch.setattr(driver.RadioManager, "_radios", [])
-        patch.setattr(usb, "get_serials", lambda: () if ether.unplugged else ("E7E7E7E7E7",))
-        ether.start()
+        patch.setattr(
+            usb,
+            "get_serials",
+            lambda: [f"E7E7E7E7E{n}" for n, one in enumerate(ethers) if not one.unplugged],
+        )
+        for ether in ethers:
+            ether.start()
         try:
             yield
         finally:
-            ether.end()
+            for ether in ethers:
+                ether.end()
