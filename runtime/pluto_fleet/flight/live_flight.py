@@ -26,6 +26,7 @@ from ..shared.time.kernel import FLEET
 from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
 from .recorded_flight import RecordedFlight
+from .waits import Waits
 
 if TYPE_CHECKING:
     from ..jobs.job import GatewayLink
@@ -118,6 +119,7 @@ class LiveFlight:
         """Run to some end, and make everything durable."""
         over = life.go_on(self._setting.missions)
         over.watch(self._over)
+        self._kernel.spawn(Waits(life).watch(), FLEET, "what waits")
         if stops.asked is not None:
             stops.stop(stops.asked)
         end = await self._kernel.run(self._end)

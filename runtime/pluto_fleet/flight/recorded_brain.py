@@ -65,6 +65,9 @@ class RecordedBrain:
             space=fleet.airspace,
             hooks=hooks,
         )
+        self.midnight = midnight
+        self.told_to: dict[str, str] = {}
+        """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
         self._listeners, self._watcher = tuple(listeners), watcher
         keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
         self._keys = keys
@@ -207,6 +210,7 @@ class RecordedBrain:
     def _obey(self, order: Order) -> None:
         """Carry out an order; a flight only once its launch is durable."""
         drone = order["drone"]
+        self.told_to[drone] = order["do"]
         match order["do"]:
             case "fly":
                 self._held[drone] = order

@@ -82,6 +82,24 @@ def _lost(event: Event) -> str:
     return f"{event['drone']} is lost" + (f": {reason}" if reason else "")
 
 
+def _at(event: Event) -> str:
+    at: Any = event["at"]
+    return place(at)
+
+
+def _waits(event: Event) -> str:
+    said = str(event["reason"])
+    if "until" in event:
+        rest = float(str(event["until"])) - float(str(event["t"]))
+        said += f", until {event['hour']} ({duration(max(0.0, rest))} more)"
+    names: Any = event.get("missions", ())
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    return f"{', '.join(names[:_NAMED])}{more}: {said}" if names else said
+
+
+_NAMED = 50
+"""The most missions that one line names."""
+
 _HOW = {"rtl": "all fly home", "land": "all land"}
 
 _SENTENCES: Mapping[str, Callable[[Event], str]] = {
@@ -104,6 +122,9 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
     "drone.joined": lambda event: f"{event['drone']} joins the fleet",
     "drone.mishap": lambda event: f"{event['drone']}: a mishap is rehearsed: {event['kind']}",
+    "mission.waits": _waits,
+    "drone.waits": lambda event: f"{event['drone']} {_waits(event)}",
+    "drone.landed": lambda event: f"{event['drone']} has landed at {_at(event)}, where nobody asked it to",
     "drone.retired": lambda event: f"{event['drone']} is retired",
     "drone.brought_back": _brought_back,
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",

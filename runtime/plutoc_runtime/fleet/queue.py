@@ -115,6 +115,11 @@ class Queue:
             if any(request.never(drone) is None for request in self.waiters()):
                 yield drone
 
+    def ready_at(self, drone: Drone) -> float | None:
+        """Return until when a drone is put aside; None: until something else happens."""
+        until, _ = self.low.get(drone, (inf, inf))
+        return until if until < inf else None
+
     def waiters(self) -> Iterator[Request]:
         """Yield the waiting requests."""
         return reversed(self.requests)

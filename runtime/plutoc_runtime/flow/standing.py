@@ -113,6 +113,7 @@ def drone_standing(drone: Drone, fleet: Fleet, aside: bool) -> Data:
     """Return where a drone stands, what it has flown, and why it is not ready to fly, as `unready`."""
     return {
         "aside": aside,
+        **({"ready_at": fleet.queue.ready_at(drone)} if aside else {}),
         "unready": fleet.unready.get(drone, ""),
         "retired": drone in fleet.retired,
         "low": fleet.is_low(drone),

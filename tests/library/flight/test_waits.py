@@ -1,0 +1,110 @@
+"""What missions and drones wait for is told once for each long wait, and so is each landing that nobody asked for."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pluto_fleet.flight.waits import LONG, Waits
+from pluto_fleet.report.sentences import line_of
+from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.time.kernel import FLEET
+from tests.kit import apps
+from tests.kit.living import Living
+
+APP = apps.loaded(
+    """pluto 1
+app NAME {
+  category scout(flight_time: 100 s, charge_time: 400 s) can take_photo, look
+  action look
+  create = MissionCreator
+  wait = Clock
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  retry = PriorityManager
+  start -> create -> wait -> allocate -> launch -> watch
+  [watch, retry] -> wait when STANDBY
+  watch -> retry when FAILED
+  [watch, retry] -> end otherwise
+}""",
+    "async def look(drone, trip, context): await context.sleep(25)\n",
+).app
+
+
+def watched(*missions: Any, homes: int = 1) -> Living:
+    """Return a flight whose waits are watched, as in real flights."""
+    places = [(0.5 + x, 0.5, 0.0) for x in range(homes)]
+    living = Living(APP, *missions, on=apps.fleet(*places))
+    living.kernel.spawn(Waits(living.life).watch(), FLEET, "what waits")
+    return living
+
+
+def mission(name: str, *xs: float, delay: float | None = None, **more: Any) -> Any:
+    """Return a mission with a trip to each of these places."""
+    trips = [
+        APP.trip(
+            name=f"{i}", action=more.pop("action", "take_photo"), target=(x, 0.5, 1.2), index=i
+        )
+        for i, x in enumerate(xs, 1)
+    ]
+    trips[0].delay = delay
+    return APP.mission(name=name, trips=trips, **more)
+
+
+def told(living: Living) -> list[str]:
+    """Return the lines of waits and landings."""
+    kinds = ("mission.waits", "drone.waits", "drone.landed")
+    return [str(line_of(one)).strip() for one in living.events if one["event"] in kinds]
+
+
+def test_each_mission_says_for_what_it_waits_and_until_when() -> None:
+    """What is known to take long is told at once, anything else after ten seconds, and each once."""
+    living = watched(
+        mission("now", 4.0, 8.0, 8.0),
+        mission("soon", 4.0, delay=9.0),
+        mission("late", 4.0, delay=60.0),
+        mission("queued", 4.0, promises={"after": ["now"]}),
+        mission("window", 4.0, promises={"opens": 64_800.0}),
+    )
+    assert living.run() == ["COMPLETED"] * 5
+    lines = told(living)
+    assert lines[:5] == [
+        "1.0 s  window: waits for its window, until 18:00 (17 h 59 min more)",
+        "1.0 s  late: waits for the time of trip 1, until 00:01 (59 s more)",
+        "11.0 s  queued: waits for now, after which it comes",
+        "19.0 s  soon: waits for a drone (1 coming home)",
+        "22.0 s  now: waits for a drone (1 coming home)",
+    ]
+    low = "too little for what waits"
+    assert any(low in line and "  cf1 stands in its dock: " in line for line in lines)
+    said = [line.partition("  ")[2] for line in lines if "window" in line or "queued" in line]
+    assert len(said) == len({*said}) == 3
+
+
+def test_missions_that_wait_for_the_same_are_told_in_one_line() -> None:
+    living = watched(*(mission(f"m{i}", 4.0) for i in range(60)))
+    living.run()
+    first = told(living)[0]
+    assert first.startswith("11.0 s  m0, m1, m2, ")
+    assert first.endswith(", m49 and 9 more: waits for a drone (1 flying)")
+
+
+def test_a_drone_that_lands_somewhere_and_waits_there_says_so() -> None:
+    """Also when all missions are over; where it is lost its reason says that already."""
+    living = watched(mission("a", 6.0), mission("b", 4.0), homes=2)
+    living.at(5.0, lambda: living.navigation.strike("cf2", Failure.CRASH))
+    living.at(16.0, lambda: living.navigation.strike("cf1", Failure.BATTERY))
+    living.run()
+    lines = [line for line in told(living) if "cf1" in line]
+    assert lines[0].startswith("16.0 s  cf1 has landed at (")
+    assert lines[0].endswith("), where nobody asked it to")
+    assert "  cf1 stands at (" in lines[1]
+    assert "and waits to be brought home" in lines[1]
+    assert not [line for line in told(living) if "cf2 has landed" in line]
+
+
+def test_a_drone_that_does_a_long_action_does_not_wait() -> None:
+    living = watched(mission("a", 6.0, action="look"))
+    assert living.run() == ["COMPLETED"]
+    assert living.kernel.now > 3 * LONG
+    assert told(living) == []
