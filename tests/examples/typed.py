@@ -3,7 +3,7 @@
 A page shows what a reader sees in blocks of the language `console`: after `$ ` what is typed, then what
 comes. Before a block a comment may say what a reader has done meanwhile, `<!-- first: sed … -->`, or that it
 is only read: `<!-- needs: a browser -->`. The page says so in words, too. A `^C` is pressed once the line
-above it has come.
+above it has come; where a shell says `Killed`, the command is killed then.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ _BLOCK = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 _PRESSED = "^C"
+_KILLED = "Killed"
 _PATIENCE = 120.0
 """Seconds after which a command that does not end is interrupted: then it is not as the page says."""
 _PIP = """\
@@ -97,11 +98,16 @@ class Reader:
         if step.command.startswith("cd "):
             self.folder = (self.folder / step.command.removeprefix("cd ")).resolve()
             return 0, ""
-        until, pressed, _ = step.shown.partition(f"\n{_PRESSED}\n")
-        return self.run(step.command, until if pressed else "")
+        for word, number in ((_PRESSED, signal.SIGINT), (_KILLED, signal.SIGKILL)):
+            until, ended, _ = f"{step.shown}\n".partition(f"\n{word}\n")
+            if ended:
+                return self.run(step.command, until, number)
+        return self.run(step.command)
 
-    def run(self, command: str, until: str = "") -> tuple[int, str]:
-        """Run a command; press Ctrl-C once so many lines have come, if the page does so."""
+    def run(
+        self, command: str, until: str = "", number: signal.Signals = signal.SIGINT
+    ) -> tuple[int, str]:
+        """Run a command; signal it once so many lines have come, if the page does so."""
         lines = until.count("\n") + 1 if until else 0
         came: list[str] = []
         with subprocess.Popen(
@@ -119,16 +125,16 @@ class Reader:
             for line in child.stdout:
                 came.append(line)
                 if len(came) == lines:
-                    child.send_signal(signal.SIGINT)
+                    child.send_signal(number)
             patience.cancel()
         return child.returncode, "".join(came).rstrip("\n")
 
 
 def is_shown(shown: str, came: str) -> bool:
-    """Return whether a page shows what came; where a Ctrl-C was pressed, times are what they are."""
-    pressed = f"\n{_PRESSED}\n" in f"\n{shown}\n"
-    wanted = [line for line in _plain(shown, pressed) if line != _PRESSED]
-    return wanted == _plain(came, pressed)
+    """Return whether a page shows what came; where a command was ended, times are what they are."""
+    ended = not {_PRESSED, _KILLED}.isdisjoint(shown.split("\n"))
+    wanted = [line for line in _plain(shown, ended) if line not in (_PRESSED, _KILLED)]
+    return wanted == _plain(came, ended)
 
 
 def _plain(text: str, in_real_time: bool) -> list[str]:

@@ -7,8 +7,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ..gateway.starting import speed_in
 from ..journal import errors
 from ..journal.fold import replayed
+from ..journal.place import gateway_folder
 from .live_flight import LiveFlight
 
 if TYPE_CHECKING:
@@ -26,7 +28,7 @@ class Recovered:
     """When its last row was written, in seconds since 1970."""
 
     def time(self, speed: float) -> float:
-        """Return the present time in a run that resumes from there."""
+        """Return the present time in a run that resumes from there; `speed`: of the time in between."""
         if not self.records.missions or self.written is None:
             return self.records.time
         return self.records.time + max(0.0, time.time() - self.written) * speed
@@ -53,7 +55,8 @@ async def live(
     `known` is the journal's content, if it has been read already; `born` is called with the run.
     """
     known = known or recovered(store)
-    one = LiveFlight(setting, store, known.records, known.time(setting.speed))
+    meanwhile = speed_in(gateway_folder(store.path)) or setting.speed
+    one = LiveFlight(setting, store, known.records, known.time(meanwhile))
     if born is not None:
         born(one)
     try:

@@ -7,7 +7,7 @@ old link is cut: its commands are ignored, and it gets no reports.
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
-from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from ..drones.real_fleet import RealDrone
@@ -312,8 +312,10 @@ class Gateway:
         self._over = False
         self.heard = kernel.now
         """When the brain was heard of last."""
+        self.patience = inf if patience is None else patience
+        """Seconds of its own time without its brain, after which all drones land."""
         if patience is not None:
-            self._watch(patience)
+            self._watch()
 
     # The link in command
 
@@ -390,16 +392,16 @@ class Gateway:
         """Whether any drone is in the air."""
         return any(not known.landed for known in self.navigation.telemetry.values())
 
-    def _watch(self, patience: float) -> None:
+    def _watch(self) -> None:
         """Land everything when the brain was silent for too long; else check again in time."""
         if self._over:
             return
-        due = self.heard + patience
+        due = self.heard + self.patience
         if self.kernel.now >= due:
-            due = self.kernel.now + patience
+            due = self.kernel.now + self.patience
             if self.descent is None and self.flies:
                 self.fail_safe(Down.LAND)
-        self.kernel.schedule(due, EventKind.CLOCK, FLEET, partial(self._watch, patience))
+        self.kernel.schedule(due, EventKind.CLOCK, FLEET, self._watch)
 
     def fail_safe(self, how: Down) -> Task[None]:
         """Bring all drones down without the brain, which is cut off."""

@@ -56,7 +56,8 @@ class Ending:
 
     def __init__(self, gateway: Gateway, over: Future[None], settings: Settings) -> None:
         self._gateway, self._over = gateway, over
-        self._second = settings.speed
+        self.second = settings.speed
+        """A second on the wall, in the gateway's time."""
         self._idle, self._patience = settings.idle, settings.patience
         self.server: Server | None = None
         self._alone = -1.0
@@ -112,7 +113,7 @@ class Ending:
                 self.goodbye()
         if self._alone > (self._idle if self._told is None else 0.0):
             self._over.set(None)
-        kernel.schedule(kernel.now + self._second, EventKind.CLOCK, FLEET, self.look)
+        kernel.schedule(kernel.now + self.second, EventKind.CLOCK, FLEET, self.look)
 
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"
@@ -249,6 +250,17 @@ async def _command(
     publisher = Publisher(controls.telemetry)
     server = Server(gateway, publisher, _say, ending.goodbye)
     ending.server = server
+
+    def pass_at(speed: float) -> None:
+        if speed == kernel.speed:
+            return
+        _say(f"time passes {speed:g} times as fast from now on")
+        kernel.pass_at(speed)
+        gateway.patience = settings.patience * speed
+        ending.second = speed
+
+    if settings.real is None:
+        server.pass_at = pass_at
     for number in (signal.SIGTERM, signal.SIGINT):
         asyncio.get_running_loop().add_signal_handler(number, kernel.post, ending.told_to_end)
     no_more = in_children(deaf)

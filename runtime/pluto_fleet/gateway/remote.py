@@ -80,9 +80,12 @@ class RemoteLink:
         self._flown: Callable[[Flown], object] | None = None
         self._tasks: list[asyncio.Task[None]] = []
 
-    async def link(self, epoch: int, patience: float) -> None:
-        """Take command; raise `BadInput` if another brain has done so meanwhile."""
-        self._say({"do": "link", "epoch": epoch})
+    async def link(self, epoch: int, patience: float, speed: float = 1.0) -> None:
+        """Take command; raise `BadInput` if another brain has done so meanwhile.
+
+        `speed`: how fast time passes from now on, if the drones are simulated.
+        """
+        self._say({"do": "link", "epoch": epoch, "speed": float(speed)})
         told = message_in(await self._reader.readline())
         match told:
             case {"linked": dict(drones)}:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import Down
@@ -53,6 +54,8 @@ class Server:
         self.gateway, self.publisher = gateway, publisher
         self.say, self.on_goodbye = say, on_goodbye
         self.connected: list[Connection] = []
+        self.pass_at: Callable[[float], object] | None = None
+        """Lets time pass at another speed; None: the drones are real."""
 
     @property
     def has_a_brain(self) -> bool:
@@ -167,6 +170,7 @@ class Connection:
                 self._cut_motors([drone.id for drone in self._gateway.drones])
             case {"do": "link", "epoch": int(epoch)} if self.link is None:
                 self._link(epoch)
+                self._pass_at(message.get("speed"))
             case {"do": "link"} if self.link is not None:
                 raise BadInput("this connection commands already")
             case {"do": str(what)} if self.link is not None:
@@ -211,6 +215,12 @@ class Connection:
         )
         self._tell({"linked": self._changed()})
         self._server.say(f"a brain commands, number {epoch}")
+
+    def _pass_at(self, speed: object) -> None:
+        """Let time pass as fast as for the brain that commands now."""
+        change = self._server.pass_at
+        if change is not None and isinstance(speed, float) and 0.0 < speed < inf:
+            change(speed)
 
     def _lost(self) -> None:
         if self.link is None:  # it has disconnected

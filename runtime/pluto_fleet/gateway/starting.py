@@ -53,11 +53,15 @@ async def connect(
     process: subprocess.Popen[bytes] | None = None
     while True:
         try:
-            return await _linked(folder, settings, kernel, epoch, lost)
+            link = await _linked(folder, settings, kernel, epoch, lost)
         except TimeoutError:
             _send(folder, signal.SIGKILL)  # it hangs and flies nothing any more: another one can
         except OSError:
             pass  # there is no gateway yet
+        else:
+            if speed_in(folder) != settings.speed:
+                _write(folder, settings)
+            return link
         if process is None or process.poll() is not None:
             if process is not None and _broke(process.returncode):
                 raise BadInput(_ended(folder, process.returncode))
@@ -88,7 +92,7 @@ async def _linked(
     link = RemoteLink(kernel, reader, writer, lost)
     try:
         async with asyncio.timeout(GATEWAY_TIMEOUT):
-            await link.link(epoch, settings.patience)
+            await link.link(epoch, settings.patience, settings.speed)
     except BaseException:
         writer.close()
         raise
@@ -100,9 +104,7 @@ def start(
 ) -> subprocess.Popen[bytes]:
     """Start a gateway that outlives this process; its output goes to its log."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    part = folder / f".{SETTINGS}.{os.getpid()}.part"
-    part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
-    part.replace(folder / SETTINGS)
+    _write(folder, settings)
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
         (folder / LOG).replace(folder / f"{LOG}.old")
@@ -110,6 +112,12 @@ def start(
     process = respawn.start(words, folder / LOG)
     _STARTED.append(process)
     return process
+
+
+def _write(folder: Path, settings: Settings) -> None:
+    part = folder / f".{SETTINGS}.{os.getpid()}.part"
+    part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
+    part.replace(folder / SETTINGS)
 
 
 def speed_in(folder: Path) -> float | None:

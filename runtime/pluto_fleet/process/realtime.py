@@ -29,7 +29,7 @@ class RealTime(Kernel):
         super().__init__()
         guard_hooks()
         self.now = self._begin = begin
-        self._loop, self._speed = asyncio.get_running_loop(), speed
+        self._loop, self.speed = asyncio.get_running_loop(), speed
         self._start = self._loop.time()
         self._draining = False
         self._armed: asyncio.TimerHandle | None = None
@@ -41,7 +41,15 @@ class RealTime(Kernel):
         return self.now if self._draining else self._clock()
 
     def _clock(self) -> float:
-        return self._begin + (self._loop.time() - self._start) * self._speed
+        return self._begin + (self._loop.time() - self._start) * self.speed
+
+    def pass_at(self, speed: float) -> None:
+        """Let time pass at another speed from now on; it does not jump."""
+        self._begin, self._start = self._clock(), self._loop.time()
+        self.speed = speed
+        self._disarm()
+        if not self._draining:
+            self._arm()
 
     @property
     def time_of_day(self) -> float:
@@ -102,15 +110,17 @@ class RealTime(Kernel):
         when = self.next_time()
         if when is None or when >= self._armed_for:
             return  # the timer that is set comes earlier, and is set again then
+        self._disarm()
+        self._armed_for = when
+        self._armed = self._loop.call_at(self._start + (when - self._begin) / self.speed, self._due)
+
+    def _disarm(self) -> None:
         if self._armed is not None:
             self._armed.cancel()
-        self._armed_for = when
-        self._armed = self._loop.call_at(
-            self._start + (when - self._begin) / self._speed, self._due
-        )
+        self._armed, self._armed_for = None, inf
 
     def _due(self) -> None:
-        self._armed, self._armed_for = None, inf
+        self._disarm()
         self.post(_nothing)
 
     async def call_hook(

@@ -12,6 +12,7 @@ import os
 import signal
 import sys
 from collections.abc import Awaitable, Callable, Coroutine
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -71,6 +72,10 @@ class Brain:
         self.lost: Future[None] = Future()
         self.epoch = 0
         self.links: list[RemoteLink] = []
+
+    def pass_at(self, speed: float) -> None:
+        """Let the next link ask for another speed of time."""
+        self._settings = replace(self._settings, speed=speed)
 
     async def linked(self) -> RemoteLink:
         """Link to the gateway; start one if there is none."""

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import signal
+from math import dist
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -27,7 +29,7 @@ from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.library.gateway.flights import THERE, Field, Task
+from tests.library.gateway.flights import SCOUT, THERE, Field, Task
 from tests.library.gateway.processes import (
     SPEED,
     Brain,
@@ -119,6 +121,28 @@ def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
 
     played_inside(tmp_path, play)
     assert deeds(tmp_path) == [("cf1", "pick_item", "cf1")]
+
+
+@pytest.mark.parametrize("speed", [5.0, 400.0])
+def test_a_gateway_that_lives_passes_its_time_as_the_next_brain_asks(
+    tmp_path: Path, speed: float
+) -> None:
+    """From where its drones are by then: nothing jumps; and the next resume finds that speed."""
+
+    async def play(brain: InsideBrain) -> None:
+        link = await sent_far(brain)
+        await link.close()
+        where = link.telemetry("cf1").location
+        brain.pass_at(speed)
+        link = await brain.linked()
+        there, at = link.telemetry("cf1").location, asyncio.get_running_loop().time()
+        assert dist(where, there) < 2.0
+        await brain.until(lambda: dist(there, link.telemetry("cf1").location) >= 3.0)
+        seconds = (asyncio.get_running_loop().time() - at) * speed
+        assert seconds == pytest.approx(3.0 / SCOUT.speed, rel=0.2, abs=0.3 * speed)
+        assert speed_in(tmp_path) == speed
+
+    played_inside(tmp_path, play)
 
 
 def test_without_a_brain_everything_lands_and_then_it_ends(tmp_path: Path) -> None:
