@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field
@@ -11,11 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import FLEW
+from ..journal import errors
+from ..journal.facts import Event, check
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 
 if TYPE_CHECKING:
+    from ..journal.database import Row
     from ..shared.domain.model import Point
 
 
@@ -73,11 +75,8 @@ def read_flights(path: Path) -> Flights:
     """Read a journal; raise `BadInput` if it is none, is damaged, or tells no commands."""
     runs: list[list[Command]] = [[]]
     with closing(Reader(path)) as reader:
-        rows = iter(reader.rows())
-        first = next(rows, None)
-        header = {} if first is None else json.loads(first.text)[0]
-        for row in rows:
-            for event in json.loads(row.text):
+        for row in reader.rows():
+            for event in _events(path, row):
                 if event["event"] == FLEW:
                     runs[-1].append(_command(path, row.seq, event))
                 elif event["event"] == "brain.began":
@@ -86,11 +85,19 @@ def read_flights(path: Path) -> Flights:
             raise BadInput(reader.damaged)
     if not any(runs):
         raise BadInput(f"{path}: {_NONE}")
-    return Flights(path=path, fleet=header.get("fleet"), runs=[run for run in runs if run])
+    return Flights(path=path, fleet=reader.header.get("fleet"), runs=[run for run in runs if run])
+
+
+def _events(path: Path, row: Row) -> Sequence[Event]:
+    try:
+        return row.events
+    except ValueError as error:
+        raise errors.strange(path, errors.unfit(row.seq, error)) from None
 
 
 def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:
     try:
+        check(facts)
         ended_at, (before, after) = float(facts["t"]), facts["battery"]
         (x, y, z), (to_x, to_y, to_z) = (map(float, facts[end]) for end in ("from", "to"))
         return Command(

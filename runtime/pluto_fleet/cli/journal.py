@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
-from ..journal import place
+from ..journal import errors, place
 from ..journal.mending import mend
 from ..journal.reader import Reader
 from ..report.sentences import journal_sentence
@@ -97,7 +97,13 @@ class _Printer:
                 output.flush()
                 output.tell(f"… {missing} cannot be read …")
             self._next = row.seq + 1
-            for event in json.loads(row.text):
+            try:
+                events = row.events
+            except ValueError as error:
+                output.flush()
+                output.tell(f"… {errors.unfit(row.seq, error)} …")
+                continue
+            for event in events:
                 for line in self._lines(event, row.wall):
                     output.line(line)
         output.flush()

@@ -17,6 +17,7 @@ from ..files.reading import parsed
 from ..gateway.process import NOTE
 from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect, speed_in
+from ..journal import errors
 from ..journal.header import Header, check
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
@@ -40,6 +41,9 @@ if TYPE_CHECKING:
     from ..process.realtime import RealTime
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
+
+_NEEDED = {"missions", "fleet", "sim", "seed", "faults", "app_hash"}
+"""What a journal's header says, without which no flight goes on."""
 
 GATEWAY_DEATHS = 5
 """How many gateways may die in a row without progress in between."""
@@ -112,9 +116,13 @@ def reopen(app: App, journal: Path) -> Resumable:
     try:
         header: Header = store.header
         check(journal, header, app)
+        if lacking := sorted(_NEEDED - header.keys()):
+            raise errors.header_lacks(journal, ", ".join(lacking))
         fleet = fleet_in(app, journal, header)
         app = moving(app, fleet.motion)
         known = recovered(store)
+        if unknown := known.records.drones - {drone.id for drone in fleet.drones}:
+            raise errors.strange(journal, errors.unknown_drone(min(unknown)))
         planned: Sequence[Mission[Any]] = ()
         if not known.records.missions:
             document = parsed(f"{journal} (its missions)", header["missions"])

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..journal.errors import Damaged
-from ..journal.fold import Record, Records
+from ..journal.facts import check as check_facts
+from ..journal.fold import Record, Records, taken
 from ..journal.header import check
 from ..journal.reader import Reader
 from ..shared.domain.status import Status
@@ -30,11 +30,9 @@ def records_in(app: App, journal: Path) -> Records:
     """
     records = Records()
     with closing(Reader(journal)) as reader:
-        for row in reader.more():
-            for event in json.loads(row.text):
-                if row.seq == 0:
-                    check(journal, event, app)
-                records.take(event)
+        for row, event in taken(journal, reader.more(), records):
+            if row.seq == 0:
+                check(journal, event, app)
         if reader.damaged is not None:
             raise Damaged(reader.damaged)
     return records
@@ -96,15 +94,17 @@ def count_flights(journal: Path) -> tuple[int, int, float]:
     That is from when the drones were connected, as in a simulation; 0: none has ended.
     """
     launched = failed = 0
-    first, last = "[]", "[]"
+    began, ended = None, 0.0
     with closing(Reader(journal)) as reader:
-        for row in reader.rows():  # within a text, quotation marks are escaped
-            launched += row.text.count('"event": "trip.launched"')
-            failed += row.text.count('"event": "trip.failed"')
-            if first == "[]" and '"event": "brain.began"' in row.text:
-                first = row.text
-            if '"event": "mission.ended"' in row.text:
-                last = row.text
-    begins = [event["t"] for event in json.loads(first) if event["event"] == "brain.began"]
-    ends = [event["t"] for event in json.loads(last) if event["event"] == "mission.ended"]
-    return launched, failed, max(ends) - min(begins, default=0.0) if ends else 0.0
+        for row in reader.rows():
+            with suppress(ValueError):
+                for event in row.events:
+                    check_facts(event)
+                    kind = event["event"]
+                    launched += kind == "trip.launched"
+                    failed += kind == "trip.failed"
+                    if began is None and kind == "brain.began":
+                        began = event["t"]
+                    if kind == "mission.ended":
+                        ended = event["t"]
+    return launched, failed, max(ended - (began or 0.0), 0.0) if ended else 0.0

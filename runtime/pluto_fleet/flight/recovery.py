@@ -210,10 +210,12 @@ def unfit(app: App, record: Record) -> str | None:
         for name in fields:
             if name not in known[entity]:
                 return f"it does not fit into the app as it is now: there is no field {name}"
-        for one in _own(app, entity):
-            if one.name not in fields and one.hint:
+        for one in app.fields:
+            if one.on is not entity:
+                continue
+            if one.name not in fields and isinstance(one, OwnField) and one.hint:
                 return f"it does not fit into the app as it is now: it has no {one.name}"
-            if one.name in fields and (wanted := one.wanted(fields[one.name], ())):
+            if one.name in fields and (wanted := one.wanted(fields[one.name], app.evaluators)):
                 now = f"its {one.name} must be {wanted} now"
                 return f"it does not fit into the app as it is now: {now}"
     return None

@@ -5,19 +5,18 @@ The page `docs/journal.md` says the same for other programs.
 
 from __future__ import annotations
 
-import json
 import os
 import sqlite3
 import stat
 import struct
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple, TypeGuard
 from zlib import crc32
 
-from ..shared.domain.trace import Event
 from . import errors, wal
 from .errors import TROUBLE
+from .facts import Event, events_of, header_of
 
 APPLICATION = 0x506C7574
 """`Plut`, as SQLite's application id."""
@@ -64,6 +63,12 @@ def tip_checksum(seq: object, epoch: object) -> int:
     return crc32(f"tip {seq} {epoch} ".encode())
 
 
+LARGEST_TEXT = 256 * 1024 * 1024
+"""Bytes of one text, so that no file has its reader take more memory than there is."""
+
+LATEST_WALL, MOST = 10**13, 2**53
+"""The largest plausible time, in milliseconds since 1970, and the largest plausible other number."""
+
 PATIENCE = 5.0
 """Seconds that a commit waits for another program that reads the file."""
 
@@ -98,6 +103,11 @@ class Row(NamedTuple):
     epoch: int
     """How often the journal had been opened by then."""
 
+    @property
+    def events(self) -> list[Event]:
+        """Its events; raises `ValueError` if the text is no list of them."""
+        return events_of(self.text)
+
 
 class Snapshot(NamedTuple):
     """The state after the rows up to one."""
@@ -121,6 +131,7 @@ def connect(path: Path, how: str) -> sqlite3.Connection:
         timeout=PATIENCE,
     )
     database.text_factory = bytes
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_TEXT)
     database.execute("PRAGMA trusted_schema = OFF")
     database.execute("PRAGMA cell_size_check = ON")  # what is damaged is noticed early
     return database
@@ -185,21 +196,25 @@ def _header(database: sqlite3.Connection) -> Event | None:
     if not _sound(database, 0):
         return None
     ((text,),) = database.execute("SELECT text FROM journal WHERE seq = 0")
-    header: Event = json.loads(text)[0]
-    return header
+    try:
+        return header_of(text.decode())
+    except ValueError:
+        return None
 
 
 def _tip(database: sqlite3.Connection) -> tuple[int, int]:
     """Return the number of the last row, and the epoch."""
     for seq, epoch, checksum in database.execute("SELECT seq, epoch, checksum FROM tip"):
-        if checksum == tip_checksum(seq, epoch):
+        if checksum == tip_checksum(seq, epoch) and _is_number(seq) and _is_number(epoch):
             return seq, epoch
     # Then it is salvaged page by page, without the database.
     if [fault for (fault,) in database.execute("PRAGMA quick_check(1)")] != [b"ok"]:
         raise sqlite3.DatabaseError("database disk image is malformed")
     query = "SELECT seq, epoch FROM journal ORDER BY seq DESC LIMIT 1"
-    ((seq, epoch),) = database.execute(query)
-    return seq, epoch + SURELY_LESS_OPENINGS
+    for seq, epoch in database.execute(query):
+        if _is_number(seq) and _is_number(epoch):
+            return seq, epoch + SURELY_LESS_OPENINGS
+    raise sqlite3.DatabaseError("no row can be the last one")
 
 
 SURELY_LESS_OPENINGS = 1_000
@@ -221,9 +236,26 @@ def last_row(database: sqlite3.Connection) -> int:
 
 
 def is_sound(row: tuple[object, ...]) -> bool:
-    """Whether a row's checksum is right."""
+    """Whether a row's checksum is right, and it holds what a row can hold."""
     seq, epoch, wall, text, checksum = row
-    return isinstance(text, bytes) and row_checksum(seq, epoch, wall, text) == checksum
+    if not isinstance(text, bytes) or row_checksum(seq, epoch, wall, text) != checksum:
+        return False
+    return _is_number(seq) and _is_number(epoch) and _is_number(wall, LATEST_WALL)
+
+
+def _is_number(value: object, most: int = MOST) -> TypeGuard[int]:
+    return type(value) is int and 0 <= value <= most
+
+
+def row_of(row: tuple[Any, ...]) -> Row | None:
+    """Return a row that was read; None: it is not sound."""
+    if not is_sound(row):
+        return None
+    seq, epoch, wall, text, _ = row
+    try:
+        return Row(seq, wall / 1000, text.decode(), epoch)
+    except UnicodeDecodeError:
+        return None
 
 
 def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
@@ -232,7 +264,8 @@ def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
     try:
         query = "SELECT seq, epoch, wall, text, checksum FROM snapshot ORDER BY seq DESC"
         for seq, epoch, wall, text, checksum in database.execute(query):
-            if isinstance(text, bytes) and checksum == snapshot_checksum(seq, epoch, wall, text):
+            sound = isinstance(text, bytes) and _is_number(wall, LATEST_WALL) and _is_number(seq)
+            if sound and checksum == snapshot_checksum(seq, epoch, wall, text):
                 return Snapshot(text.decode(), seq, wall / 1000, tuple(damaged))
             damaged.append(errors.bad_snapshot(seq))
     except TROUBLE:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .. import __version__
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import counted
+from ..shared.domain.text import counted, printable
 
 TROUBLE = (sqlite3.Error, UnicodeDecodeError)
 """The exceptions of the database; the second where it quotes damaged text."""
@@ -193,6 +193,31 @@ def unreadable_from(seq: int, last: int, why_not: str) -> str:
 
 def _before(seq: int) -> str:
     return f"; {counted(seq - 1, 'row')} before it can be read" if seq > 1 else ""
+
+
+def strange(path: Path, what: str) -> JournalError:
+    """The journal holds what was written, and not what an app of this version writes."""
+    return JournalError(f"{path}: the journal cannot be used: {what}")
+
+
+def header_lacks(path: Path, what: str) -> JournalError:
+    """The header does not say what is needed to go on."""
+    return strange(path, f"its first row lacks {what}")
+
+
+def unfit(seq: int, error: ValueError) -> str:
+    """A row is what was written, and not what this version knows."""
+    return f"row {seq} is not as this version knows it: {error}"
+
+
+def unknown_drone(drone: str) -> str:
+    """A mission has a drone that the fleet does not have."""
+    return f"a mission has the drone {printable(drone)}, which is not in its fleet"
+
+
+def does_not_follow(kind: str, error: Exception) -> str:
+    """An event cannot come after those before it."""
+    return f"{printable(kind)} does not fit to what is said before it ({type(error).__name__})"
 
 
 def no_header() -> str:

@@ -7,15 +7,19 @@ an event without one changes nothing that must survive.
 from __future__ import annotations
 
 import gc
-import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.actions import PICK, RELEASE
+from . import errors
+from .facts import check, snapshot_of
 
 if TYPE_CHECKING:
-    from ..shared.domain.trace import Event
+    from pathlib import Path
+
+    from .database import Row
+    from .facts import Event
     from .reader import Read
 
 
@@ -23,6 +27,9 @@ Record = dict[str, Any]
 """One mission. Its trips are as in `values.trip_data`."""
 
 Fact = Mapping[str, Any]
+
+BROKEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError)
+"""What an event raises that is not as this version knows it."""
 
 REMEMBERED = 200
 """How many command ids are remembered: older ones are not repeated."""
@@ -67,13 +74,29 @@ class Records:
         """Whether everything was stopped by a command, and not resumed since."""
         return self.data["stopped"] is not None
 
+    @property
+    def drones(self) -> set[str]:
+        """The drones that missions have which have not ended, without those that have joined."""
+        living = [record for record in self.missions.values() if not record["ended"]]
+        flown = {record["flight"]["drone"] for record in living if record["flight"] is not None}
+        carriers = {record["carrier"] for record in living if record["carrier"] is not None}
+        return (flown | carriers) - {str(entry.get("id")) for entry in self.joined}
+
     def flown_last(self, mission: str) -> Record:
         """Return the trip that a mission completed last."""
         trip: Record = self.missions[mission]["done"][-1]
         return trip
 
+    def read(self, event: Fact) -> None:
+        """Process an event of a journal; raise `ValueError` if it is not as this version knows it."""
+        check(event)
+        try:
+            self.take(event)
+        except BROKEN as error:
+            raise ValueError(errors.does_not_follow(event["event"], error)) from None
+
     def take(self, event: Fact) -> None:
-        """Process an event."""
+        """Process an event of this run."""
         kind = event["event"]
         self.data["t"] = event["t"]
         change = _MISSION.get(kind)
@@ -461,14 +484,36 @@ def replayed(read: Read, header: Event | None = None) -> Records:
 
     Check afterwards whether `read` was damaged: then these are the records up to the damage.
     """
+    records, number = Records(), read.after
     with _without_collections():
-        records = Records(None if read.snapshot is None else json.loads(read.snapshot))
-        if read.snapshot is None and header is not None:
-            records.take(header)
-        take = records.take
-        for event in read.events:
-            take(event)
+        try:
+            if read.snapshot is not None:
+                records = Records(snapshot_of(read.snapshot))
+            elif header is not None:
+                records.read(header)
+            for row in read.rows:
+                number = row.seq
+                for event in row.events:
+                    records.read(event)
+        except ValueError as error:
+            read.damaged = errors.unfit(number, error)
     return records
+
+
+def taken(path: Path, rows: Iterable[Row], records: Records) -> Iterator[tuple[Row, Event]]:
+    """Yield the events of rows, after each has been taken into the records.
+
+    Of a `trip.completed`, `did` is the trip. Raises a `JournalError` at one that this version does not know.
+    """
+    for row in rows:
+        try:
+            for event in row.events:
+                records.read(event)
+                if event["event"] == "trip.completed":
+                    event["did"] = records.flown_last(event["mission"])
+                yield row, event
+        except ValueError as error:
+            raise errors.strange(path, errors.unfit(row.seq, error)) from None
 
 
 @contextmanager

@@ -5,7 +5,6 @@ This works beside a running app, on a read-only disk, and with a damaged journal
 
 from __future__ import annotations
 
-import json
 import shutil
 import sqlite3
 import tempfile
@@ -20,18 +19,22 @@ from .database import (
     Row,
     connect,
     found,
-    is_sound,
     last_row,
     look_at,
     newest_snapshot,
+    row_of,
 )
 from .errors import TROUBLE, Damaged
+from .facts import Event
 from .lock import holder
 from .place import beside
 from .salvage import salvage
 
 _AT_ONCE = 100
 """Rows that are read at once: more would not fit into the processor's cache."""
+
+_LARGE = 8 * 1024 * 1024
+"""Bytes of rows after which no more are read at once."""
 
 
 Chunks = Generator[list[Row], None, str | None]
@@ -67,11 +70,10 @@ class Read:
             yield from chunk
 
     @property
-    def events(self) -> Iterator[dict[str, Any]]:
+    def events(self) -> Iterator[Event]:
         """The events of all rows, in order."""
-        for chunk in self._sound():
-            for events in json.loads("[" + ",".join([row.text for row in chunk]) + "]"):
-                yield from events
+        for row in self.rows:
+            yield from row.events
 
     def _sound(self) -> Iterator[list[Row]]:
         while True:
@@ -100,15 +102,16 @@ def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:
 def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
     while seq <= last:
         # each chunk is a query of its own, so that a slow reader does not block a writer's checkpoints
-        until = min(last, seq + _AT_ONCE - 1)
-        rows, trouble = _fetched(database, seq, until)
+        rows, until, trouble = _fetched(database, seq, min(last, seq + _AT_ONCE - 1))
         sound: list[Row] = []
-        for row in rows:
-            if row[0] != seq or not is_sound(row):
+        for unchecked in rows:
+            row = row_of(unchecked)
+            if row is None or row.seq != seq:
                 yield sound
-                missing = errors.missing_rows(seq, row[0] - 1, last) if row[0] > seq else None
+                found = unchecked[0]
+                missing = errors.missing_rows(seq, found - 1, last) if found > seq else None
                 return missing or errors.unsound_row(seq, last)
-            sound.append(Row(seq, row[2] / 1000, row[3].decode(), row[1]))
+            sound.append(row)
             seq += 1
         yield sound
         if trouble is not None:
@@ -120,14 +123,19 @@ def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
 
 def _fetched(
     database: sqlite3.Connection, first: int, last: int
-) -> tuple[list[tuple[Any, ...]], Exception | None]:
-    """Return unchecked rows, and the error that keeps the database from returning more."""
+) -> tuple[list[tuple[Any, ...]], int, Exception | None]:
+    """Return unchecked rows up to a number, and the error that keeps the database from returning more."""
     rows: list[tuple[Any, ...]] = []
+    size = 0
     try:
-        rows.extend(database.execute(_QUERY, (first, last)))
+        for row in database.execute(_QUERY, (first, last)):
+            rows.append(row)
+            size += len(row[3]) if isinstance(row[3], bytes) else 0
+            if size >= _LARGE:
+                return rows, row[0], None
     except TROUBLE as error:
-        return rows, error
-    return rows, None
+        return rows, last, error
+    return rows, last, None
 
 
 _QUERY = (
@@ -143,12 +151,15 @@ class Reader:
         """What is wrong with it, after all readable rows; None: nothing."""
         self.torn: str | None = None
         """What is wrong with the last commit, which is left out; None: nothing."""
+        self.header: Event = {}
+        """The first event, as far as that can be read."""
         self._path, self._seen, self._follows = path, -1, follows
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._database: sqlite3.Connection | None = None
         try:
             look_at(path)
             self._database, state = self._opened()
+            self.header = state.header
             if locked or holder(path) is None:  # a log that is being written is not always complete
                 self.torn = state.torn
                 if state.lost:

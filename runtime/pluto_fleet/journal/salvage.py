@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from .database import Row, row_checksum
+from .database import Row, row_of
 from .place import beside
 
 _SIZES = {1 << power for power in range(9, 17)}
@@ -80,12 +80,9 @@ def _keep(cell: int, page: bytes, pages: _Pages, found: _Found) -> None:
         return
     payload = _payload(page, place, length, pages)
     _, epoch, wall, text, checksum = _record(payload)
-    if not isinstance(text, bytes) or not isinstance(epoch, int) or not isinstance(wall, int):
-        return
-    if row_checksum(seq, epoch, wall, text) != checksum:
-        return
-    if seq not in found or found[seq].epoch <= epoch:
-        found[seq] = Row(seq, wall / 1000, text.decode(), epoch)
+    row = row_of((seq, epoch, wall, text, checksum))
+    if row is not None and (seq not in found or found[seq].epoch <= row.epoch):
+        found[seq] = row
 
 
 def _payload(page: bytes, place: int, length: int, pages: _Pages) -> bytes:

@@ -287,7 +287,7 @@ class FleetHistory:
         if journal is None or process is None:
             return None
         with closing(Reader(journal)) as reader:  # its writer has it open
-            header: dict[str, object] = next((json.loads(row.text)[0] for row in reader.rows()), {})
+            header = reader.header
         same = [header.get("sim"), header.get("crtp_sim") is not None] == self._kind
         return process if same else None
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import time
 import traceback
 from collections.abc import Callable, Collection, Iterator, Sequence
@@ -16,7 +15,8 @@ from ..flight.config import End, Stops
 from ..flight.control import PRIORITY
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
 from ..flight.mission_status import aside, in_order, records_in
-from ..journal.fold import Records
+from ..journal.errors import JournalError
+from ..journal.fold import Records, taken
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
@@ -168,13 +168,10 @@ class FlightSession:
         """Show the journal of a run that has ended."""
         self.records = known.records
         told = Records()
-        with closing(Reader(self.flight.journal)) as reader:
-            for row in reader.rows():
-                for event in json.loads(row.text):
-                    told.take(event)
-                    if event["event"] == "trip.completed":
-                        event["did"] = told.flown_last(event["mission"])
-                    self.feed.take(event)
+        journal = self.flight.journal
+        with closing(Reader(journal)) as reader, suppress(JournalError):
+            for _, event in taken(journal, reader.rows(), told):
+                self.feed.take(event)
 
     def begin(self, store: Store, known: Recovered | None) -> None:
         """Run it, from its beginning or from its records."""

@@ -31,6 +31,15 @@ class Memory:
     def seq(self) -> int:
         return len(self._rows)
 
+    @property
+    def rows(self) -> list[str]:
+        """The durable rows."""
+        return [text for _, text in self._rows]
+
+    def replace(self, rows: Sequence[str]) -> None:
+        """Have other rows, as somebody has written them."""
+        self._rows = [(0.0, text) for text in rows]
+
     def reopen(self) -> None:
         """Go on with it in another life: what was not durable never was."""
         self.crash()

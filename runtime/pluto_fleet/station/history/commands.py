@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from ...process.untrusted import parsed
 
 if TYPE_CHECKING:
     from ..wire import FlightSummary, ReportCommand
@@ -83,8 +84,10 @@ def _logged(own_folder: Path) -> Iterator[tuple[int, dict[str, Any]]]:
     for name in (f"{LOG}.1", LOG):
         with suppress(FileNotFoundError), (own_folder / name).open(encoding="utf-8") as file:
             for text in file:
-                with suppress(ValueError, LookupError, TypeError):  # a line that is not whole
-                    line = json.loads(text)
+                with suppress(
+                    ValueError, LookupError, TypeError, AttributeError
+                ):  # it is not whole
+                    line = parsed(text)
                     if line["status"] == DONE and not line["do"].startswith(PLAN):
                         at = datetime.fromisoformat(line["time"])
                         yield round(at.timestamp() * 1000), line

@@ -11,12 +11,13 @@ from ...flight.control import PRIORITY
 from ...flight.lives import fleet_in
 from ...flight.mission_status import aside, in_order
 from ...gateway.sightings import Sighting
+from ...journal.fold import BROKEN
 from ...shared.domain.errors import BadInput
 from ...shared.domain.status import IN_THE_AIR
 from ..rows import drone_at, living_row, recorded_row
 from .digest import end_of
 from .frames import Frame
-from .reading import BROKEN, JournalText
+from .reading import JournalText
 from .tracks import Tracks
 
 if TYPE_CHECKING:
@@ -26,6 +27,9 @@ if TYPE_CHECKING:
 
 STEP = 0.5
 """Seconds between two frames in which drones only move."""
+
+MOST_STEPS = 200_000
+"""The most frames in which drones only move: in a longer flight than a day they are further apart."""
 
 NOT_TOLD = "not known: this flight was not recorded"
 
@@ -51,15 +55,18 @@ def folded_frames(app: App, read: Callable[[], JournalText]) -> Iterator[Frame]:
     The journal is read twice: a place is known only once a command has ended.
     """
     tracks = Tracks()
+    last = 0.0
     for instant in read().instants():
         for event in instant.events:
             tracks.take(event)
-    return _Folding(app, read(), tracks).frames()
+            last = max(last, float(event["t"]))
+    return _Folding(app, read(), tracks, max(STEP, last / MOST_STEPS)).frames()
 
 
 class _Folding:
-    def __init__(self, app: App, journal: JournalText, tracks: Tracks) -> None:
+    def __init__(self, app: App, journal: JournalText, tracks: Tracks, step: float) -> None:
         self._app, self._journal, self._tracks = app, journal, tracks
+        self._step = step
         self._statuses: dict[str, str] = {}
         """By drone."""
         self._missions: dict[str, Mapping[str, Any]] = {}
@@ -122,9 +129,9 @@ class _Folding:
 
     def _on_the_way(self, since: float, until: float) -> Iterator[Frame]:
         """Yield frames of drones that move between two instants."""
-        steps = int((until - since) / STEP)
+        steps = int((until - since) / self._step)
         for step in range(1, steps + 1):
-            t = since + step * STEP
+            t = since + step * self._step
             if t < until:
                 frame = self._frame(t, [], [self._drone(id, t) for id in self._statuses])
                 if frame["drones"]:
@@ -158,7 +165,7 @@ class _Folding:
         first = [
             one
             for one in record["promises"].get("after", ())
-            if not self._journal.records.missions[one]["ended"]
+            if not self._journal.records.missions.get(one, record)["ended"]
         ]
         return living_row(
             name, record, where, self._app.resumes, self._priority, t, lambda *_: None, first

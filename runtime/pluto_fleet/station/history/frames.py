@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from .lines import NAMED_BY
 from .recording import changed
 
 Frame = dict[str, Any]
 """A `Frame` of `wire.py`; its rows are whatever pages were shown."""
-
-NAMED_BY = {"missions": "name", "drones": "id", "alerts": "id"}
-"""The kinds of rows, and the field by which one is known."""
 
 
 class Shown:
@@ -47,7 +45,7 @@ class Shown:
     def _touched(self, kind: str, changes: Mapping[str, Any]) -> list[dict[str, Any]]:
         named = self.rows[kind]
         for name, change in changes.items():
-            named[name] = changed(named.get(name), change)
+            named[name] = {**changed(named.get(name), change), NAMED_BY[kind]: name}
         return [named[name] for name in changes]
 
     def _frame(self, rows: Mapping[str, list[dict[str, Any]]]) -> Frame:

@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from ...journal.lock import holder
 from ...journal.place import written
+from ...process.untrusted import fits, parsed
+from ..wire import FlightSummary
 from .airborne import Work
 from .digest import Digest, digest_of
 from .folder import journals_in, recording_of
@@ -23,6 +25,9 @@ if TYPE_CHECKING:
 
 Stamp = list[int]
 """When a journal was written last, in nanoseconds since 1970, and its size."""
+
+_Kept = tuple[Stamp, FlightSummary, dict[str, Work]]
+"""What the file has of each flight."""
 
 FORMAT = 1
 """The version of the file; digests of another one are made anew."""
@@ -84,11 +89,12 @@ class KeptDigests:
         """Read the file; whatever is not as expected in it is made anew."""
         found: dict[str, tuple[Stamp, Digest]] = {}
         with suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
-            kept = json.loads(self._file.read_text(encoding="utf-8"))
+            kept = parsed(self._file.read_text(encoding="utf-8"))
             if kept["format"] == FORMAT and kept["app"] == self._app.name:
                 for id, (stamp, summary, work) in kept["flights"].items():
-                    drones = {drone: Work(**one) for drone, one in work.items()}
-                    found[id] = stamp, Digest(summary=summary, work=drones)
+                    if fits(_Kept)([stamp, summary, work]):
+                        drones = {drone: Work(**one) for drone, one in work.items()}
+                        found[id] = stamp, Digest(summary=summary, work=drones)
         self._in_file = found.copy()
         return found
 

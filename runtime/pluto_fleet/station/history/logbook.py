@@ -7,10 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from ...journal.fold import BROKEN
 from ..feed import Feed
 from ..results.meaning import SIMULATED_UNITS
 from ..results.rows import NameOf, nowhere
-from .reading import BROKEN, JournalText
+from .reading import JournalText
 
 if TYPE_CHECKING:
     from ...app import App

@@ -28,6 +28,9 @@ HOW_TO_INSTALL = (
     " pip install mcap"
 )
 
+LARGEST = 1024 * 1024 * 1024
+"""Bytes of a file, which is made in memory."""
+
 _SECOND = 1_000_000_000
 _LEVELS = {"bad": 4, "info": 2, "good": 2, "hook": 2}
 """Foxglove's levels of a log: 2 is information, 4 an error."""
@@ -43,15 +46,15 @@ def mcap_of(past: Past, book: Logbook) -> bytes:
     writer = Writer(file, compression=CompressionType.ZSTD)
     writer.start(profile="", library="pluto-fleet")
     begun_at = past.begun_at
-    _Writing(writer, begun_at or 0).write(past, book)
+    _Writing(writer, file, begun_at or 0).write(past, book)
     writer.add_metadata("flight", {"id": past.id, "said": past.said})
     writer.finish()  # type: ignore[no-untyped-call] # of that library
     return file.getvalue()
 
 
 class _Writing:
-    def __init__(self, writer: Writer, begun_at: int) -> None:
-        self._writer, self._begin = writer, begun_at * 1_000_000
+    def __init__(self, writer: Writer, file: BytesIO, begun_at: int) -> None:
+        self._writer, self._file, self._begin = writer, file, begun_at * 1_000_000
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._told: dict[str, Mapping[str, Any]] = {}
@@ -73,7 +76,8 @@ class _Writing:
         stands.pop("time", None)
         self._put_change("/station", "pluto.State", t, stands)
         for row in frame["missions"]:
-            plain = {**row, "wait": row["wait"]["text"] if row["wait"] else ""}
+            wait = row.get("wait")
+            plain = {**row, "wait": wait["text"] if wait else ""}
             self._put_change(f"/missions/{_topic(row['name'])}", "pluto.Mission", t, plain)
         moved = [moved for row in frame["drones"] if (moved := self._drone(t, row)) is not None]
         if moved:
@@ -84,18 +88,18 @@ class _Writing:
         moved = None
         drone, topic = row["id"], f"/drones/{_topic(row['id'])}"
         stamp = self._stamp(t)
-        if row["x"] is not None:
-            position = {axis: row[axis] for axis in "xyz"}
+        position = {axis: row.get(axis) for axis in "xyz"}
+        if None not in position.values():
             turn = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
             pose = {"position": position, "orientation": turn}
             put = {"timestamp": stamp, "frame_id": FRAME, "pose": pose}
             self._put(f"{topic}/pose", "foxglove.PoseInFrame", t, put)
             moved = {"timestamp": stamp, "parent_frame_id": FRAME, "child_frame_id": drone}
             moved |= {"translation": position, "rotation": turn}
-        if row["battery"] is not None:
+        if row.get("battery") is not None:
             level = {"level": row["battery"]}
             self._put_change(f"{topic}/battery", "pluto.Battery", t, level)
-        standing = {"status": row["status"], "mission": row["mission"], "why": row["why"]}
+        standing = {fact: row.get(fact) for fact in ("status", "mission", "why")}
         self._put_change(f"{topic}/status", "pluto.DroneStatus", t, standing)
         return moved
 
@@ -123,6 +127,8 @@ class _Writing:
                 topic, "json", self._schema(schema)
             )
         at = self._begin + round(t * _SECOND)
+        if self._file.tell() > LARGEST:
+            raise BadInput(f"the MCAP file would be larger than {LARGEST // 2**20} MiB")
         self._writer.add_message(channel, at, json.dumps(data, default=str).encode(), at)
 
     def _schema(self, name: str) -> int:

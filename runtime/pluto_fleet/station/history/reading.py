@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass, field
@@ -10,13 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ...journal import errors
-from ...journal.database import connect, last_row
+from ...journal.database import Row, connect, last_row
 from ...journal.errors import TROUBLE, JournalError
 from ...journal.fold import Records
 from ...journal.reader import Reader, rows_between
-
-BROKEN = (LookupError, TypeError, ValueError, AttributeError)
-"""What an event raises that is not as this version knows it."""
 
 Event = dict[str, Any]
 
@@ -50,38 +46,33 @@ class JournalText:
 
     def instants(self) -> Iterator[Instant]:
         """Yield its rows, the header first, after each has been taken into the records."""
-        for wall, epoch, text in self._ours() if self.ours else self._others():
+        for row in self._ours() if self.ours else self._others():
             try:
-                events = json.loads(text)
+                events = row.events
                 for event in events:
-                    self.records.take(event)
+                    self.records.read(event)
                     if event["event"] == "trip.completed":
                         event["did"] = self.records.flown_last(event["mission"])
-            except BROKEN as error:
-                self.damaged = (
-                    f"{self.path}: an event is not as this version knows it:"
-                    f" {type(error).__name__}: {error}"
-                )
+            except ValueError as error:
+                self.damaged = f"{self.path}: {errors.unfit(row.seq, error)}"
                 return
-            yield Instant(wall, epoch, events)
+            yield Instant(row.wall, row.epoch, events)
 
-    def _others(self) -> Iterator[tuple[float, int, str]]:
+    def _others(self) -> Iterator[Row]:
         try:
             reader = Reader(self.path)
         except JournalError as error:
             self.damaged = str(error)
             return
         with closing(reader):
-            for row in reader.rows():
-                yield row.wall, row.epoch, row.text
+            yield from reader.rows()
             self.damaged = reader.damaged or ""
 
-    def _ours(self) -> Iterator[tuple[float, int, str]]:
+    def _ours(self) -> Iterator[Row]:
         try:
             with closing(connect(self.path, "mode=ro")) as database:
                 read = rows_between(database, 0, last_row(database))
-                for row in read.rows:
-                    yield row.wall, row.epoch, row.text
+                yield from read.rows
         except TROUBLE as error:
             self.damaged = str(errors.refused(self.path, error))
             return

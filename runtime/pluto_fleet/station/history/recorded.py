@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
@@ -10,11 +9,16 @@ from pathlib import Path
 from typing import Any
 
 from .frames import Frame, Shown
+from .lines import lines_of, time_of
 from .members import Member, members
 from .recording import VERSION, changed
 
 BATTERY_STEP, BATTERY_EVERY = 0.01, 60.0
 """A level is kept that differs by so much from the one before, or is so many seconds later."""
+
+
+MOST_HOLES, MOST_LEFT_OUT = 100, 10_000
+"""A file with more damaged parts, or more lines that say nothing, is no recording."""
 
 
 @dataclass(slots=True)
@@ -39,6 +43,8 @@ class Recorded:
         """When the instant 0 was, in milliseconds since 1970, if that is known."""
         self.holes: list[float] = []
         """The times from which on something cannot be read, up to the next keyframe."""
+        self.left_out = 0
+        """How many lines say nothing that pages can be shown."""
         self._path, self._whole = path, Contents()
         self._tail = Contents()
         """What is in a last member that is still being written, or was cut off."""
@@ -56,6 +62,8 @@ class Recorded:
             for member in members(file, self._next):
                 if not member.sound:
                     self.holes.append(self._whole.seconds)
+                    if len(self.holes) > MOST_HOLES:
+                        raise ValueError(f"more than {MOST_HOLES} parts of it are damaged")
                 if not member.torn:
                     self._next = member.ends
                 self._take(member, self._tail if member.torn else self._whole)
@@ -115,12 +123,24 @@ class Recorded:
             return
         place = max(bisect_right(self._keys, start) - 1, 0)
         with self._path.open("rb") as file:
+            last = 0.0
             for member in members(file, self._begins[place]):
-                yield from (line for line in _parsed(member) if "t" in line)
+                for line in lines_of(member):
+                    time = time_of(line)
+                    if line is not None and time is not None and time >= last:
+                        last = time
+                        yield line
 
     def _take(self, member: Member, contents: Contents) -> None:
-        for line in _parsed(member):
-            if "t" in line:
+        for line in lines_of(member):
+            time = time_of(line)
+            if line is None or (time is not None and time < self.seconds):
+                self.left_out += 1
+                if self.left_out > MOST_LEFT_OUT:
+                    raise ValueError(
+                        f"more than {MOST_LEFT_OUT} of its lines say nothing that is known"
+                    )
+            elif time is not None:
                 self._shown(line, member, contents)
             elif "log" in line:
                 contents.said.append((line["log"], line["after"]))
@@ -157,15 +177,3 @@ def _add_level(pairs: list[list[float]], t: float, level: float) -> None:
         if abs(level - last) < BATTERY_STEP and t - before < BATTERY_EVERY:
             return
     pairs.append([t, level])
-
-
-def _parsed(member: Member) -> Iterator[dict[str, Any]]:
-    """Yield a member's lines, up to one that says nothing: it may have been cut off."""
-    for text in member.lines:
-        try:
-            line = json.loads(text)
-        except ValueError:
-            return
-        if not isinstance(line, dict):
-            return
-        yield line

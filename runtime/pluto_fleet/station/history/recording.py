@@ -14,6 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from .lines import checked, time_of
 from .members import GZIP, kept
 
 SUFFIX = ".recording"
@@ -223,7 +224,7 @@ def changed(before: Row | None, change: Row) -> dict[str, Any]:
     """Return a row with such a change made."""
     row = {**(before or {}), **change}
     for name in row.pop("-", ()):
-        del row[name]
+        row.pop(name, None)
     return row
 
 
@@ -233,8 +234,5 @@ def _line(data: Row) -> bytes:
 
 def _time_of(lines: Sequence[bytes]) -> float:
     """Return the time of the last of these lines that has one."""
-    for line in reversed(lines):
-        data = json.loads(line)
-        if "t" in data:
-            return float(data["t"])
-    return 0.0
+    times = (time_of(checked(line)) for line in reversed(lines))
+    return next((t for t in times if t is not None), 0.0)

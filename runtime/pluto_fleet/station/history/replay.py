@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ...shared.domain.text import counted
 from ..results.rows import NameOf, nowhere
 from .folded import folded_frames
 from .frames import Frame, opened_at
@@ -87,6 +88,9 @@ class Past:
         if self.recorded is not None and self.recorded.holes:
             places = ", ".join(f"{t:.0f} s" for t in self.recorded.holes)
             said.append(f"a part of the recording is damaged, and left out, after {places}")
+        if self.recorded is not None and self.recorded.left_out:
+            lines = counted(self.recorded.left_out, "line")
+            said.append(f"{lines} of the recording say nothing that can be shown, and are left out")
         if self.digest is not None and self.digest.summary["said"]:
             said.append(self.digest.summary["said"])
         return "; ".join(said)
@@ -149,7 +153,7 @@ def measured_levels(journal: JournalText) -> dict[str, list[list[float]]]:
     found: dict[str, list[list[float]]] = {}
     for instant in journal.instants():
         for event in instant.events:
-            level = event.get("battery")
+            level = event.get("battery") if event["event"].startswith("drone.") else None
             if isinstance(level, list):
                 level = level[-1]
             if isinstance(level, (int, float)) and "drone" in event:

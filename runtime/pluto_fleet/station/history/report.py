@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from math import inf, isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -145,6 +146,7 @@ def _group(
 ) -> ReportResults:
     numbers = [one for one in values if type(one) in (int, float)]
     all_are = len(numbers) == len(values)
+    mean = sum(numbers) / len(numbers) if all_are else inf
     return {
         "action": action,
         "kind": kind,
@@ -152,7 +154,7 @@ def _group(
         "unit": unit,
         "count": len(values),
         "lowest": min(numbers) if all_are else None,
-        "mean": sum(numbers) / len(numbers) if all_are else None,
+        "mean": mean if isfinite(mean) else None,
         "highest": max(numbers) if all_are else None,
     }
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections import OrderedDict
-from collections.abc import Iterator
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...journal.fold import Records
+from ...journal.fold import Records, taken
 from ...journal.place import ENDING, written
 from ...journal.reader import Reader
 from ...shared.domain.errors import BadInput
@@ -79,18 +77,15 @@ class ResultsOfFlights:
         records, found = Records(), list[Brought]()
         rows = self._rows(journal.stem, sim=False)
         with closing(Reader(journal)) as reader:
-            for wall, event in _events(reader):
+            for row, event in taken(journal, reader.rows(), records):
                 if event["event"] == "journal.begun":
                     if event.get("app") != self._app.name:
                         raise BadInput(f"flight {quoted(journal.stem)} is of another app")
                     rows = self._rows(journal.stem, sim=bool(event.get("sim")))
-                records.take(event)
-                if event["event"] == "trip.completed":
-                    event["did"] = records.flown_last(event["mission"])
                 brought = rows.take(event)
                 if brought is not None:
                     result, value = brought
-                    found.append(Brought(result=result, wall=wall, value=value))
+                    found.append(Brought(result=result, wall=row.wall, value=value))
         return FlightResults(
             flight=journal.stem, journal=journal, rows=tuple(found), pictures=rows.pictures
         )
@@ -99,9 +94,3 @@ class ResultsOfFlights:
         units = SIMULATED_UNITS if sim else {}
         meanings = Meanings(self._app.results, self._app.actions, units)
         return ResultRows(flight, self._app.actions, meanings, self._name_of)
-
-
-def _events(reader: Reader) -> Iterator[tuple[float, dict[str, Any]]]:
-    for row in reader.rows():
-        for event in json.loads(row.text):
-            yield row.wall, event

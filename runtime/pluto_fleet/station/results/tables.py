@@ -25,7 +25,7 @@ COLUMNS = (
 BOM = "\ufeff"
 """Begins a CSV file, so that spreadsheets read it as UTF-8."""
 
-_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "'")
+_FORMULA = (*"=+-@", *"＝＋－＠", *"\t\r\n", "'")
 """What makes a spreadsheet take a text for a formula, or marks one that would."""
 
 TAGS_APART = "; "

@@ -34,12 +34,25 @@ def a_flight(**facts: object) -> FlightResults:
 
 
 @pytest.mark.parametrize(
-    "name", ["=1+1", "+1", "-1", "@SUM(A1)", "\t=1", "\r=1", "'=1", "''", 'a "b", c\r\nd', "µ🐝"]
+    "name",
+    [
+        "=1+1",
+        "+1",
+        "-1",
+        "@SUM(A1)",
+        *("＝1+1", "＋1", "－1", "＠A1"),
+        "\t=1",
+        "\r=1",
+        "'=1",
+        "''",
+        'a "b", c\r\nd',
+        "µ🐝",
+    ],
 )
 def test_no_text_is_a_formula_and_each_is_read_back(name: str) -> None:
     text = csv_text(cells(a_flight(mission=name)))
     [line] = csv.DictReader(io.StringIO(text.removeprefix("\ufeff"), newline=""))
-    assert not line["mission"].startswith(("=", "+", "-", "@", "\t", "\r"))
+    assert not line["mission"].startswith(tuple("=+-@＝＋－＠\t\r"))
     assert from_cell(line["mission"]) == name
 
 

@@ -1,0 +1,327 @@
+"""What the events and snapshots of a journal must say, which may be from anybody, before it is used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal, NotRequired, TypedDict
+
+from ..jobs.flown import ACTS_BESIDE, FLEW
+from ..process.untrusted import LATEST, Test, fits, parsed
+from ..shared.domain.status import Status, TripStatus
+from ..shared.domain.text import bounded, printable
+
+Event = dict[str, Any]
+Point = tuple[float, float, float]
+Place = tuple[str, str, int, int]
+
+
+class ItemFacts(TypedDict):
+    """What a mission carries."""
+
+    name: str
+    mass: float
+
+
+class TripFacts(TypedDict):
+    """A trip."""
+
+    name: str
+    action: str
+    target: Point
+    index: int
+    source: NotRequired[Point]
+    fields: NotRequired[dict[str, Any]]
+    parameters: NotRequired[dict[str, Any]]
+    item: NotRequired[ItemFacts]
+    added: NotRequired[bool]
+    attempt: NotRequired[int]
+    status: NotRequired[TripStatus]
+    reason: NotRequired[str]
+    start_time: NotRequired[float | None]
+    end_time: NotRequired[float | None]
+
+
+class PhotoFacts(TypedDict):
+    """A photo."""
+
+    position: Point
+    width: float
+    height: float
+    sees: list[str]
+    sharpness: float
+    file: NotRequired[str]
+
+
+class PromiseFacts(TypedDict):
+    """What a mission promises."""
+
+    after: NotRequired[list[str]]
+    opens: NotRequired[float]
+    deadline: NotRequired[float]
+
+
+class PlanFacts(TypedDict):
+    """A mission, as its user gave it."""
+
+    index: int
+    fields: dict[str, Any]
+    trips: list[TripFacts]
+    promises: NotRequired[PromiseFacts]
+
+
+class LossFacts(TypedDict):
+    """Why a drone is lost, and where."""
+
+    reason: str
+    at: Point | None
+
+
+class FlightFacts(TypedDict):
+    """The last flight of a mission."""
+
+    trip: str
+    drone: str
+    round: int
+    attempt: int
+    since: float
+    retry: bool
+    begun: bool
+    outcome: Status | None
+    heard: bool
+    beside: NotRequired[Point]
+
+
+class RecordFacts(TypedDict):
+    """How a mission stands."""
+
+    index: int
+    fields: dict[str, Any]
+    status: Status
+    reason: str
+    round: int
+    attempts: int
+    todo: list[TripFacts]
+    done: list[TripFacts]
+    gone: list[TripFacts]
+    at: str | None
+    delay: tuple[Place, float, float] | None
+    waited: list[Place]
+    first_start: float | None
+    last_action_end: float | None
+    flight: FlightFacts | None
+    carrier: str | None
+    carries: ItemFacts | None
+    judged: int
+    interrupted: bool
+    ended: bool
+    paused: float | None
+    question: str | None
+    held: str | None
+    answer: str | None
+    accepted: str | None
+    promises: PromiseFacts
+    late: bool
+    replanned: bool
+
+
+class SnapshotFacts(TypedDict):
+    """How everything stands."""
+
+    t: float
+    missions: dict[str, RecordFacts]
+    results: list[tuple[str, str, int, int, Any]]
+    flown: dict[str, int]
+    lives: int
+    stopped: float | None
+    commands: NotRequired[list[str]]
+    retired: NotRequired[list[str]]
+    mended: NotRequired[list[str]]
+    joined: NotRequired[list[dict[str, Any]]]
+    lost: NotRequired[dict[str, LossFacts]]
+
+
+_MISSION = {"mission": str}
+_TRIP = {**_MISSION, "trip": str}
+_FLIGHT = {**_TRIP, "drone": str, "round": int, "attempt": int}
+_BECAUSE = {**_MISSION, "reason": str}
+_DRONE = {"drone": str, "at?": Point | None, "battery?": float | None, "reason?": str}
+
+BEGUN = "journal.begun"
+"""The event of the first row."""
+
+_FACTS: Mapping[str, Mapping[str, Any]] = {
+    BEGUN: {
+        "app?": str,
+        "missions?": str,
+        "fleet?": str | None,
+        "sim?": bool,
+        "crtp_sim?": int | None,
+        "seed?": int,
+        "faults?": dict[str, float],
+        "lost?": dict[str, LossFacts],
+        "mended?": list[str],
+        "retired?": list[str],
+        "joined?": list[dict[str, Any]],
+    },
+    "brain.began": {"epoch": int},
+    "stopped": {"how": str},
+    "commanded": {"id": str, "command?": str},
+    "log": {"text": str, "mission?": str | None},
+    "mission.promised": {**_MISSION, "plan": PlanFacts},
+    "mission.created": {**_MISSION, "plan": PlanFacts, "trips": list[str]},
+    "mission.late": _MISSION,
+    "mission.changed": {
+        **_MISSION,
+        "fields": dict[str, Any],
+        "todo": list[TripFacts],
+        "done": list[TripFacts],
+    },
+    "mission.replanned": {**_MISSION, "todo": list[TripFacts]},
+    "mission.extended": {
+        **_MISSION,
+        "redo": list[str],
+        "add": list[str],
+        "trips": list[TripFacts],
+        "reason?": str | None,
+    },
+    "mission.repeated": {**_MISSION, "round": int},
+    "mission.modified": {**_BECAUSE, "status": Status},
+    "mission.judged": _BECAUSE,
+    "mission.ended": {**_BECAUSE, "status": Status},
+    "mission.paused": _MISSION,
+    "mission.resumed": {**_MISSION, "status": Status},
+    "mission.uncertain": _BECAUSE,
+    "mission.held": _BECAUSE,
+    "mission.decided": {**_MISSION, "answer": str},
+    "trip.delayed": {
+        **_TRIP,
+        "block": str,
+        "over": float,
+        "begins": float,
+        "until": float,
+        "resumes_at": str | None,
+    },
+    "trip.allocated": {**_TRIP, "drone": str, "why": str, "resumes_at": str | None},
+    "trip.launched": _FLIGHT,
+    ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
+    "action.begun": {**_TRIP, "drone": str},
+    "trip.completed": {**_FLIGHT, "result": Any},
+    "trip.failed": {**_TRIP, "drone": str, "reason": str},
+    "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
+    "trip.interrupted": {**_TRIP, "reason?": str},
+    "trip.skipped": _TRIP,
+    "trip.prioritised": {**_TRIP, "priority": float},
+    **dict.fromkeys(
+        (
+            *("drone.free", "drone.busy", "drone.returning", "drone.charging"),
+            *("drone.recovering", "drone.offline", "drone.lost", "drone.retired"),
+        ),
+        _DRONE,
+    ),
+    "drone.not_ready": {"drone": str, "reason": str},
+    "drone.brought_back": {**_DRONE, "lost?": bool},
+    "drone.joined": {"drone": str, "entry": dict[str, Any]},
+    "drone.mishap": {"drone": str, "kind": str},
+    FLEW: {
+        "drone": str,
+        "battery?": tuple[float, float] | float | None,
+        "at?": Point | None,
+    },
+}
+"""What each event must say; what has a `?` may be left out. Of any other event nothing follows."""
+
+_MEASURED: Mapping[str, Any] = {
+    "what": str,
+    "ended": str,
+    "from": Point,
+    "to": Point,
+    "battery": tuple[float, float],
+}
+"""What a measurement says beside that, of a command that has taken `seconds`."""
+
+
+def _tests(facts: Mapping[str, Any]) -> list[tuple[str, bool, Test]]:
+    return [(name.rstrip("?"), name[-1] != "?", fits(hint)) for name, hint in facts.items()]
+
+
+_TESTS = {kind: _tests(facts) for kind, facts in _FACTS.items()}
+_MEASUREMENT = _tests(_MEASURED)
+_OF_A_DRONE = _tests(_DRONE)
+_SECONDS = fits(float)
+_SNAPSHOT = fits(SnapshotFacts)
+_MARKED: Mapping[str, Test] = {
+    "$photo": fits(PhotoFacts),
+    "$number": fits(Literal["nan", "inf", "-inf"]),
+    "$tuple": fits(list[Any]),
+    "$text": fits(str),
+}
+"""What stands under the reserved keys of results."""
+
+
+def events_of(text: str) -> list[Event]:
+    """Return the events of a row; raise `ValueError` if it has none."""
+    events = parsed(text)
+    if not isinstance(events, list) or not all(
+        isinstance(event, dict) and type(event.get("event")) is str for event in events
+    ):
+        raise ValueError("it is no list of events")
+    return events
+
+
+def header_of(text: str) -> Event:
+    """Return the event of the first row; raise `ValueError` if it is none of a header."""
+    match parsed(text):
+        case [dict(header), *_]:
+            check({"t": 0.0, **header, "event": BEGUN})
+            return header
+    raise ValueError("it is no header")
+
+
+def check(event: Mapping[str, Any]) -> None:
+    """Raise `ValueError` if an event does not say what it must."""
+    kind, t = event["event"], event.get("t")
+    if not isinstance(t, (float, int)) or not 0 <= t <= LATEST:
+        raise ValueError(_unfit(kind, "t", t))
+    _hold(event, _TESTS.get(kind) or (_OF_A_DRONE if kind.startswith("drone.") else ()))
+    if kind == "trip.completed" and not _is_value(event["result"]):
+        raise ValueError(_unfit(kind, "result", event["result"]))
+    if kind == FLEW and "seconds" in event:
+        if not _SECONDS(event["seconds"]) or not 0 <= event["seconds"] <= LATEST:
+            raise ValueError(_unfit(kind, "seconds", event["seconds"]))
+        _hold(event, _MEASUREMENT)
+
+
+def _hold(event: Mapping[str, Any], tests: Any) -> None:
+    for name, needed, test in tests:
+        if name in event:
+            if not test(event[name]):
+                raise ValueError(_unfit(event["event"], name, event[name]))
+        elif needed:
+            raise ValueError(f"{printable(bounded(event['event'], _LONGEST))} lacks {name}")
+
+
+def _is_value(value: object) -> bool:
+    """Whether a result is written as one; it is not deep."""
+    if isinstance(value, dict):
+        marked = all(test(value[key]) for key, test in _MARKED.items() if key in value)
+        return marked and all(map(_is_value, value.values()))
+    return not isinstance(value, list) or all(map(_is_value, value))
+
+
+def _unfit(kind: str, name: str, value: object) -> str:
+    told = printable(bounded(repr(value)[: 2 * _LONGEST], _LONGEST))
+    return f"{printable(bounded(kind, _LONGEST))} has {told} as {name}"
+
+
+_LONGEST = 80
+"""Characters of what is quoted."""
+
+
+def snapshot_of(text: str) -> dict[str, Any]:
+    """Return a snapshot's data; raise `ValueError` if it is none."""
+    data = parsed(text)
+    sound = _SNAPSHOT(data) and 0 <= data["t"] <= LATEST
+    if not sound or not all(_is_value(value) for *_, value in data["results"]):
+        raise ValueError("it does not say how missions and drones stand")
+    found: dict[str, Any] = data
+    return found

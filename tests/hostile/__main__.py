@@ -1,0 +1,142 @@
+"""Gives everything that reads journals and recordings files that were written to do harm.
+
+    python -m tests.hostile --files 2000
+
+Each must be read as far as it can be, or refused in a sentence. `--only N` makes that file again.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+import sqlite3
+import sys
+from collections.abc import Sequence
+from contextlib import closing, suppress
+from functools import cache
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+
+from pluto_fleet.journal.fold import Records, replayed
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.time.told import Stuck
+from pluto_fleet.station.history.folder import recording_of
+from pluto_fleet.station.history.recording import Recording
+from tests.hostile.files import (
+    TABLES,
+    changed,
+    hostile_lines,
+    hostile_rows,
+    write_journal,
+    write_snapshot,
+)
+from tests.hostile.readers import FLIGHT, faults_of
+from tests.kit import apps
+from tests.kit.campaign import Campaign
+from tests.kit.living import Living, enterable
+from tests.library.station.history.test_past import ROWS, frames_of, kept, past_of
+
+OF_A_RECORDING = ("replay", "mcap", "console", "report")
+
+
+def main() -> int:
+    """Try the files."""
+    campaign = Campaign("tests.hostile", __doc__)
+    campaign.draws("files", 1000)
+    campaign.parse()
+    for number, faults in campaign.each(one, campaign.numbers):
+        if faults:
+            campaign.found(f"file {number}", *faults)
+    return campaign.over()
+
+
+def one(number: int) -> list[str]:
+    """Make a file, have it read, and return what must not be."""
+    random = Random(number)
+    try_it = (_journal, _journal, _snapshot, _recording, _life, _tables)[number % 6]
+    with TemporaryDirectory() as folder:
+        return list(try_it(random, Path(folder)))
+
+
+def _journal(random: Random, folder: Path) -> list[str]:
+    write_journal(kept(folder, FLIGHT), hostile_rows(random, _rows()), random)
+    return list(faults_of(folder))
+
+
+def _snapshot(random: Random, folder: Path) -> list[str]:
+    """A snapshot of all rows but the last, with a part that is another."""
+    journal, records = kept(folder, FLIGHT), Records()
+    rows = list(_rows())
+    for row in rows[:-1]:
+        for event in json.loads(row):
+            records.take(event)
+    write_journal(journal, rows)
+    write_snapshot(journal, len(rows) - 2, json.dumps(changed(random, records.data)))
+    return list(faults_of(folder, only=("resume", "flights", "mend")))
+
+
+def _recording(random: Random, folder: Path) -> list[str]:
+    recording_of(kept(folder, FLIGHT)).write_bytes(hostile_lines(random, _lines()))
+    return list(faults_of(folder, only=OF_A_RECORDING))
+
+
+def _tables(random: Random, folder: Path) -> list[str]:
+    journal = kept(folder, FLIGHT)
+    with closing(sqlite3.connect(journal)) as database:
+        database.executescript(random.choice(TABLES))
+    return list(faults_of(folder))
+
+
+def _life(random: Random, folder: Path) -> list[str]:
+    """An app goes on from rows that are others."""
+    missions = apps.mission("a", apps.trip("1", 3), apps.trip("2", 4)), apps.mission(
+        "b", apps.trip("1", 3, action="pick_item"), apps.trip("2", 5, action="release_item")
+    )
+    living = Living(enterable(), *missions)
+    living.at(random.uniform(1.0, 30.0), lambda: _go_on(random, living))
+    with suppress(BadInput, Stuck):
+        living.run(5_000.0)
+    return []
+
+
+def _go_on(random: Random, living: Living) -> None:
+    """Kill the brain, and begin another one, unless its journal is refused."""
+    living.die()
+    changed_rows = hostile_rows(random, living.memory.rows)
+    living.memory.replace(changed_rows)
+    read = living.memory.read()
+    known = replayed(read)
+    drones = {drone.id for drone in living.fleet.drones}
+    if read.damaged is not None or known.drones - drones:
+        living.done.set(0.0)
+    else:
+        living.live_on()
+
+
+@cache
+def _rows() -> Sequence[str]:
+    (_, header), *rows = map(json.loads, ROWS.read_text("utf-8").splitlines())
+    return [json.dumps([header]), *(json.dumps(events) for _, *events in rows)]
+
+
+@cache
+def _lines() -> Sequence[bytes]:
+    """The lines of a recording of that flight."""
+    with TemporaryDirectory() as folder:
+        path = Path(folder)
+        kept(path, FLIGHT)
+        recording = Recording(path / "it", begun_at=1_700_000_000_000)
+        frames = frames_of(past_of(path), FLIGHT)[:100]
+        missions, drones = {}, {}
+        for frame in frames:
+            missions |= {row["name"]: row for row in frame["missions"]}
+            drones |= {row["id"]: row for row in frame["drones"]}
+            recording.write(frame["t"], frame["state"], missions.values(), drones.values())
+        recording.tell({"time": 1.0, "text": "hello", "kind": "info"}, after=2)
+        recording.finish()
+        return gzip.decompress((path / "it").read_bytes()).splitlines()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
