@@ -7,16 +7,17 @@ from __future__ import annotations
 
 import asyncio
 import inspect
-from collections.abc import Coroutine, Mapping, Sequence
+from collections.abc import AsyncIterator, Coroutine, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
+from ..drones.errors import NavigationError
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
-from ..drones.protocol import Identifiable, Locatable, Scannable
+from ..drones.protocol import Identifiable, Locatable, Readable, Scannable
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.fleet import OWN
@@ -58,6 +59,8 @@ class DroneQuery:
     home: Point = (0.0, 0.0, 0.0)
     speed: float = 0.5
     options: Mapping[str, object] = field(default_factory=dict)
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    """What the fleet file sets it to."""
     known: bool = True
     """Whether it is in the fleet file."""
 
@@ -140,6 +143,7 @@ def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
         navigation=asked.navigation,
         uri=asked.uri,
         options=asked.options,
+        parameters=asked.parameters,
     )
     return make_one(how, asked.home, asked.speed, folder)
 
@@ -165,7 +169,9 @@ async def _answer(
     try:
         with lock_drones({asked.id: asked.uri or asked.id}):
             try:
-                (end,) = await asyncio.gather(_ask(navigation, so_far), return_exceptions=True)
+                (end,) = await asyncio.gather(
+                    _ask(asked, navigation, so_far), return_exceptions=True
+                )
             finally:
                 await _let_go(navigation)
     except DroneInUse as held:  # an app flies it, and has exclusive access
@@ -189,17 +195,29 @@ async def _answer(
     )
 
 
-async def _ask(navigation: DroneNavigation, so_far: _Heard) -> None:
+async def _ask(asked: DroneQuery, navigation: DroneNavigation, so_far: _Heard) -> None:
     await _within(CONNECT_WITHIN, navigation.connect())
     so_far.telemetry = navigation.telemetry
     if so_far.telemetry.flying:
         so_far.problems = (IN_THE_AIR,)
         return
-    so_far.problems = tuple(map(str, await _within(ANSWER_WITHIN, navigation.preflight())))
+    unset = [one async for one in _set(asked, navigation)]
+    told = await _within(ANSWER_WITHIN, navigation.preflight())
+    so_far.problems = (*unset, *map(str, told))
     if inspect.iscoroutinefunction(getattr(navigation, "facts", None)):
         facts = await _within(ANSWER_WITHIN, cast(Tells, navigation).facts())
         so_far.facts = {str(name): str(fact) for name, fact in facts.items()}
     so_far.telemetry = navigation.telemetry
+
+
+async def _set(asked: DroneQuery, navigation: DroneNavigation) -> AsyncIterator[str]:
+    """Set its parameters, as for a flight; yield why one cannot be set."""
+    for name, value in asked.parameters.items():
+        if isinstance(navigation, Readable):
+            try:
+                await _within(ANSWER_WITHIN, navigation.write(name, value))
+            except NavigationError as error:
+                yield printable(str(error))
 
 
 async def _let_go(navigation: DroneNavigation) -> None:

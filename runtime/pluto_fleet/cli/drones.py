@@ -123,6 +123,7 @@ def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
             home=drone.home,
             speed=categories[drone.category].speed,
             options=options_of(fleet, drone),
+            parameters=drone.parameters,
         )
         for drone in fleet.drones
     ]

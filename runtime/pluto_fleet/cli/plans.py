@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..files.crtp_fleet import fleet_from, missing_categories
-from ..files.fleet import FleetFile, fleet_of, radio_warnings, too_fast
+from ..files.fleet import FleetFile, fleet_of, shared_by_air, too_fast
 from ..files.missions import missions_of
 from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
@@ -145,7 +145,7 @@ def check(app: App, options: Options) -> int:
     plan = load(app, options)
     doubts = [
         *too_fast(app, plan.fleet),
-        *radio_warnings(plan.fleet),
+        *shared_by_air(plan.fleet),
         *idle_actions(app, plan.fleet),
     ]
     for sentence in doubts:

@@ -13,7 +13,7 @@ from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
 from ..files import errors
 from ..files.drones import which
-from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, radio_warnings
+from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, shared_by_air
 from ..files.reading import shortened
 from ..shared import output
 from ..shared.domain.errors import BadInput
@@ -53,7 +53,7 @@ def check_real(
 
 def warn_of_the_radio(fleet: FleetFile, where: str) -> None:
     """Say in which ways the fleet's drones are in each other's way on the air."""
-    for sentence in radio_warnings(fleet):
+    for sentence in shared_by_air(fleet):
         output.tell(f"{where}: warning: {sentence}")
 
 

@@ -334,6 +334,7 @@ class Calls(Connection):
         uri: str | None = None,
         navigation: str | None = None,
         options: dict[str, str | int | float | bool] | None = None,
+        parameters: dict[str, str | int | float | bool] | None = None,
     ) -> str:
         """Let a drone join the flight that is under way, as an entry of a fleet file says it."""
         return self._command(
@@ -346,6 +347,7 @@ class Calls(Connection):
                 "uri": uri,
                 "navigation": navigation,
                 "options": options,
+                "parameters": parameters,
             },
         )
 

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
+from ..files.errors import near
 from ..shared.domain.text import number, quoted
 
 if TYPE_CHECKING:
@@ -91,8 +92,23 @@ IS_LOCKED = "it has locked its motors: switch it off and on"
 LOCKED_BY_DECK = f"one of its decks reports a fault, and {IS_LOCKED}"
 
 
+_RELEASES = {8: "2024.10", 9: "2025.02", 10: "2025.09 or 2025.12", 12: "2026.04 or 2026.08"}
+"""Bitcraze's releases, by the protocol that they speak."""
+
+
+def release(version: int) -> str:
+    """Return the release of a firmware by its protocol: which exactly, that does not say."""
+    if version in _RELEASES:
+        return _RELEASES[version]
+    before = [name for protocol, name in _RELEASES.items() if protocol < version]
+    after = [name for protocol, name in _RELEASES.items() if protocol > version]
+    if not before:
+        return f"before {after[0]}"
+    return f"after {before[-1].rpartition(' ')[2]}"
+
+
 def old_firmware(version: int) -> str:
-    has = "too old to say which" if version < 0 else f"{version}"
+    has = "too old to say which" if version < 0 else f"{version} (release {release(version)})"
     return (
         f"its firmware speaks protocol {has}, {PROTOCOL} or later is needed:"
         " flash the newest release with cfclient (Connect, Bootloader)"
@@ -162,8 +178,8 @@ def no_variable(drone: str, name: str) -> str:
     return f"{drone} has no log variable {quoted(name)}"
 
 
-def no_parameter(drone: str, name: str) -> str:
-    return f"{drone} has no parameter {quoted(name)}"
+def no_parameter(drone: str, name: str, known: Iterable[str] = ()) -> str:
+    return f"{drone} has no parameter {quoted(name)}{near(name, known)}"
 
 
 def nothing_to_read(drone: str, name: str) -> str:
@@ -193,6 +209,14 @@ def no_camera(drone: str) -> str:
     return (
         f"{drone} has no camera: name its AI-deck's streamer in the fleet file:"
         ' camera = "192.168.4.1:5000"'
+    )
+
+
+def no_pictures(camera: tuple[str, int], error: OSError) -> str:
+    why = error.strerror or "nothing came in time"
+    return (
+        f"its camera does not answer at {camera[0]}:{camera[1]} ({why}): is its AI-deck on, and this computer"
+        " in its WiFi? For a plan without photos, leave camera out of the fleet file"
     )
 
 

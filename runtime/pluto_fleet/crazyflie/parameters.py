@@ -79,7 +79,9 @@ async def write(session: CrazyflieSession, name: str, value: float, *, stays: bo
 def _element(session: CrazyflieSession, name: str) -> Element:
     element = element_of(session.cf, name)
     if element is None:
-        raise Rejected(messages.no_parameter(session.drone, name))
+        groups = list(session.cf.param.toc.toc.items())
+        known = [f"{group}.{one}" for group, names in groups for one in list(names)]
+        raise Rejected(messages.no_parameter(session.drone, name, known))
     return element
 
 

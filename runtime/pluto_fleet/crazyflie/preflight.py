@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator, Mapping
 from math import ceil
 from typing import TYPE_CHECKING
@@ -25,6 +26,8 @@ _PATIENCE = 5.0
 """Seconds to wait for a drone that is only unsure of its position: someone may be passing by."""
 _BETWEEN = 2.0
 """Seconds after a landing until a drone has disarmed itself, and can be armed again."""
+_CAMERA = 2.0
+"""The time-out of reaching its camera, in seconds."""
 _READ = 8.0
 """The time-out of reading its parameters, in seconds."""
 
@@ -42,6 +45,8 @@ async def problems(
         ]
     began = session.loop.time()
     lacking = await _of_parameters(session, options, speed)
+    if options.camera is not None:
+        lacking += await _of_camera(options.camera)
     state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
     found = [*_of_state(state), *_of_battery(state, battery, options), *lacking]
     patience = SETTLED_FOR + _SETTLING if found else _PATIENCE
@@ -109,6 +114,17 @@ async def _of_parameters(
     return [*lacks, *speed_limits_of(session).too_slow_for(speed)]
 
 
+async def _of_camera(where: tuple[str, int]) -> list[str]:
+    """Return why its camera does not answer: that is known here, and not at what it is to look at."""
+    try:
+        async with asyncio.timeout(_CAMERA):
+            _, writer = await asyncio.open_connection(*where)
+    except OSError as error:  # a time-out is one, too
+        return [messages.no_pictures(where, error)]
+    writer.transport.abort()
+    return []
+
+
 def decks(session: CrazyflieSession) -> list[str]:
     """Return its decks, as its firmware names them."""
     return [
@@ -120,12 +136,13 @@ def decks(session: CrazyflieSession) -> list[str]:
 
 async def firmware_facts(session: CrazyflieSession) -> Mapping[str, str]:
     """Return its firmware and its decks, as far as known."""
-    found = {"protocol": str(session.cf.platform.get_protocol_version())}
+    version = session.cf.platform.get_protocol_version()
+    found = {"protocol": f"{version}", "firmware": messages.release(version)}
     if await parameters.complete(session):
         known = parameters.known(session)
         revision = _revision(known)
         if revision:
-            found["firmware"] = revision
+            found["firmware"] += f" ({revision})"
         found["decks"] = ", ".join(decks(session)) or "none"
     return found
 

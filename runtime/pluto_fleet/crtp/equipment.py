@@ -87,6 +87,12 @@ def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
     }
 
 
+def settable(given: Mapping[str, float]) -> dict[str, float]:
+    """Return the parameters of a file that a simulated drone has, too."""
+    there = {one.name for one in parameters() if not one.read_only}
+    return {name: value for name, value in given.items() if name in there}
+
+
 def _grip(given: object) -> Mapping[str, object]:
     if not isinstance(given, Mapping):
         return _GRIP

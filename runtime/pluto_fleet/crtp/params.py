@@ -176,6 +176,7 @@ def parameters(cells: int = 1) -> list[Parameter]:
         ("kalman.initialY", "f", 0.0),
         ("kalman.initialZ", "f", 0.0),
         ("kalman.robustTdoa", "B", 0),
+        ("locSrv.extPosStdDev", "f", 0.01),
         ("commander.enHighLevel", "B", 1),
         ("hlCommander.vtoff", "f", 0.5),
         ("hlCommander.vland", "f", 0.5),

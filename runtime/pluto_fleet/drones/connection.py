@@ -112,6 +112,7 @@ class Connection:
         await vehicle.calls.parted()
         try:
             await vehicle.calls.call("answer", ATTEMPT_LIMIT, vehicle.navigation.connect)
+            await vehicle.set_up()
         except FlightFailed as error:
             self._fails(str(error))
             return

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import navigation_of, options_of
@@ -23,6 +23,8 @@ class RealDrone:
     """A name, or `module:Class`."""
     uri: str | None
     options: Mapping[str, object]
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    """What it is set to when it is connected to."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +65,7 @@ def real_fleet(
                 navigation=navigation_of(fleet, drone),
                 uri=uris.get(drone.id, drone.uri),
                 options=options_of(fleet, drone),
+                parameters=drone.parameters,
             )
             for drone in fleet.drones
         ),

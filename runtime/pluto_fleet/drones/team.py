@@ -15,11 +15,12 @@ from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Publisher
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import ANY_ERROR, BadInput
+from ..shared.domain.text import quoted
 from . import commands, plugins
 from .connection import Connection, close
 from .loading import make_localization, make_navigation
 from .localization import OWN, LocalizationFeed
-from .protocol import DroneSetup, Locatable
+from .protocol import DroneSetup, Locatable, Readable
 from .recovery import recover, wait_until_home
 from .safety import EACH, SafetyMonitor, follow_events
 from .vehicle import Cargo, TeamDrone, Vehicle
@@ -97,7 +98,11 @@ class Team:
                 raise plugins.deaf(self._feed.name, [drone.id])
             self._feed.feed(drone.id, navigation)
         one = TeamDrone(
-            id=drone.id, category=drone.category, home=drone.home, navigation=navigation
+            id=drone.id,
+            category=drone.category,
+            home=drone.home,
+            navigation=navigation,
+            parameters=how.parameters,
         )
         self._connect(self._have(one))
 
@@ -278,7 +283,13 @@ def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNa
     setup = DroneSetup(
         id=how.id, uri=how.uri, home=home, speed=speed, options=how.options, folder=folder
     )
-    return make_navigation(how.navigation, setup)
+    made = make_navigation(how.navigation, setup)
+    if how.parameters and not isinstance(made, Readable):
+        raise BadInput(
+            f"{how.id}: its parameters cannot be set: the navigation {quoted(how.navigation)} has no"
+            " method write"
+        )
+    return made
 
 
 def make_team(
@@ -305,6 +316,7 @@ def make_team(
                 category=drone.category,
                 home=drone.home,
                 navigation=navigations[drone.id],
+                parameters=how[drone.id].parameters,
             )
             for drone in drones
         ],

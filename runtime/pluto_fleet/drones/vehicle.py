@@ -8,9 +8,9 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -19,7 +19,7 @@ from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import place
 from ..shared.fleet.reach import docked
 from .command_queue import CommandQueue
-from .protocol import CaredFor
+from .protocol import CaredFor, Readable
 from .telemetry import EMPTY, VehicleTelemetry
 from .timeouts import NavigationCalls, shortened
 
@@ -69,7 +69,7 @@ T = TypeVar("T")
 
 LAND, RISE = "land", "take off"
 """The names of its commands to land and to take off."""
-PREFLIGHT, HOLD, RECOVER = 12.0, 8.0, 8.0
+PREFLIGHT, HOLD, RECOVER, SET = 12.0, 8.0, 8.0, 20.0
 """Time-outs in seconds."""
 LOOK = 0.05
 """The polling interval of its telemetry, in seconds."""
@@ -95,6 +95,8 @@ class TeamDrone:
     category: Category
     home: Point
     navigation: DroneNavigation
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    """What it is set to when it is connected to."""
 
 
 class Vehicle:
@@ -125,6 +127,8 @@ class Vehicle:
         """Called when its link is lost."""
         self.out_of_reach = f"{drone.id} has not been reached yet"
         """Why it is not linked, if it is not."""
+        self.unset: tuple[str, ...] = ()
+        """Why its parameters are not what they are to be: it does not take off."""
         self.boot = 0
         """How often it was found to have restarted."""
         self.down: FlightFailed | None = None
@@ -240,8 +244,23 @@ class Vehicle:
         )
         if told is None:
             told = ("its preflight gave no list of reasons",)
+        told = (*self.unset, *told)
         blind = self.position_problem()
         return told if blind is None else (*told, blind)
+
+    async def set_up(self) -> None:
+        """Set its parameters, on the ground; raise `FlightFailed` if its link is lost over that."""
+        navigation, unset = self.navigation, list[str]()
+        if not isinstance(navigation, Readable) or navigation.telemetry.flying:
+            return  # in the air it has them since it was connected to first
+        for name, value in self.drone.parameters.items():
+            try:
+                await self.calls.call(f"set {name}", SET, navigation.write, name, value)
+            except FlightFailed as error:
+                if error.failure is Failure.LINK:
+                    raise
+                unset.append(str(error))
+        self.unset = tuple(unset)
 
     def break_off(self) -> None:
         """Abort its command, and hover; one that must land continues."""

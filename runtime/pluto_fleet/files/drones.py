@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
@@ -36,6 +36,8 @@ class DroneEntry(DroneData):
     """How it is flown; None: as the fleet is."""
     options: Options = field(default_factory=dict)
     """Options for its navigation, which override the fleet's."""
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    """What it is set to when it is connected to, by the names of its firmware."""
     line: int | None = None
 
 
@@ -102,7 +104,7 @@ def _drone(
 ) -> DroneEntry | None:
     known = table.valid_name("id")
     table.who = f"drone {index + 1 if known is None else quoted(known)}"
-    table.only(("id", "category", "home", "uri", "navigation", "options"), "a drone")
+    table.only(("id", "category", "home", "uri", "navigation", "options", "parameters"), "a drone")
     name = table.read("id", values.name, required=True)
     if name is not None:
         table.differs("drone", "id", name, ids)
@@ -111,6 +113,7 @@ def _drone(
     navigation = table.read("navigation", values.name)
     uri = table.read("uri", partial(_uri, navigation or flown_by))
     options = options_under(table, "options", "drone.options")
+    parameters = table.read("parameters", _parameters)
     crowd = None if home is None else crowded(home, name or f"{index + 1}", homes)
     if crowd is not None:
         table.problem(crowd, "home")
@@ -123,6 +126,7 @@ def _drone(
         uri=uri,
         navigation=navigation,
         options=options,
+        parameters=parameters or {},
         line=table.line(),
     )
 
@@ -147,6 +151,27 @@ def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
         other = uris.setdefault(which(uri), table)
         if other is not table:
             table.problem(errors.shared_uri(other.who, other.line("uri")), "uri")
+
+
+def _parameters(value: object) -> Mapping[str, float]:
+    """Read them; TOML makes tables of names with a point that are not in quotes."""
+    match value:
+        case dict():
+            return dict(_named(value, ""))
+        case _:
+            raise ValueError('is not a table: write { "locSrv.extPosStdDev" = 0.01 }')
+
+
+def _named(table: Mapping[str, object], group: str) -> Iterator[tuple[str, float]]:
+    for key, value in table.items():
+        name = f"{group}{key}"
+        if isinstance(value, dict):
+            yield from _named(value, f"{name}.")
+            continue
+        try:
+            yield name, values.real(value)
+        except ValueError as error:
+            raise ValueError(f"sets {quoted(name)} to what {error}") from None
 
 
 def _uri(navigation: str, value: object) -> str:

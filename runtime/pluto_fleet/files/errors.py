@@ -214,6 +214,14 @@ def shared_uri(other: str, line: int | None) -> str:
     return f"uri is that of {other}{where}: it would be one and the same drone"
 
 
+def shared_camera(drones: Sequence[str], where: str) -> str:
+    some = ", ".join(drones[:_NAMED]) + ("" if len(drones) <= _NAMED else ", …")
+    return (
+        f"{some} have one camera, {where}: the photos of all would be those of whichever AI-deck this"
+        " computer reaches; have all decks join one WiFi, and give each drone its own address"
+    )
+
+
 def navigation_unused(name: str, used: Sequence[str]) -> str:
     hint = near(name, used)
     end = hint or f"; in this fleet there is: {listed(used)}"

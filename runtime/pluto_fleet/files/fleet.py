@@ -285,7 +285,17 @@ def too_fast(app: App, fleet: FleetFile) -> list[str]:
     ]
 
 
-def radio_warnings(fleet: FleetFile) -> list[str]:
+def shared_by_air(fleet: FleetFile) -> list[str]:
     """Return a sentence for each way in which its Crazyflies are in each other's way on the air."""
-    flown = [d for d in fleet.drones if d.uri and navigation_of(fleet, d) == CRAZYFLIE]
-    return list(crowded_air({one.id: address_of(one.uri) for one in flown if one.uri}))
+    flown = [one for one in fleet.drones if navigation_of(fleet, one) == CRAZYFLIE]
+    cameras: dict[str, list[str]] = {}
+    for one in flown:
+        cameras.setdefault(f"{options_of(fleet, one).get('camera', '')}", []).append(one.id)
+    return [
+        *crowded_air({one.id: address_of(one.uri) for one in flown if one.uri}),
+        *(
+            errors.shared_camera(drones, where)
+            for where, drones in cameras.items()
+            if where and len(drones) > 1
+        ),
+    ]

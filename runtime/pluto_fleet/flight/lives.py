@@ -242,7 +242,7 @@ async def _real(
     real = real_fleet(fleet, flight.missions, records=records)
     if not flight.crtp:
         return real
-    from ..crtp.equipment import fitted
+    from ..crtp.equipment import fitted, settable
     from ..crtp.process import start, told  # rarely needed
 
     homes = {drone.id: drone.home for drone in fleet.drones}
@@ -255,7 +255,12 @@ async def _real(
     uris = await asyncio.to_thread(start, folder, homes, None, batteries)
     camera = await asyncio.to_thread(told, folder, "camera")
     drones = (
-        replace(drone, uri=uris[drone.id], options=fitted(drone.options, camera))
+        replace(
+            drone,
+            uri=uris[drone.id],
+            options=fitted(drone.options, camera),
+            parameters=settable(drone.parameters),
+        )
         for drone in real.drones
     )
     return replace(real, drones=tuple(drones))

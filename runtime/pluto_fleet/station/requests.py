@@ -125,6 +125,7 @@ class Join(Command):
     uri: NotRequired[str | None]
     navigation: NotRequired[str | None]
     options: NotRequired[dict[str, Scalar] | None]
+    parameters: NotRequired[dict[str, Scalar] | None]
 
 
 class Mishap(Command):

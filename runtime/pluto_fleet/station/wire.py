@@ -125,6 +125,7 @@ class Join(TypedDict):
     uri: NotRequired[str | None]
     navigation: NotRequired[str | None]
     options: NotRequired[dict[str, object] | None]
+    parameters: NotRequired[dict[str, object] | None]
 
 
 class Mishap(TypedDict):

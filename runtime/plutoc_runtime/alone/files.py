@@ -39,6 +39,7 @@ _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 _REAL = "navigation:any? localization:any?"  # what only real flights need
+_REACHED = "uri:any? navigation:any? options:any? parameters:any?"  # and of one drone
 _SHOWN = "image:any? north:any? places:any? zones:any?"  # what only the library shows
 # Keys of a mission that the library reads, and what it needs for them.
 _LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
@@ -149,7 +150,7 @@ def _drones(top: dict[str, Any], path: str, app: App, airspace: Airspace) -> Ite
     kinds = {"category": _one_of("category", names), "home": _point("home", airspace, 0.0)}
     kinds["new"] = values.new_name("drone")
     optional = "?" * (len(names) == 1)  # the only category is the default
-    schema = f"id:new category:category{optional} home:home uri:any? navigation:any? options:any?"
+    schema = f"id:new category:category{optional} home:home {_REACHED}"
     for place, entry in enumerate(_tables(top, path, "drone", needed=True), 1):
         who = f"{path}: drone {place}"
         drone = DroneData(**{"category": names[0], **_table(entry, who, schema, **kinds)})

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.equipment import camera, picture, port_of
-from pluto_fleet.drones.errors import ActionNotDone, Rejected
+from pluto_fleet.drones.errors import ActionNotDone, NotReady, Rejected
 from pluto_fleet.shared.domain.model import Item, Photo
 from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar
 
@@ -81,6 +81,18 @@ async def test_a_camera_that_is_not_there_fails_the_action(cf: Crazyflie) -> Non
         await cf.act("take_photo", {}, None)
 
 
+@drone(options={"camera": "127.0.0.1:9"})
+async def test_a_camera_that_is_not_there_keeps_it_on_the_ground(
+    one: Hangar, cf: Crazyflie
+) -> None:
+    """So that nobody waits at a bed for what its AI-deck will not give."""
+    (why,) = await cf.preflight()
+    assert why.startswith("its camera does not answer at 127.0.0.1:9 (Connect call failed")
+    with pytest.raises(NotReady, match="in its WiFi"):
+        await cf.takeoff(0.5, FAST)
+    assert not one.did("arm")
+
+
 async def test_variables_are_read_and_parameters_set(cf: Crazyflie) -> None:
     assert await cf.read("bme.humidity") == pytest.approx(40.0)
     assert await cf.read("hlCommander.vtoff") == pytest.approx(0.5)
@@ -88,8 +100,10 @@ async def test_variables_are_read_and_parameters_set(cf: Crazyflie) -> None:
     assert await cf.read("hlCommander.vtoff") == pytest.approx(0.7)
     with pytest.raises(Rejected, match=r'neither a log variable nor a parameter "no\.such"$'):
         await cf.read("no.such")
-    with pytest.raises(Rejected, match=r'no parameter "bme\.humidity"'):
+    with pytest.raises(Rejected, match=r'no parameter "bme\.humidity"$'):
         await cf.write("bme.humidity", 1.0)
+    with pytest.raises(Rejected, match=r'; did you mean "locSrv\.extPosStdDev"\?$'):
+        await cf.write("locSrv.extPosStdDv", 0.02)
     for name, value in (("sound.effect", 300.0), ("sound.effect", 0.5), ("cpu.flash", 1.0)):
         with pytest.raises(Rejected, match="is no value for"):
             await cf.write(name, value)

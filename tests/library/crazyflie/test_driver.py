@@ -106,6 +106,23 @@ def test_cflib_s_tracebacks_become_reasons(cflib: str, we: str) -> None:
     assert we in messages.cause(cflib) and "\n" not in messages.cause(cflib)
 
 
+@pytest.mark.parametrize(
+    ("protocol", "release"),
+    [
+        (-1, "before 2024.10"),
+        (7, "before 2024.10"),
+        (9, "2025.02"),
+        (10, "2025.09 or 2025.12"),
+        (11, "after 2025.12"),
+        (12, "2026.04 or 2026.08"),
+        (13, "after 2026.08"),
+    ],
+)
+def test_a_firmware_has_the_name_of_its_release(protocol: int, release: str) -> None:
+    """As far as its protocol says."""
+    assert messages.release(protocol) == release
+
+
 def test_without_cflib_it_is_said_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(driver, "find_spec", lambda _: None)
     with pytest.raises(BadInput, match=r"cflib is needed: pip install 'pluto-fleet\[crazyflie\]'$"):

@@ -75,7 +75,7 @@ async def test_who_is_slow_to_tell_its_tables_is_connected_to_by_and_by(one: Han
 @drone(build=Build(id="cf1", home=(1.0, 2.0, 0.0), protocol=10))
 async def test_firmware_without_a_supervisor_is_refused_with_what_to_flash(cf: Crazyflie) -> None:
     (reason,) = await cf.preflight()
-    assert "speaks protocol 10, 12 or later is needed: flash" in reason
+    assert "speaks protocol 10 (release 2025.09 or 2025.12), 12 or later is needed: flash" in reason
 
 
 async def test_the_emergency_stop_is_sent_to_a_drone_that_is_not_heard(

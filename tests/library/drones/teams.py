@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Callable, Coroutine, Sequence
+from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequence
 from contextlib import asynccontextmanager
 from pathlib import Path
 from typing import Any, TypeVar
@@ -75,11 +75,18 @@ class Flown(Asked):
         wanted: Sequence[RequiredAction] = (),
         feeding: LocalizationFeed | None = None,
         category: Category = SCOUT,
+        parameters: Mapping[str, float] | None = None,
     ) -> None:
         super().__init__()
         self.drones = {drone.id: drone for drone in drones}
         self.crafts = [
-            TeamDrone(id=drone.id, category=category, home=drone.home, navigation=drone)
+            TeamDrone(
+                id=drone.id,
+                category=category,
+                home=drone.home,
+                navigation=drone,
+                parameters=parameters or {},
+            )
             for drone in drones
         ]
         self.team = Team(
@@ -106,10 +113,11 @@ async def flying(
     wanted: Sequence[RequiredAction] = (),
     feeding: LocalizationFeed | None = None,
     category: Category = SCOUT,
+    parameters: Mapping[str, float] | None = None,
 ) -> AsyncIterator[Flown]:
     """Begin a team, and close it at the end; no thread is left of it."""
     before = threading.active_count()
-    flown = Flown(folder, drones or (FakeDrone(),), wanted, feeding, category)
+    flown = Flown(folder, drones or (FakeDrone(),), wanted, feeding, category, parameters)
     flown.team.begin()
     try:
         yield flown

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.shared.domain.errors import Failure
-from tests.kit.drones import the_loop
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import flying
 
 
@@ -83,3 +84,32 @@ async def test_a_drone_that_cannot_fly_any_more_counts_as_landed(tmp_path: Path)
         drone, seen = await flown.up(), flown.team.telemetry["cf1"]
         drone.goes_silent()
         assert await flown.until(lambda: seen.landed) == pytest.approx(504, abs=2)
+
+
+SET = {"locSrv.extPosStdDev": 0.02, "posCtlPid.xVelMax": 2.0}
+
+
+async def test_its_parameters_are_set_when_it_is_connected_to(tmp_path: Path) -> None:
+    """Before it takes off, and again after a restart has lost them; not in the air."""
+    async with flying(tmp_path, parameters=SET) as flown:
+        drone = await flown.up()
+        told = [f"{name} = {value:g}" for name, value in SET.items()]
+        assert drone.told[:2] == told and len(drone.told) == 3
+        for flies in (True, False):
+            drone.goes_silent()
+            drone.motors = flies
+            await flown.until(lambda: not flown.team.vehicles["cf1"].linked)
+            drone.answers = True
+            await flown.until(lambda: flown.team.vehicles["cf1"].linked)
+            assert drone.told[3:] == ([] if flies else told)
+
+
+async def test_a_parameter_that_cannot_be_set_keeps_it_on_the_ground(tmp_path: Path) -> None:
+    """With the reason that its navigation gave."""
+    drone = FakeDrone()
+    drone.raises["write"] = Rejected('cf1 has no parameter "posCtlPid.xVelMx"')
+    async with flying(tmp_path, drone, parameters=SET) as flown:
+        report = await flown.do(flown.team.drone_report("cf1"))
+        assert report.problems == ('cf1 has no parameter "posCtlPid.xVelMx"',) * len(SET)
+        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        assert "xVelMx" in str(failed) and "takeoff" not in drone.told

@@ -18,7 +18,7 @@ from pluto_fleet.drones.errors import NotReady
 from pluto_fleet.drones.protocol import DroneSetup
 from pluto_fleet.files.addresses import address_of
 from pluto_fleet.files.drones import which
-from pluto_fleet.files.fleet import fleet_of, radio_warnings
+from pluto_fleet.files.fleet import fleet_of, shared_by_air
 from pluto_fleet.files.reading import parsed
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.library.cli import fake_drones
@@ -220,10 +220,17 @@ def test_drones_in_each_others_way_on_the_air_are_warned_of(
     uris: list[str], said: list[str]
 ) -> None:
     """Once for each pair of channels, and for each dongle, with where the figure is from."""
-    found = radio_warnings(fleet_of(parsed("f.toml", fleet(*uris)), APP))
+    found = shared_by_air(fleet_of(parsed("f.toml", fleet(*uris)), APP))
     assert len(found) == len(said)
     assert all(word in sentence for word, sentence in zip(said, found, strict=True))
     assert all("docs/crazyflie.md" in one or "nRF24L01+" in one for one in found)
+
+
+def test_drones_with_one_camera_are_warned_of() -> None:
+    """Each AI-deck that comes as it does is at the same address."""
+    ours = '[navigation.crazyflie]\ncamera = "192.168.4.1:5000"\n'
+    (said,) = shared_by_air(fleet_of(parsed("f.toml", ours + fleet(USUAL, "usb://0")), APP))
+    assert said.startswith("a, b have one camera, 192.168.4.1:5000")
 
 
 def fleet(*uris: str) -> str:

@@ -327,6 +327,7 @@ export interface Join {
   uri?: string | null;
   navigation?: string | null;
   options?: Record<string, unknown> | null;
+  parameters?: Record<string, unknown> | null;
 }
 
 /** Where the floor plan is to lie. */
