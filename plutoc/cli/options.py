@@ -370,11 +370,7 @@ def _time(text: str) -> str:
 def _count(text: str) -> str:
     from plutoc_runtime.domain.text import quoted
 
-    try:
-        number = int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
-    if number < 1:
+    if _whole(text) < 1:
         raise ArgumentTypeError(f"{quoted(text)} is less than 1")
     return text
 
@@ -389,10 +385,9 @@ def _handed_on(read: Callable[[str], object], text: str) -> str:
 
 
 def _whole(text: str) -> int:
-    try:
-        return int(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{text!r} is not a whole number") from None
+    from plutoc_runtime.domain.quantities import typed, whole
+
+    return typed(whole)(text)
 
 
 _COMMANDS: dict[str, tuple[str, Callable[[ArgumentParser], None]]] = {

@@ -6,6 +6,7 @@ from argparse import ArgumentTypeError
 from collections.abc import Callable
 from math import isfinite
 
+from .shared.domain.quantities import typed, whole
 from .shared.domain.text import quoted
 
 
@@ -13,10 +14,7 @@ def whole_number(least: int | None = None, most: int | None = None) -> Callable[
     """Return a type for a whole number within bounds."""
 
     def read(text: str) -> int:
-        try:
-            number = int(text)
-        except ValueError:
-            raise ArgumentTypeError(f"{quoted(text)} is not a whole number") from None
+        number = typed(whole)(text)
         if most is None:
             if least is not None and number < least:
                 raise ArgumentTypeError(f"{quoted(text)} is less than {least}")

@@ -185,7 +185,7 @@ def _parser(app: App) -> ArgumentParser:
     from argparse import ArgumentParser
 
     from .alone.faults import shares
-    from .domain.quantities import time_from, typed
+    from .domain.quantities import time_from, typed, whole
 
     more = "size, fly, resume, tell, decide, journal, drones and serve come with pluto-fleet"
     parser = ArgumentParser(prog=app.name, description=app.title, epilog=more, allow_abbrev=False)
@@ -200,7 +200,13 @@ def _parser(app: App) -> ArgumentParser:
     for one in (check, simulate):
         one.add_argument("--fleet", metavar="F.toml", type=Path, help="the map and the drones")
     add = simulate.add_argument
-    add("--seed", metavar="N", type=int, default=0, help="what chance depends on (default 0)")
+    add(
+        "--seed",
+        metavar="N",
+        type=typed(whole),
+        default=0,
+        help="what chance depends on (default 0)",
+    )
     add("--no-spread", action="store_true", help="let all take exactly as long as expected")
     add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
     add("--until", metavar="TIME", type=typed(time_from), help='stop then, such as "2 h"')

@@ -55,6 +55,7 @@ def check(
     assert (code == 0) == bool(out)
     assert all(char == "\n" or char.isprintable() for char in err), ascii(err)
     assert len(err) < 20_000
+    assert "set_int_max" not in err  # Python's own hint
     assert sorted(os.listdir(folder)) == ["f.toml", "m.toml"]
     return err
 
@@ -142,3 +143,19 @@ def test_what_is_no_file_is_refused(tmp_path: Path, capfd: pytest.CaptureFixture
     for missions, fleet in product([*odd, str(tmp_path / "good.toml")], odd):
         assert main(APP, ["check", missions, "--fleet", fleet]) == 2
         assert capfd.readouterr().err
+
+
+FLAGS = (
+    *("simulate M.toml --seed N", "simulate M.toml --runs N", "simulate M.toml --until Ns"),
+    *("simulate M.toml --until N", "size M.toml --jobs N", "fly M.toml --crtp-sim N"),
+    *("fly M.toml --sim --speed N", "serve --sim --port N", "tell J prioritise M T --to N"),
+)
+
+
+@pytest.mark.parametrize("line", FLAGS)
+def test_a_flag_of_many_digits_is_refused_in_a_sentence(
+    capfd: pytest.CaptureFixture[str], line: str
+) -> None:
+    assert main(APP, line.replace("N", "9" * 5000).split()) == 2
+    told = capfd.readouterr().err
+    assert len(told) < 3_000 and "set_int_max" not in told

@@ -60,7 +60,11 @@ def add_flights(command: Command) -> None:
         help="which one to skip, default: the next; or to give a priority",
     )
     tell.add_argument(
-        "--to", metavar="N", dest="priority", type=int, help="prioritise: the trip's new priority"
+        "--to",
+        metavar="N",
+        dest="priority",
+        type=whole_number(),
+        help="prioritise: the trip's new priority",
     )
     tell.add_argument(
         "--from",

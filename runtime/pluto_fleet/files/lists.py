@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -28,6 +29,8 @@ _SAID = {
     "';' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
 }
 """What the module `csv` says, for people."""
+
+_SAVE = 'save it as "CSV UTF-8"'
 
 Row = tuple[int, Mapping[str, str]]
 """Its number, as a spreadsheet counts, and its values by column."""
@@ -116,16 +119,22 @@ def _rows(path: Path) -> tuple[list[Row], list[str]]:
     odd: list[str] = []
     columns: list[str] = []
     number = 0
+    width = 0
     try:
         for number, cells in enumerate(lines, 1):
             stripped = [cell.strip() for cell in cells]
             if not any(stripped):
                 continue
+            while not stripped[-1] and len(stripped) > len(columns):
+                stripped.pop()  # of a comma at the end
             if not columns:
                 columns = _columns(stripped)
+                width = len(cells)
                 continue
-            if len(cells) != len(columns):
-                odd.append(errors.other_width(number, len(cells), len(columns)))
+            if len(columns) < len(stripped) <= width:
+                raise _Unusable(_nameless(len(columns) + 1))
+            if len(stripped) != len(columns):
+                odd.append(errors.other_width(number, len(stripped), len(columns)))
             rows.append((number, dict(zip(columns, stripped, strict=False))))
             if len(rows) > MOST_ROWS:
                 raise _Unusable(errors.too_many_rows(MOST_ROWS))
@@ -139,10 +148,23 @@ def _rows(path: Path) -> tuple[list[Row], list[str]]:
 
 def _text(path: Path) -> str:
     try:
-        return text_of(path)
+        return text_of(path, "CSV")
     except BadInput as error:
         said = re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", str(error))
+        if isinstance(error.__cause__, UnicodeDecodeError):
+            said = f"{said.partition(':')[0]}{_first_odd(error.__cause__)}"
         raise _Unusable(f"cannot be used: {said}") from None
+
+
+def _first_odd(error: UnicodeDecodeError) -> str:
+    """Say in which row the first character is that is not UTF-8, and what to do."""
+    content = bytes(error.object)
+    if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        return f", from row 1 on: {_SAVE}"
+    before = content[: error.start].decode("utf-8-sig")
+    row = sum(1 for _ in csv.reader(StringIO(f"{before}.", newline="")))
+    line = content[content.rfind(b"\n", 0, error.start) + 1 :].partition(b"\n")[0]
+    return f", in row {row}, {quoted(line.decode('cp1252', 'replace').strip())}: {_SAVE}"
 
 
 def _delimiter(text: str) -> str:
@@ -155,7 +177,7 @@ def _delimiter(text: str) -> str:
 def _columns(names: Sequence[str]) -> list[str]:
     for place, name in enumerate(names, 1):
         if not name:
-            raise _Unusable(f"has no name for its column {place}: its first line names the columns")
+            raise _Unusable(_nameless(place))
         if name in names[: place - 1]:
             raise _Unusable(f"has two columns {quoted(name)}: names must differ")
         if "\t" in name:
@@ -165,6 +187,10 @@ def _columns(names: Sequence[str]) -> list[str]:
     if all(_is_number(name) for name in names):
         raise _Unusable("has no line that names its columns: its first line holds numbers")
     return [*names]
+
+
+def _nameless(place: int) -> str:
+    return f"has no name for its column {place}: its first line names the columns"
 
 
 def _is_number(text: str) -> bool:

@@ -9,7 +9,7 @@ from math import dist
 from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
-from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.fields import Entity, FieldType, put_plain
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import quoted
 from ..shared.domain.values import shown
@@ -59,6 +59,8 @@ def wrong_fields(missions: Sequence[Mission[Any]], app: App) -> Iterator[str]:
                         yield f"{called}: has no {field.name}"
                     elif wanted := field.wanted(value, ()):
                         yield f"{called}: {field.name} must be {wanted}, not {shown(value)}"
+                    else:
+                        put_plain(of, field.name, value)
 
 
 def unflyable(

@@ -16,6 +16,7 @@ from ..shared.domain.text import counted, number, percent
 from ..shared.domain.values import name, point, shown
 from . import errors
 from .filled import as_numbers, as_texts, cells_in
+from .foreign import foreign
 from .toml import TomlLines, TomlPath, line_of, places
 from .toml_advice import advice
 
@@ -166,9 +167,17 @@ def parsed(path: str, text: str) -> Document:
     return document
 
 
-def text_of(path: Path) -> str:
-    """Return the text of a plan file; raise `BadInput` if it cannot be one."""
-    return files.text_of(path, _opened)
+def text_of(path: Path, wanted: str = "TOML") -> str:
+    """Return the text of a plan file, or of a list, `CSV`; raise `BadInput` if it cannot be one."""
+    return decoded(files.content_of(path, _opened), path, wanted)
+
+
+def decoded(content: bytes, path: object, wanted: str = "TOML") -> str:
+    """Return the text of what a user brings from a file; raise `BadInput` if it is another kind of file."""
+    other = foreign(content, wanted)
+    if other is not None:
+        raise BadInput(f"{path}: {other}")
+    return files.decoded(content, path)
 
 
 def _opened(path: str, flags: int) -> int:

@@ -36,6 +36,7 @@ MOST = 100  # parts of one key: `tomllib` copies for each all before it; a plan'
 _PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
 _NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
 _KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
+_LONG = re.compile(r"(?<![.\w])\d[\d_]{600}")  # a number that Python may refuse to read
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
 
 _REAL = "navigation:any? localization:any?"  # what only real flights need
@@ -240,30 +241,37 @@ def _one_of(what: str, names: Collection[str], read: Read = values.text) -> Read
     return read_one
 
 
-# The text of a file, and the TOML in it
-
-
 def line_of_long_key(text: str) -> int | None:
     """Return the line, from 1, of a key with too many parts; None where there is none."""
     long = next((key.start() for key in _KEY.finditer(text) if key[1]), None)
     return None if long is None else text.count("\n", 0, long) + 1
 
 
-def text_of(path: Path, opener: Callable[[str, int], int] | None = None) -> str:
+def text_of(path: Path) -> str:
     """Return the text of a plan file; raise `BadInput` if it cannot be one."""
+    return decoded(content_of(path), path)
+
+
+def content_of(path: Path, opener: Callable[[str, int], int] | None = None) -> bytes:
+    """Return what is in a plan file, up to more than it may hold; raise `BadInput` if it cannot be read."""
     try:
         with open(path, "rb", opener=opener) as file:
-            content = file.read(LARGEST + 1)
+            return file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         said = f"cannot be read: {getattr(error, 'strerror', None) or error}"
         raise BadInput(f"{path}: {_UNREADABLE.get(type(error), said)}") from None
+
+
+def decoded(content: bytes, path: object) -> str:
+    """Return the text that a user brings; raise `BadInput`, from the error, if it is none."""
     if len(content) > LARGEST:
         raise BadInput(f"{path}: is larger than {LARGEST // 1024} KiB: this is not a plan file")
     try:
         return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
     except UnicodeDecodeError as error:
         line = content.count(b"\n", 0, error.start) + 1
-        raise BadInput(f"{path}:{line}: is not UTF-8 text") from None
+        kind = " but UTF-16" * content.startswith((b"\xff\xfe", b"\xfe\xff"))
+        raise BadInput(f"{path}:{line}: is not UTF-8 text{kind}: save it as UTF-8") from error
 
 
 def parsed(
@@ -277,8 +285,11 @@ def parsed(
         return tomllib.loads(text)
     except RecursionError:
         raise BadInput(f"{path}: is nested too deep") from None
-    except ValueError as error:  # TOMLDecodeError, and a number with thousands of digits
+    except ValueError as error:
         said, end = f"{error}", ""
+        if not isinstance(error, tomllib.TOMLDecodeError):  # Python's hint is for its programmers
+            row = next((n for n, line in enumerate(text.split("\n"), 1) if _LONG.search(line)), 1)
+            path, said = f"{path}:{row}", "a whole number has too many digits"
         if place := _PLACE.search(said):
             row = int(place[1] or text.rstrip().count("\n") + 1)
             path, shown = f"{path}:{row}", cut_off(text.split("\n")[row - 1].strip(), 80)

@@ -68,9 +68,14 @@ def wrong_field(
         if wanted := field.wanted(value, evaluators):
             there = bounded(shown(value), _LONGEST)
             return f"{field.name} must be {wanted}, and a hook has put {there} there"
-        if value is not None and type(plain := plain_of(value)) is not type(value):
-            setattr(of, field.name, plain)
+        put_plain(of, field.name, value)
     return None
+
+
+def put_plain(of: object, name: str, value: object) -> None:
+    """Put a plain number, truth or text in the place of another library's, if it is one."""
+    if value is not None and type(plain := plain_of(value)) is not type(value):
+        setattr(of, name, plain)
 
 
 def time_of_day(value: object) -> float:

@@ -12,7 +12,7 @@ from enum import Enum
 from math import isfinite, pi
 from typing import TypeVar
 
-from .text import quoted
+from .text import MOST_DIGITS, quoted
 
 T = TypeVar("T")
 
@@ -101,6 +101,16 @@ def time_from(text: str) -> float:
     if seconds <= 0:
         raise ValueError(f"{quoted(text)} is not more than 0")
     return seconds
+
+
+def whole(text: str) -> int:
+    """Read a whole number; raise ValueError with a sentence for a person."""
+    if len(text) > MOST_DIGITS:  # Python may refuse it, with a hint for programmers
+        raise ValueError(f"{quoted(text)} has too many digits")
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f"{quoted(text)} is not a whole number") from None
 
 
 def typed(read: Callable[[str], T]) -> Callable[[str], T]:

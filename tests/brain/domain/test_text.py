@@ -9,7 +9,14 @@ import pytest
 
 from pluto_fleet.shared.domain import text
 from pluto_fleet.shared.domain.fields import time_of_day
-from pluto_fleet.shared.domain.quantities import UNITS, Type, parse_quantity, time_from, units_of
+from pluto_fleet.shared.domain.quantities import (
+    UNITS,
+    Type,
+    parse_quantity,
+    time_from,
+    units_of,
+    whole,
+)
 
 
 @pytest.mark.parametrize(
@@ -101,6 +108,14 @@ def test_a_time_to_end_at_is_more_than_0(written: str) -> None:
     assert (time_from("2 h"), time_from("0.001")) == (7_200.0, 0.001)
     with pytest.raises(ValueError, match='^"' + written):
         time_from(written)
+
+
+def test_a_whole_number_of_a_flag_is_of_bounded_length() -> None:
+    """Python refuses a long one with a hint that nobody can follow."""
+    assert [whole(one) for one in ("7", "-3", "9" * 600)] == [7, -3, int("9" * 600)]
+    for written, sentence in (("x", '"x" is not a whole number'), ("9" * 5000, '9…" has too many')):
+        with pytest.raises(ValueError, match=sentence):
+            whole(written)
 
 
 def test_a_time_of_day_is_seconds_since_midnight() -> None:

@@ -61,6 +61,9 @@ def test_each_row_is_a_mission(tmp_path: Path) -> None:
         LIST.rstrip("\n"),
         LIST + "\n,,\n\n",
         "\n" + LIST,
+        "nr,x,y,\n1,2.5,3,\n7,4,3.25,\n",
+        "nr;x;y;;;\n1;2.5;3;;;\n7;4;3.25;;;\n",
+        LIST.replace("3\n", "3,\n").replace("25\n", "25, ,\n"),
         'nr,x,y\n"1","2.5",3\n"7",4,"3.25"\n',
         "nr,note,x,y\n1,,2.5,3\n7,unused,4,3.25\n",
     ],
@@ -154,8 +157,33 @@ def test_a_plan_that_is_no_file_has_no_list_beside_it() -> None:
     [
         (" \n\n", "is empty: its first line names the columns"),
         ("nr\tx\n1\t2\n", "has tabs between its columns: separate them by commas or semicolons"),
-        ("nr,x,y\n1,ä,3\n".encode("latin-1"), "cannot be used: is not UTF-8 text"),
-        ("nr,x,y\n1,2,3\n".encode("utf-16"), "cannot be used: is not UTF-8 text"),
+        (
+            'nr,x,y\n"1\n2",2,3\n4,Süd,3\n'.encode("latin-1"),
+            'cannot be used: is not UTF-8 text, in row 3, "4,Süd,3": save it as "CSV UTF-8"',
+        ),
+        (
+            "ä,x\n".encode("cp1252"),
+            'cannot be used: is not UTF-8 text, in row 1, "ä,x": save it as "CSV UTF-8"',
+        ),
+        *(
+            (
+                "nr,x,y\n1,2,3\n".encode(wide),
+                'cannot be used: is not UTF-8 text but UTF-16, from row 1 on: save it as "CSV UTF-8"',
+            )
+            for wide in ("utf-16", "utf-32")
+        ),
+        (
+            "nr,x\n".encode("utf-16-le"),
+            "cannot be used: is UTF-16, or no text, and not CSV: save it",
+        ),
+        (
+            '{"type": "FeatureCollection", "features": []}',
+            "cannot be used: is GeoJSON, and not CSV: its places are degrees on the Earth",
+        ),
+        (
+            b"PK\x03\x04\x14\0[Content_Types].xml xl/workbook.xml",
+            'cannot be used: is an Excel workbook, and not CSV: save its sheet as "CSV UTF-8"',
+        ),
     ],
 )
 def test_of_a_list_in_another_form_it_is_said_why(

@@ -11,6 +11,8 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...files.reading import decoded
+from ...shared.alone.files import LARGEST
 from ...shared.domain import values
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable, quoted
@@ -22,9 +24,6 @@ if TYPE_CHECKING:
 SUFFIX, TRASH = ".toml", "trash"
 MOST, MOST_IN_TRASH = 500, 100
 """The most plans that are kept; of those in the trash the newest."""
-
-LARGEST = 1 << 20
-"""The largest plan in bytes: what may be read as a missions file."""
 
 _LONGEST, _LONGEST_BYTES = 80, 200
 _FORBIDDEN = re.compile(r'[/\\:*?"<>|]')
@@ -189,12 +188,7 @@ def _files(folder: Path) -> Iterator[Path]:
 def _text(file: Path) -> str:
     try:
         with file.open("rb") as opened:
-            content = opened.read(LARGEST + 1)
-        if len(content) > LARGEST:
-            raise BadInput(f"{file.name}: it is larger than any plan")
-        return content.decode("utf-8")
-    except UnicodeDecodeError:
-        raise BadInput(f"{file.name}: it is not UTF-8 text") from None
+            return decoded(opened.read(LARGEST + 1), file.name)
     except OSError as error:
         raise BadInput(f"{file.name}: it cannot be read: {error.strerror or error}") from None
 

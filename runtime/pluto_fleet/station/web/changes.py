@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
 
+from ...files.reading import decoded
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..commands import Malformed
@@ -46,8 +47,12 @@ async def replace_plan(asked: Asked) -> Reply:
 async def import_plan(asked: Asked) -> Reply:
     """Replace the plan's missions by those of a file."""
     query, plan = asked.request.query, asked.station.plan
-    revision, text = asked_number(query, "revision"), _text(asked.body)
-    return await _edited(asked, plan.import_file(text, revision, _file(query)))
+    revision, file = asked_number(query, "revision"), _file(query)
+
+    async def take() -> None:
+        await plan.import_file(decoded(asked.body, file), revision, file)
+
+    return await _edited(asked, take())
 
 
 async def add_example(asked: Asked) -> Reply:
@@ -92,10 +97,3 @@ def _whole(given: dict[str, object], name: str) -> int:
 def _file(query: Mapping[str, str]) -> str:
     """Return an untrusted file name, sanitized for messages."""
     return cut_off(printable(query.get("file", "").strip()), _LONGEST_NAME) or MISSIONS_FILE
-
-
-def _text(body: bytes) -> str:
-    try:
-        return body.decode("utf-8")
-    except UnicodeDecodeError:
-        raise Malformed("the file is not UTF-8") from None

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.missions import load_missions
+from pluto_fleet.shared.alone.files import LARGEST
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan import library as kept
 from pluto_fleet.station.plan.library import PlanLibrary
@@ -115,8 +116,9 @@ def test_the_trash_forgets_the_oldest(tmp_path: Path, monkeypatch: pytest.Monkey
 @pytest.mark.parametrize(
     ("content", "said"),
     [
-        (b"\xff", "it is not UTF-8 text"),
-        (b"#" * (kept.LARGEST + 1), "larger than any plan"),
+        (b"\xff", "Bad.toml:1: is not UTF-8 text"),
+        (b"#" * (LARGEST + 1), "is larger than 1024 KiB"),
+        (b'{"fileType": "Plan"}', "Bad.toml: is a plan of QGroundControl, and not TOML"),
         (b"[map]", "is no plan"),
         (b"mission = [3]", "mission 1 is none"),
         (b"[[mission]]\nspeed = 3", 'unknown key "speed"'),
@@ -127,10 +129,12 @@ def test_what_cannot_be_read_is_listed_with_why(tmp_path: Path, content: bytes, 
     plan = drawn(mission())
     shelf = library(tmp_path, plan)
     save(shelf, "Good", plan)
+    marked = b"\xef\xbb\xbf" + (tmp_path / "plans" / "Good.toml").read_bytes()
+    (tmp_path / "plans" / "Good.toml").write_bytes(marked)  # as some editors write it
     (tmp_path / "plans" / "Bad.toml").write_bytes(content)
-    bad = next(one for one in shelf.plans() if one["name"] == "Bad")
+    bad, good = sorted(shelf.plans(), key=lambda one: one["name"])
     assert bad["missions"] is None and said in bad["said"]
-    assert len(shelf.plans()) == 2
+    assert (good["missions"], good["said"], good["by"]) == (1, "", "Ada\\x7f")
 
 
 def test_an_unfinished_plan_comes_back_as_it_was_drawn(tmp_path: Path) -> None:

@@ -44,9 +44,8 @@ export function importFile() {
   input.addEventListener("change", async () => {
     const file = input.files?.[0];
     if (!file) return;
-    const text = await file.text();
     take((revision) => send("POST", `/api/plan/import?revision=${revision}&file=${encodeURIComponent(file.name)}`,
-      text, { type: "application/toml" }), t("missions.imported", { file: file.name }));
+      file, { type: "application/toml" }), t("missions.imported", { file: file.name }));
   });
   input.click();
 }
