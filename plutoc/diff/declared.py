@@ -104,6 +104,7 @@ def hooks(both: Both) -> Iterator[Change]:
             yield messages.hook_renamed(before, after)
         yield from _repeats(before, after)
         yield from _returns(before, after)
+        yield from _takes(before, after)
         yield from _parameters(before, after, _by_default(after, both.new.graph))
         yield from _statuses(before, after)
     kept = set(both.hooks.values())
@@ -119,6 +120,11 @@ def _repeats(old: Declared, new: Declared) -> Iterator[Change]:
 def _returns(old: Declared, new: Declared) -> Iterator[Change]:
     if isinstance(old, Action) and isinstance(new, Action) and old.returns != new.returns:
         yield messages.returns_changed(old, new)
+
+
+def _takes(old: Declared, new: Declared) -> Iterator[Change]:
+    if isinstance(old, Action) and isinstance(new, Action) and old.takes != new.takes:
+        yield messages.takes_changed(old, new)
 
 
 def _statuses(old: Declared, new: Declared) -> Iterator[Change]:

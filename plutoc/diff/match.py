@@ -239,7 +239,7 @@ def _signature(one: Declared, graph: Graph, blocks: Mapping[str, str]) -> Hashab
     parameters = tuple(sorted((p.name, p.type.value, p.default) for p in one.parameters))
     if isinstance(one, Action):
         able = sum(one.name in (category.actions or ()) for category in graph.categories)
-        return known, parameters, one.repeat, one.returns, able
+        return known, parameters, one.repeat, one.returns, one.takes, able
     return known, parameters, one.emits, tuple(sorted(one.writes))
 
 

@@ -172,6 +172,8 @@ def _action(action: Action) -> str:
     if action.parameters:
         arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
+    if action.takes is not None:
+        arguments.append(f"takes={literal(action.takes)}")
     if action.returns is None:
         return call("OwnAction", arguments)
     return call("TypedAction", [*arguments, f"returns={python_result(action.returns)}"])

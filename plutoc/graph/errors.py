@@ -269,6 +269,30 @@ def unknown_repeat(
     )
 
 
+def unknown_duration(
+    source: Source, name: Name, given: Sequence[str], timed: Sequence[str]
+) -> Diagnostic:
+    """What an action takes is a name, and not that of one of its parameters that are times."""
+    if name.text in given:
+        what = f"the parameter `{name.text}` is no time, so it cannot say how long the action takes"
+    else:
+        what = f"the action has no parameter `{name.text}` that could say how long it takes"
+    return error(
+        "P1057",
+        what,
+        source,
+        name.span,
+        help=meant(name.text, timed)
+        or f"write a time, such as `takes 3 min`, or {_a_timed(timed)}",
+    )
+
+
+def _a_timed(timed: Sequence[str]) -> str:
+    if not timed:
+        return "a parameter of the type `time`"
+    return f"its parameter {either(timed)}"
+
+
 _OTHER_STATUSES = {
     **dict.fromkeys(("DONE", "SUCCESS", "SUCCEEDED", "FINISHED", "COMPLETE", "OK"), "COMPLETED"),
     **dict.fromkeys(("ERROR", "FAILURE", "FAIL", "CRASHED", "TIMEOUT"), "FAILED"),

@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import errors, names
+from plutoc.graph import errors, names, value_errors
 from plutoc.graph.model import Action, Hook, Parameter
 from plutoc.graph.names import Style
 from plutoc.graph.scope import ACTION, HOOK_ROLES
@@ -39,14 +39,42 @@ def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -
         found.append(errors.unknown_type(source, returns, RETURNS, meant))
     elif repeat is not None and repeat.text not in REPEATS:  # of two wrong words one is told
         found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
+    given = parameters(source, declared.parameters, ACTION, found)
     return Action(
         name=declared.name.text,
-        parameters=parameters(source, declared.parameters, ACTION, found),
+        parameters=given,
         returns=returns.text if returns and returns.text in RETURNS else None,
         repeat=repeat.text if repeat else "once",
+        takes=_takes(source, declared, given, found),
         declaration=_declaration(declared),
         span=declared.name.span,
     )
+
+
+def _takes(
+    source: Source,
+    declared: tree.ActionDecl,
+    given: Sequence[Parameter],
+    found: list[Diagnostic],
+) -> float | str | None:
+    """Return the seconds that an action takes, or the name of the parameter that says so."""
+    takes = declared.takes
+    if takes is None:
+        return None
+    if isinstance(takes, tree.Name):
+        timed = [one.name for one in given if one.type is Type.TIME]
+        if takes.text in timed:
+            return takes.text
+        if not any(
+            takes.text == one.name.text and _TYPES.get(one.type.text) is None
+            for one in declared.parameters
+        ):
+            found.append(errors.unknown_duration(source, takes, [one.name for one in given], timed))
+        return None
+    seconds = typed(source, "takes", takes, Type.TIME, found, ours=True)
+    if seconds is not None and not float(seconds) > 0.0:
+        found.append(value_errors.out_of_range(source, takes.span, "takes", "more than 0 s"))
+    return None if seconds is None else float(seconds)
 
 
 def _declaration(declared: tree.ActionDecl) -> str:
@@ -54,7 +82,8 @@ def _declaration(declared: tree.ActionDecl) -> str:
     given = f"({given})" if given else ""
     returns = f" -> {declared.returns.text}" if declared.returns else ""
     repeat = f" {declared.repeat.text}" if declared.repeat else ""
-    return f"action {declared.name.text}{given}{returns}{repeat}"
+    takes = f" takes {written(declared.takes)}" if declared.takes else ""
+    return f"action {declared.name.text}{given}{returns}{repeat}{takes}"
 
 
 def declaration(one: tree.Parameter) -> str:

@@ -66,8 +66,10 @@ class Action:
     """The type of what it gives: one of parameters, or `photo`; None: the app does not say."""
     repeat: str
     """`safe`, `once` or `ask`: may it be repeated after a crash?"""
+    takes: float | str | None
+    """The seconds that plans reckon with, or the parameter that says so; None: the app does not say."""
     declaration: str
-    """`action spray(dose: mass = 50 mg) -> float once`: canonical, on one line, texts left out."""
+    """`action spray(dose: mass = 50 mg) -> float once takes 20 s`: canonical, on one line, texts left out."""
     span: Span
 
 

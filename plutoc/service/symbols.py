@@ -134,6 +134,8 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
                     yield _named(statement.returns, Role.TYPE)
                 if statement.repeat:
                     yield _named(statement.repeat, Role.OPTION)
+                if isinstance(statement.takes, Name):
+                    yield _named(statement.takes, Role.PARAMETER, owner=statement.name.text)
             case HookDecl():
                 yield _named(statement.name, Role(statement.kind), declares=True)
                 yield from _parameters(statement.parameters, statement.name.text)

@@ -59,7 +59,7 @@ def _statement(node: Node) -> tree.Statement:
             return _result(node)
         case "category":
             return _category(node)
-        case "action" | "action_behind":
+        case "action":
             return _action(node)
         case "block":
             return _block(node)
@@ -97,13 +97,15 @@ def _category(node: Node) -> tree.CategoryDecl:
 
 
 def _action(node: Node) -> tree.ActionDecl:
-    name, parameters, *rest = node.children
-    returns, repeat = rest if node.data == "action" else reversed(rest)
+    name, parameters, *details = node.children
+    said = {str(each.data): each.children[0] for each in map(_node, details)}
+    returns, repeat, takes = (said.get(word) for word in ("returns", "repeat", "takes"))
     return tree.ActionDecl(
         name=_name(name),
         parameters=_parameters(parameters),
-        returns=_name(_node(returns).children[0]) if returns else None,
+        returns=_name(returns) if returns else None,
         repeat=_name(repeat) if repeat else None,
+        takes=_value(takes) if takes else None,
         span=_span(node),
     )
 

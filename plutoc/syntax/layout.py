@@ -3,7 +3,7 @@
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
 brackets the language's words are ordinary names; so are `version`, `requires`, `mission`, `trip` and
 `result` wherever they do not begin a statement of theirs, and `has` but behind `mission` or `trip`, for
-apps have blocks of such names. A bracket that was forgotten must
+apps have blocks of such names; `takes` is a word only behind what an action declares. A bracket that was forgotten must
 not swallow the rest of the file: a line that can only be the beginning of a statement closes what
 was left open.
 """
@@ -40,6 +40,8 @@ _WORDS = SOFT_KINDS | {word.upper() for word in WORDS}
 _LINE_BEGINNERS = BEGINNERS - SOFT_KINDS | {"USE", "APP"}
 _NAMES = SOFT_KINDS | {NAME}
 """What may turn out to be a name, of tokens that lie ahead."""
+_BEFORE_TAKES = frozenset({NAME, "RPAR"})
+"""What stands before `takes`, as it does before no name."""
 _FOLLOWS_A_FIRST_NAME = _NAMES | {EQUAL, ARROW}
 _FOLLOWS_A_NAME = CLOSING | {EQUAL, ARROW, "COMMA"}
 
@@ -112,6 +114,8 @@ def _is_a_name(before: str, word: str, behind: str) -> bool:
     """Return whether a word outside of brackets is a name: a soft one that begins no statement."""
     if word == "HAS":
         return before not in OWNER_KINDS
+    if word == "TAKES":
+        return before not in _BEFORE_TAKES
     begins = before in (NEWLINE, "LBRACE") and behind not in _FOLLOWS_A_NAME
     return word in SOFT_KINDS and not begins
 

@@ -23,8 +23,9 @@ SETTINGS = ("version", "requires")
 OWNERS = ("mission", "trip")
 HAS = "has"
 RESULT = "result"
-SOFT_WORDS = (*SETTINGS, *OWNERS, HAS, RESULT)
-"""Words too, but only where they begin a statement: elsewhere they are names like any other."""
+TAKES = "takes"
+SOFT_WORDS = (*SETTINGS, *OWNERS, HAS, RESULT, TAKES)
+"""Words too, but only in statements of theirs: elsewhere they are names like any other."""
 
 SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
 OWNER_KINDS = frozenset(word.upper() for word in OWNERS)

@@ -135,12 +135,13 @@ class CategoryDecl:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ActionDecl:
-    """`action spray(dose: mass = 50 mg) -> float once`; `repeat` is the last word, if any."""
+    """`action spray(dose: mass = 50 mg) -> float once takes 20 s`; `repeat` is the word alone, if any."""
 
     name: Name
     parameters: tuple[Parameter, ...]
     returns: Name | None
     repeat: Name | None
+    takes: Value | None
     span: Span
 
 

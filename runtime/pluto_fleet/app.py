@@ -134,10 +134,8 @@ def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
         Parameter(name=one["name"], type=Type(one["type"]), default=one["default"])
         for one in data["parameters"]
     )
-    repeat, seconds = data["repeat"], data["seconds"]
-    return Action(
-        name=data["name"], parameters=parameters, repeat=repeat, seconds=seconds, hook=hook
-    )
+    known = {key: data[key] for key in ("name", "repeat", "takes")}
+    return Action(**known, parameters=parameters, hook=hook)
 
 
 @lru_cache(maxsize=100)

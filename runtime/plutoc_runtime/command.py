@@ -122,7 +122,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.files import load_fleet, load_missions
     from .alone.simulate import default_fleet, simulate
     from .domain.app import moving
-    from .fleet.reach import idle_actions, problems
+    from .fleet.reach import idle_actions, problems, reckoned
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -139,6 +139,8 @@ def _checked(app: App, options: Any) -> int:
     if options.command == "check":
         for idle in idle_actions(app, fleet):
             _tell(f"{printable(str(options.fleet or app.name))}: warning: {idle}")
+        for assumed in reckoned(app, missions):
+            print(printable(assumed))
         trips = counted(sum(len(mission.trips) for mission in missions), "trip")
         drones = counted(len(fleet.drones), "drone")
         print(f"{counted(len(missions), 'mission')} with {trips}: a fleet of {drones} can fly them")

@@ -10,7 +10,9 @@ from plutoc.diff.model import Change, Fact, Importance, one_sided
 from plutoc.diff.phrases import amount, code, listed, named
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node, Parameter
 from plutoc.source import Span
+from plutoc_runtime.domain.actions import RECKONED
 from plutoc_runtime.domain.fields import Entity, Field
+from plutoc_runtime.domain.quantities import Type
 
 
 def told(
@@ -279,6 +281,18 @@ def returns_changed(old: Action, new: Action) -> Change:
     before = f"it gave {_given(old)}" if old.returns else "it could give anything"
     sentence = f"the action `{new.name}` now {now}; before, {before}"
     return told("returns_changed", sentence, (old.returns, new.returns), old.span, new.span)
+
+
+def takes_changed(old: Action, new: Action) -> Change:
+    """Plans reckon with another duration of an action, so that drones are given other trips."""
+    sentence = f"plans now reckon with {_taken(new)} for the action `{new.name}`; before, with {_taken(old)}"
+    return told("takes_changed", sentence, (old.takes, new.takes), old.span, new.span)
+
+
+def _taken(one: Action) -> str:
+    if one.takes is None:
+        return f"{amount(RECKONED, Type.TIME)} (the app does not say)"
+    return f"its `{one.takes}`" if isinstance(one.takes, str) else amount(one.takes, Type.TIME)
 
 
 def _given(one: Action) -> str:

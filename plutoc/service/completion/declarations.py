@@ -128,6 +128,8 @@ def hook(hole: Hole, known: Known) -> Iterator[Candidate]:
                 yield Candidate(label="->", kind=Sort.KEYWORD, forms=("-> float",), doc=_GIVES)
             for repeat in REPEATS:
                 yield keyword(repeat)
+            if "TAKES" not in hole.types:
+                yield keyword("takes", "takes", "takes 5 s")
     elif word == "MODIFIER":
         lists = [each for each in hole.types if each in ("EMITS", "WRITES")]
         if lists and last in (*lists, "COMMA"):

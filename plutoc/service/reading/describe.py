@@ -38,6 +38,7 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "trip": "`trip has …` declares fields that the users of the app fill in for trips.",
         "has": "Behind `mission` or `trip`: fields, each with its type, and with a default or none.",
         "result": "Says what the results of an action are, and how they are shown.",
+        "takes": "How long an action takes, for plans and batteries: a time, or a parameter that is one.",
         "safe": "The action may be repeated after a crash of the system.",
         "once": "The action is not repeated after a crash of the system.",
         "ask": "After a crash a person decides whether the action is repeated.",

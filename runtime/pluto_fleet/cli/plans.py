@@ -19,7 +19,7 @@ from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
-from ..shared.fleet.reach import idle_actions
+from ..shared.fleet.reach import idle_actions, reckoned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -154,6 +154,8 @@ def check(app: App, options: Options) -> int:
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
         return 1
+    for assumed in reckoned(plan.app, plan.missions):
+        output.line(printable(assumed))
     for area in plan.areas[:_MOST_AREAS]:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:

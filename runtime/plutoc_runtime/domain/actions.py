@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 from .quantities import Type
 
 Plain = bool | int | float | str
+
+RECKONED = 5.0  # seconds that plans reckon with for an action that says nothing of it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,9 +29,21 @@ class Action:
     name: str
     parameters: tuple[Parameter, ...] = ()
     repeat: str = "once"  # may it be repeated after a crash of the system: `safe`, `once` or `ask`
-    seconds: float = 5.0  # how long it is expected to take, for planning; it may take longer
+    takes: float | str | None = None
+    """How many seconds plans reckon with, or the parameter that says so; None: nobody has said."""
     hook: Callable[..., Any] | None = None
     """The app's own code; None: the drone's navigation knows how."""
+
+    @property
+    def seconds(self) -> float:
+        """How many seconds plans reckon with, whatever a trip says."""
+        return self.takes if isinstance(self.takes, float) else RECKONED
+
+    def lasts(self, parameters: Mapping[str, Plain]) -> float:
+        """Return how many seconds plans reckon with on a trip with these parameters."""
+        default = next((one.default for one in self.parameters if one.name == self.takes), None)
+        given = parameters.get(self.takes, default) if isinstance(self.takes, str) else None
+        return max(0.0, given) if isinstance(given, (int, float)) else self.seconds
 
     def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:
         """Call its hook; only an action of the app's own has one (flow/own_action.py)."""
@@ -48,10 +62,10 @@ _QUANTITY = Parameter(name="quantity", type=Type.TEXT, default="temperature")
 BUILT_IN: dict[str, Action] = {
     action.name: action
     for action in (
-        Action(name=MEASURE, parameters=(_QUANTITY,), repeat="safe", seconds=1.0),
-        Action(name=PHOTO, repeat="safe", seconds=1.0),
-        Action(name=PICK, seconds=2.0),
-        Action(name=RELEASE, seconds=2.0),
+        Action(name=MEASURE, parameters=(_QUANTITY,), repeat="safe", takes=1.0),
+        Action(name=PHOTO, repeat="safe", takes=1.0),
+        Action(name=PICK, takes=2.0),
+        Action(name=RELEASE, takes=2.0),
     )
 }
 """The actions that every app has."""

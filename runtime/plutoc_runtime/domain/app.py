@@ -79,7 +79,7 @@ def about(app: App) -> dict[str, Any]:
                     {**asdict(each), "type": each.type.value} for each in one.parameters
                 ],
                 "repeat": one.repeat,
-                "seconds": one.seconds,
+                "takes": one.takes,
                 "own": one.hook is not None,
             }
             for one in app.actions.values()

@@ -36,7 +36,9 @@ class Request(Future["Drone"]):
         self.why = ""  # why its drone was chosen
         self.hurries = False  # its mission waits for a limited time only
         self.reach = reach
-        self.bounds = reach.bounds(trip.action, trip.target, not (trip.source or trip.item))
+        seconds = reach.app.actions[trip.action].lasts(trip.parameters)
+        straight = not (trip.source or trip.item)
+        self.bounds = reach.bounds(trip.action, seconds, trip.target, straight)
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     def able(self, drone: Drone) -> bool:

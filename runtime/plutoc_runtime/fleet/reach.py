@@ -142,7 +142,7 @@ def stops_of(app: App, category: Category, cruise: float, chain: Sequence[Trip])
     for place_, trip in enumerate(chain, start=1):
         if trip.source is not None:
             stops.append((trip.source, 0.0))
-        busy = app.actions[trip.action].seconds
+        busy = app.actions[trip.action].lasts(trip.parameters)
         if place_ < len(chain):
             motion, speed = category.motion, category.speed
             busy += motion.lands(trip.target[2], speed) + motion.rises(cruise, speed)
@@ -215,6 +215,16 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
     return found
 
 
+def reckoned(app: App, missions: Sequence[Mission[Any]]) -> list[str]:
+    """Return a sentence for each action of these missions of which nobody says how long it takes."""
+    used = {trip.action for mission in missions for trip in mission.trips}
+    return [
+        f"{action.name} is reckoned with {action.seconds:g} s: `takes` in the app says how long it takes"
+        for action in app.actions.values()
+        if action.takes is None and action.name in used
+    ]
+
+
 class Reach:
     """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
 
@@ -240,7 +250,9 @@ class Reach:
         )
         return not (space.no_fly or any(map(space.problem, ends)))
 
-    def _bounds(self, action: str, target: Point, straight: bool) -> Mapping[Category, Bounds]:
+    def _bounds(
+        self, action: str, seconds: float, target: Point, straight: bool
+    ) -> Mapping[Category, Bounds]:
         """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
         space, height, found = self.airspace, target[2], dict["Category", Bounds]()
         cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
@@ -248,7 +260,7 @@ class Reach:
         for one in self.app.categories:
             motion, speed, share = one.motion, one.speed, 1.0 / one.endurance
             upright = motion.rises(cruise, speed) + motion.lands(height, speed)
-            upright += 2 * motion.settles + self.app.actions[action].seconds
+            upright += 2 * motion.settles + seconds
             a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
             slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
             least, way = one.reserve + share * upright * _LESS, share * a_metre * _LESS

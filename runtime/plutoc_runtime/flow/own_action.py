@@ -11,6 +11,7 @@ from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, Hook
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.plain import as_a
 from ..domain.text import LONGEST_REASON, bounded, text_of
+from ..fleet.reach import needed
 from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from ..time.told import ToldTime
     from ..trips.flight import Flight
     from .mission import MissionState
+
+NO_MORE = "battery: what is left of it only just suffices for the way home"
+NEAR = 2.0  # seconds before a battery only just suffices from when on it is asked exactly then
+MOMENT = 0.01  # seconds by which sums of floats may be off, and more
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,10 +58,12 @@ class OwnAction(Action):
         call = _call(kernel, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.orders.ask("hold", drone.id), key, f"{drone.id} hovers")
+        rest = kernel.spawn(self._while_it_suffices(state, flight), key, f"{drone.id}'s battery")
         held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over, began = Future[None](), kernel.now
         work.watch(over.set)
         hover.watch(over.set)
+        rest.watch(over.set)
         try:
             await over
             if kernel.now == began and not hover.is_set:
@@ -64,6 +71,8 @@ class OwnAction(Action):
                 await kernel.sleep(0.0, EventKind.FLIGHT, key)
             if hover.is_set:
                 hover.result()  # raises what went wrong with the drone
+            if rest.is_set and not work.is_set:
+                raise ActionFailed(NO_MORE)
             value = work.result()
         except ActionFailed as error:
             why = bounded(text_of(error) or "it does not say why", LONGEST_REASON)
@@ -72,12 +81,37 @@ class OwnAction(Action):
             fact = held.put_back() if work.is_set else ""  # it may have been called off
             work.cancel()
             hover.cancel()
+            rest.cancel()
             if live is not None:
                 live.release()
         if fact:
             raise changed(hook, "trip", fact)
         keep(core, hook, mission)
         return value
+
+    async def _while_it_suffices(self, state: MissionState, flight: Flight) -> None:
+        """Wait while the battery holds more than the way home and its reserve take.
+
+        For as long as plans reckon with, half of the reserve will do: it is there for chance and traffic.
+        """
+        kernel, drone, key = state.core.kernel, flight.flier, mission_key(state.mission.index)
+        category, space = drone.category, state.core.airspace
+        until = kernel.now + self.lasts(flight.trip.parameters)
+        way = needed(category, space, drone.location, (), drone.home)
+        if way is None:
+            await Future[None]()  # no rest suffices where no way leads home
+            return
+        while True:
+            left = until - kernel.now
+            reserve = category.reserve / 2 if left > 0.0 else category.reserve
+            rest = (drone.battery_level - way - reserve) * category.endurance
+            if rest <= 0.0:
+                return
+            # a real battery may drain faster than its model: it is asked again half-way
+            seconds = rest / 2 if rest > NEAR else rest + MOMENT
+            if 0.0 < left < seconds:
+                seconds = left
+            await kernel.sleep(seconds, EventKind.ALLOCATE, key)
 
     async def was_done(self, state: MissionState, flight: Flight) -> bool | None:
         """Ask the hook that can tell whether it was done: `pollinate` has `pollinate_done`."""

@@ -72,7 +72,7 @@ class Flight(Future[Status]):
             "action": trip.action if action.hook is None else None,
             "parameters": trip.parameters,
             "item": None if item is None else item_data(item),
-            "seconds": action.seconds,
+            "seconds": action.lasts(trip.parameters),
             "beside": action.repeat == "safe",
         }
 

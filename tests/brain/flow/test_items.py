@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from pluto_fleet.shared.domain.errors import ActionFailed
-from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
-from pluto_fleet.shared.hooks.context import Context
 from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (6.0, 0.5, 0.0))
@@ -56,22 +54,3 @@ def test_what_is_aboard_when_a_mission_ends_is_taken_off_before_the_drone_is_fre
     assert [mission.status for mission in outcome.missions] == [Status.FAILED, Status.COMPLETED]
     free, *_ = apps.times(outcome, "drone.free")
     assert apps.times(outcome, "trip.launched")[1] >= free > apps.times(outcome, "mission.ended")[0]
-
-
-def test_a_drone_that_fails_as_it_waits_with_an_item_is_lost_to_its_mission() -> None:
-    async def lingers(drone: Drone, trip: apps.Trip, context: Context) -> None:
-        await context.sleep(drone.battery_level * drone.category.flight_time - 2.0)
-
-    linger = OwnAction(name="linger", hook=lingers)
-    trips = (apps.pick("A", 3.0), apps.trip("B", 3.0, action="linger"), apps.release("C", 9.0))
-    trips[2].delay = 1000.0
-    outcome = apps.fly(
-        apps.app(apps.flow(clock=True), actions=[linger]),
-        apps.mission("m", *trips),
-        apps.mission("other", apps.trip("X", 3.0)),
-    )
-    mission, other = outcome.missions
-    assert mission.status is Status.FAILED
-    assert mission.reason.startswith("cf1 ran out of battery at (3, 0.5), with pills aboard")
-    assert other.status is Status.COMPLETED
-    assert apps.times(outcome, "mission.ended")[0] < 500.0

@@ -14,9 +14,10 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_215, 67, 250
+MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_300, 68, 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 9_070
+MOST_LINES_OF_ANY = 9_200
+"""Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
 LONGEST_FILE = 300
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}

@@ -92,7 +92,7 @@ def test_hooks() -> None:
 @pytest.mark.parametrize("word", SOFT_WORDS)
 def test_words_of_settings_are_names_wherever_no_setting_begins(word: str) -> None:
     """Apps have blocks of such names: they stay as they are."""
-    text = f"{word} = K\n{word} -> a\n{word}\n-> a\na -> {word}\na = {word}.K\naction {word} {word}"
+    text = f"{word} = K\n{word} -> a\n{word}\n-> a\na -> {word}\na = {word}.K\naction {word}"
     assert [type(each) for each in statements(f"{text}\n[\n{word}, {word}]\n-> a -> {word}")] == [
         *(BlockDecl, FlowDecl, FlowDecl, FlowDecl, BlockDecl, ActionDecl, FlowDecl),
     ]

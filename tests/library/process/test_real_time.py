@@ -37,7 +37,7 @@ def fly(*missions: apps.Mission) -> tuple[apps.SimulationResult, list[Event]]:
         apps.app(
             apps.flow(watch=apps.timed),
             categories=[FAST],
-            actions=[OwnAction(name="blink", hook=blink, seconds=0.01)],
+            actions=[OwnAction(name="blink", hook=blink, takes=0.01)],
         ),
         missions,
         apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), airspace=LOW),
@@ -70,7 +70,7 @@ def hooked(hook: Callable[..., object]) -> str:
         apps.app(
             apps.flow(),
             categories=[FAST],
-            actions=[OwnAction(name="blink", hook=hook, seconds=0.01)],
+            actions=[OwnAction(name="blink", hook=hook, takes=0.01)],
         ),
         [mission],
         apps.fleet(airspace=LOW),

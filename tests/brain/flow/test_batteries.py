@@ -1,0 +1,75 @@
+"""What an action of one's own takes of a battery: reckoned with before, and watched while it runs."""
+
+from __future__ import annotations
+
+import pytest
+
+from pluto_fleet.shared.domain.actions import Parameter
+from pluto_fleet.shared.domain.model import Category, Drone
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.reach import problems, reckoned
+from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.hooks.context import Context
+from tests.kit import apps
+
+SCOUT = Category(name="scout", payload=0.01, flight_time=240.0, reserve=0.2)
+
+
+def looking(seconds: float, takes: float | str | None = None) -> OwnAction:
+    """Return an action whose hook takes so many seconds."""
+
+    async def look(drone: Drone, trip: apps.Trip, context: Context, **_: object) -> None:
+        await context.sleep(seconds)
+
+    span = Parameter(name="span", type=Type.TIME, default=150.0)
+    return OwnAction(name="look", hook=look, takes=takes, parameters=(span,))
+
+
+def app(action: OwnAction) -> apps.App:
+    return apps.app(apps.flow(attempts=1), categories=(SCOUT,), actions=[action])
+
+
+@pytest.mark.parametrize("minutes", [3.0, 3.5, 5.0])
+def test_an_action_is_cancelled_when_the_battery_only_just_suffices(minutes: float) -> None:
+    outcome = apps.fly(
+        app(looking(60 * minutes)), apps.mission("m", apps.trip("A", 6.0, action="look"))
+    )
+    (mission,) = outcome.missions
+    assert mission.status is Status.FAILED
+    assert mission.reason.startswith("look failed: battery: ")
+    assert (outcome.crashed, apps.events(outcome, "drone.lost")) == (0, [])
+    landed, *_ = outcome.standing["drones"].values()
+    assert landed["status"] in ("FREE", "CHARGING")
+
+
+def test_what_it_is_said_to_take_is_reckoned_with_and_it_completes_with_its_reserve() -> None:
+    outcome = apps.fly(
+        app(looking(150.0, 150.0)), apps.mission("m", apps.trip("A", 6.0, action="look"))
+    )
+    assert outcome.completed
+
+
+@pytest.mark.parametrize("takes", [200.0, "span"])
+def test_a_trip_whose_action_takes_too_long_is_refused_before_anything_flies(
+    takes: float | str,
+) -> None:
+    action = looking(1.0, takes)
+    trip = apps.trip("A", 6.0, action="look")
+    trip.parameters = {"span": 200.0}
+    mission = apps.mission("m", trip)
+    (problem,) = problems(app(action), [mission], apps.fleet(), forever=False)
+    assert "no drone of the fleet can do it: scout would need" in problem
+
+
+def test_a_time_of_the_trip_counts_and_else_its_default() -> None:
+    action = looking(1.0, "span")
+    assert [action.lasts(given) for given in ({}, {"span": 20.0}, {"span": -3.0})] == [150, 20, 0]
+    assert action.seconds == looking(1.0).lasts({}) == 5.0
+
+
+def test_what_nobody_has_said_is_told() -> None:
+    mission = apps.mission("m", apps.trip("A", 6.0, action="look"))
+    assert reckoned(app(looking(1.0, 9.0)), [mission]) == []
+    (told,) = reckoned(app(looking(1.0)), [mission])
+    assert told.startswith("look is reckoned with 5 s")
