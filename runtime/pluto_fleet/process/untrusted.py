@@ -51,7 +51,9 @@ def parsed(given: str | bytes) -> Any:
     if text.count("[") + text.count("{") > DEEPEST:
         _bound_depth(data)
     if _ESCAPED in text:
-        json.dumps(data, ensure_ascii=False).encode()  # half a character is no text
+        # half a character is no text, and a result or a reason may hold one: it is shown as `?`
+        whole = json.dumps(data, ensure_ascii=False).encode(errors="replace")
+        data = _JSON.decode(whole.decode())
     return data
 
 
