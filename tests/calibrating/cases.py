@@ -12,7 +12,7 @@ from pluto_fleet.calibration.commands import read_flights
 from pluto_fleet.calibration.fit import calibrated
 from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.calibration.report import NAMES
-from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion, varied
 from tests.calibrating.flights import surveyed
 
 SHARE = 0.95
@@ -83,4 +83,4 @@ def fitted(case: int) -> tuple[Motion, Calibration]:
             speed=chance.uniform(0.3, 1.0),
             seed=case,
         )
-        return truth, calibrated([read_flights(path)], said)
+        return varied(truth, case), calibrated([read_flights(path)], said)

@@ -111,7 +111,8 @@ class Descent:
         if traffic is not None and traffic.ground.below(drone.id, drone.home) is None:
             return []  # another stands there
         step = 0.0 if traffic is None else traffic.step
-        ways = ways_home(self._airspace, drone, telemetry.location, telemetry.landed, step)
+        here = self._pilots.place(drone.id)
+        ways = ways_home(self._airspace, drone, here, telemetry.landed, step)
         kind = drone.category
         enough = telemetry.battery_level * kind.endurance
         return [way for way in ways if self._course(drone, way).seconds < enough]
@@ -169,8 +170,7 @@ class Descent:
     def _stretch(self, drone: str) -> Section:
         """Return a drone's next stretch, from where it is: it may have been stopped on the way."""
         (first, last), one = self._at[drone], self._plan.courses[drone]
-        telemetry = self._pilots.telemetry[drone]
-        here = telemetry.location
+        telemetry, here = self._pilots.telemetry[drone], self._pilots.place(drone)
         first = max(first, one.piece_at(here, first, last) - 1)
         return one.stretch(here, telemetry.landed, first, last)
 

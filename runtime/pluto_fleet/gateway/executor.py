@@ -381,11 +381,16 @@ class Executor:
 
     def _start(self, drone: str, height: float) -> tuple[list[Point], bool]:
         """Return where a drone is, where it will be after its take-off, and whether it must take off."""
-        telemetry = self._controls.telemetry[drone]
-        here = telemetry.location
-        if not telemetry.landed:
+        here = self.place(drone)
+        if not self._controls.telemetry[drone].landed:
             return [here], False
         return [here, (here[0], here[1], height)], True
+
+    def place(self, drone: str) -> Point:
+        """Return where a drone is, by what it was told, so that no way depends on a few centimetres."""
+        if self._traffic is not None:
+            return self._traffic.place(drone)
+        return self._controls.telemetry[drone].location
 
     def _key(self, drone: str) -> int:
         return FLEET + 1 + self._drones[drone].index

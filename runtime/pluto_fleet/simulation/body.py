@@ -10,12 +10,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
 from operator import is_
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import DroneReport
 from ..shared.alone.faults import Drawn, befell
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.motion import CLIMB_SPEED, Spread
+from ..shared.domain.motion import CLIMB_SPEED, Spread, varied
 from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import Charge, Leg, resting
 from ..shared.hooks.plain_data import item_data, item_of, point_of
@@ -50,6 +51,9 @@ def simulated(app: App, fleet: FleetData) -> list[SimulatedDrone]:
     ]
 
 
+HEIGHTS = 0.025
+"""Metres by which heights vary, from leg to leg: their standard deviation, where durations vary, too."""
+
 Due = tuple[float, "Failure | None"]
 """When something happens by itself, and what; None: it touches down."""
 
@@ -64,9 +68,13 @@ class Body:
     """The state of one drone. It is its own telemetry."""
 
     def __init__(self, drone: SimulatedDrone, clock: Callable[[], float], seed: int = 0) -> None:
-        self.drone, self._clock, self.model = drone, clock, drone.category.motion
+        self.drone, self._clock = drone, clock
+        self.model = varied(drone.category.motion, seed)
         self.spread = Spread(seed, drone.id)
         """What the spread of its durations is drawn from."""
+        self._heights = Random(f"{seed}/{drone.id}/heights")
+        self._above = 0.0
+        """How much higher than it should be it says that it is."""
         self.key: Key = FLEET + 1 + drone.index
         self.down: FlightFailed | None = None
         """The failure for which it takes no commands, if any."""
@@ -101,6 +109,12 @@ class Body:
 
     @property
     def location(self) -> Point:
+        """Where it says that it is: it does not keep its height to the centimetre."""
+        x, y, z = self.place
+        return x, y, z + min(1.0, z) * self._above
+
+    @property
+    def place(self) -> Point:
         """Where it is."""
         now = self._clock()
         self.settle(now)
@@ -189,6 +203,8 @@ class Body:
     def move(self, target: Point, now: float, leaves: float, arrives: float) -> None:
         """Fly straight to a point, from a time on until another."""
         smooth = self.model.smooth
+        if self.model.spread:
+            self._above = max(-3.0, min(3.0, self._heights.gauss(0.0, 1.0))) * HEIGHTS
         self._turn(Leg(self._leg.at(now), target, leaves, arrives, smooth), now)
 
     def halt(self, now: float) -> None:

@@ -163,7 +163,7 @@ class SimulatedNavigation:
         now = self._kernel.now
         body.check(now)
         if body.landed:
-            x, y, _ = body.location
+            x, y, _ = body.place
             body.lift_off(now)
             body.check(now)  # a fault at take-off leaves it on the ground
             motion, up = body.model, body.model.climb(height, body.drone.category.speed)
@@ -173,7 +173,7 @@ class SimulatedNavigation:
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         body = self._in_the_air(drone)
-        seconds = body.model.leg(dist(body.location, target), body.drone.category.speed)
+        seconds = body.model.leg(dist(body.place, target), body.drone.category.speed)
         command = f"to fly to {place(target)}"
         await self._move(body, target, (0.0, seconds, body.model.settles), command)
 
@@ -198,8 +198,8 @@ class SimulatedNavigation:
             await self._pass(body, seconds, f"to {action}")
             problem = f"{drone} could not do it" if body.fails_to_act else None
         if problem is not None:
-            raise failed(f"{action} failed", problem, body.location)
-        value = self._world.gives(action, parameters, body.location, self._kernel.now)
+            raise failed(f"{action} failed", problem, body.place)
+        value = self._world.gives(action, parameters, body.place, self._kernel.now)
         aboard = item if action == PICK else None if action == RELEASE else body.carries
         if self.record is not None:
             deed = WorldAction(
@@ -225,7 +225,7 @@ class SimulatedNavigation:
         """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
         if body.fails_to_act:
-            raise failed("the action failed", f"{drone} could not do it", body.location)
+            raise failed("the action failed", f"{drone} could not do it", body.place)
         await self._pass(body, inf, "to hover")
 
     async def read(self, drone: str, name: str) -> float:
@@ -233,7 +233,7 @@ class SimulatedNavigation:
         body = self._in_the_air(drone)
         if name in body.settings:
             return body.settings[name]
-        return self._world.measure(name, body.location, self._kernel.now)
+        return self._world.measure(name, body.place, self._kernel.now)
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Store a value under this name."""
@@ -258,7 +258,7 @@ class SimulatedNavigation:
         body = self.bodies[drone]
         body.check(self._kernel.now)
         if not body.landed:
-            x, y, z = body.location
+            x, y, z = body.place
             times = 0.0, body.model.sink(z, body.drone.category.speed), body.model.landing
             body.touch_down(await self._move(body, (x, y, 0.0), times, "to land"))
 
@@ -340,7 +340,7 @@ class SimulatedNavigation:
         body = self.bodies[drone]
         body.check(self._kernel.now)
         if body.landed:
-            where = place(body.location)
+            where = place(body.place)
             reason = f"{drone} is on the ground at {where}: it must take off first"
             raise FlightFailed(Failure.REFUSED, reason)
         return body

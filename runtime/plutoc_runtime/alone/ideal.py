@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import BUILT_IN, PICK, RELEASE
 from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
-from ..domain.motion import CLIMB_SPEED, Spread
+from ..domain.motion import CLIMB_SPEED, Spread, varied
 from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
@@ -35,7 +35,7 @@ class IdealDrone(KnownState):
     """The state of one drone, initially in its dock."""
 
     def __init__(self, entry: DroneData, category: Category, clock: Clock, seed: int) -> None:
-        super().__init__(clock, entry.home, category.motion)
+        super().__init__(clock, entry.home, varied(category.motion, seed))
         self.id, self.home, self.category = entry.id, entry.home, category
         self.spread, self.settings, self.drawn = Spread(seed, entry.id), dict[str, float](), Drawn()
         self.down: FlightFailed | None = None  # why it takes no commands, if it takes none

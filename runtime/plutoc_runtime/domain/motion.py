@@ -24,6 +24,7 @@ SINKS = 0.5  # the share of its limit up to which a drone lands closely enough t
 Stage = tuple[tuple[float, float, float], float, float, float]
 """Where a leg ends, and the seconds before it, on it and after it."""
 _TAIL = 3.0  # standard deviations within which all durations lie
+_TAKE_OFFS = 10.0  # how much more what a take-off takes besides its climb varies than all else
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -33,7 +34,7 @@ class Motion:
     legs: str = "straight"
     """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s."""
     limit: float = 100.0  # metres per second that the position controller follows
-    take_off: float = 0.0  # seconds from the command until it leaves the ground
+    take_off: float = 0.0  # seconds of a take-off besides its climb
     settles: float = 0.0  # seconds after each leg in the air until it hovers at rest
     landing: float = 0.0  # seconds from the touch-down until it counts as landed
     pace: float = 1.0  # the factor of all durations of legs
@@ -101,6 +102,17 @@ class Motion:
             yield (x, y, 0.0), 0.0, self.sink(z, speed), self.landing
 
 
+def varied(motion: Motion, seed: int) -> Motion:
+    """Return how all drones move in the flight of a seed: not in two at quite the same pace."""
+    pace, rises = (_within(chance := Random(f"{seed}/motion")), _within(chance))
+    slower, later = 1.0 + motion.spread * pace, 1.0 + _TAKE_OFFS * motion.spread * rises
+    return replace(motion, pace=motion.pace * slower, take_off=motion.take_off * max(0.0, later))
+
+
+def _within(chance: Random) -> float:
+    return max(-_TAIL, min(_TAIL, chance.gauss(0.0, 1.0)))
+
+
 class Spread:
     """What one drone's durations are drawn from: the same in every run of a seed."""
 
@@ -113,7 +125,7 @@ class Spread:
         """Return how many standard deviations the next duration differs from the expected one."""
         if self._put_back:
             return self._put_back.pop()
-        return max(-_TAIL, min(_TAIL, self._random.gauss(0.0, 1.0)))
+        return _within(self._random)
 
     def factor(self, spread: float, begins: float | None = None) -> float:
         """Return by which factor the next duration differs from the expected one.
@@ -165,7 +177,7 @@ STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing 
 CRAZYFLIE = Motion(
     legs="smooth",
     limit=1.0,
-    take_off=0.3,
+    take_off=1.94,
     settles=0.15,
     landing=2.1,
     spread=0.01,

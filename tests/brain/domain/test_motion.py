@@ -28,6 +28,7 @@ from pluto_fleet.shared.domain.motion import (
     charged,
     charging,
     smoothly,
+    varied,
 )
 from pluto_fleet.shared.fleet.reach import flight_seconds
 from tests.library.files.an_app import APP
@@ -199,7 +200,6 @@ def test_a_flight_home_takes_off_first() -> None:
 
 NEAR, FAR = (1.0, 1.0, 1.2), (5.0, 1.0, 1.2)
 SPREAD = 0.1
-BETWEEN = CRAZYFLIE.flies(dist(NEAR, FAR), 0.5)
 MEASURES = BUILT_IN[MEASURE].seconds
 
 
@@ -219,8 +219,24 @@ def assert_spread(factors: Sequence[float]) -> None:
 
 def test_legs_vary_as_much_as_their_spread() -> None:
     """With all that is beside them, and what is done at their ends does not."""
-    taken = to_and_fro(replace(CRAZYFLIE.exact, spread=SPREAD))
-    assert_spread([(seconds - MEASURES) / BETWEEN for seconds in taken])
+    motion = replace(CRAZYFLIE.exact, spread=SPREAD)
+    between = varied(motion, 1).flies(dist(NEAR, FAR), 0.5)
+    assert_spread([(seconds - MEASURES) / between for seconds in to_and_fro(motion)])
+
+
+def test_flights_vary_in_their_pace_and_in_what_a_take_off_takes() -> None:
+    """All drones of one are alike; without a spread each flight is as expected."""
+    motion = replace(CRAZYFLIE.exact, spread=0.03)
+    flights = [varied(motion, seed) for seed in range(1000)]
+    for values, expected, spread in (
+        ([one.pace for one in flights], 1.0, 0.03),
+        ([one.take_off for one in flights], motion.take_off, 0.3 * motion.take_off),
+    ):
+        assert fmean(values) == pytest.approx(expected, abs=0.1 * spread)
+        assert pstdev(values) == pytest.approx(spread, rel=0.05)
+    assert varied(CRAZYFLIE.exact, 1) == CRAZYFLIE.exact
+    seconds = {to_and_fro(motion, seed, 1)[0] for seed in range(20)}
+    assert max(seconds) - min(seconds) > 0.5
 
 
 def test_durations_hang_on_the_seed_and_the_drone() -> None:

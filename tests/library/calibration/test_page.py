@@ -20,7 +20,7 @@ FLOWN = replace(
     CRAZYFLIE,
     pace=1.04,
     settles=0.42,
-    take_off=0.55,
+    take_off=2.2,
     landing=2.3,
     spread=0.02,
     action_spread=0.05,

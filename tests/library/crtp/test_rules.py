@@ -21,17 +21,18 @@ def test_it_takes_off_only_when_armed_and_answers_busy_before() -> None:
     assert bench.takeoff() == BUSY
     assert bench.arm()
     assert bench.takeoff() == 0
-    bench.passes(6.0)
+    bench.passes(12.0)
     assert bench.z == pytest.approx(1.0, abs=0.03)
     assert bench.has(FLYING) and bench.has(ACTIVE) and bench.has(DONE)
 
 
 def test_arming_is_over_three_seconds_after_it_has_landed() -> None:
     bench = hovering()
+    bench.passes(12.0)
     assert bench.land() == 0
-    bench.passes(2.1)
+    bench.passes(2.2)
     assert bench.z == 0.0 and not bench.has(ACTIVE) and bench.has(FLYING)
-    bench.passes(2.0)
+    bench.passes(1.9)
     assert bench.drone.info() == 0x20A
     bench.passes(2.8)
     assert bench.drone.info() == 0x20A

@@ -29,11 +29,12 @@ class Reservation:
 
     __slots__ = (
         *("_known", "_shape", "at", "box", "drone", "fails"),
-        *("moves", "points", "shape_box", "tail", "telemetry", "until"),
+        *("moves", "points", "shape_box", "slack", "tail", "telemetry", "until"),
     )
 
-    def __init__(self, drone: str, telemetry: Telemetry) -> None:
-        self.drone, self.telemetry = drone, telemetry
+    def __init__(self, drone: str, telemetry: Telemetry, slack: float = 0.0) -> None:
+        """`slack`: metres within which a drone counts as being where it was told to be."""
+        self.drone, self.telemetry, self.slack = drone, telemetry, slack
         self.moves = self.fails = False
         self.points: tuple[Point, ...] = ()
         """Its route; while it hovers, that point alone."""
@@ -59,7 +60,7 @@ class Reservation:
 
     def rests(self, tail: tuple[Point, ...], until: float) -> None:
         """Reserve the place where it hovers now."""
-        here = self.telemetry.location
+        here = self.place
         self.points, self.at, self.tail, self.until = (here,), 0, tail, until
         self.moves = self.fails = False
         self._widen()
@@ -69,6 +70,21 @@ class Reservation:
         self.points, self.at, self.tail = (self.telemetry.location,), 0, ()
         self.moves, self.fails = False, True
         self._widen()
+
+    @property
+    def place(self) -> Point:
+        """Where it is by what it was told, if it is near that: by few centimetres no way may differ.
+
+        After a take-off a drone is a hand's breadth too high for some seconds.
+        """
+        here = self.telemetry.location
+        leg = self.points[self.at : self.at + 2] or self.points[-1:]
+        if not self.slack or not leg or self.fails:
+            return here
+        told = nearest_on(leg[0], leg[-1], here)
+        if dist(told, here) <= self.slack:
+            return told
+        return (here[0], here[1], told[2]) if abs(told[2] - here[2]) <= self.slack else here
 
     def touches_down(self, now: float) -> bool:
         """Return whether it is landing, and nearly on the ground."""
@@ -93,10 +109,10 @@ class Reservation:
         return self._shape
 
     def _seen(self, now: float) -> tuple[Point, ...]:
-        here = self.telemetry.location
+        here = self.place
         if self.moves:
             return (here, *self.points[self.at + 1 :], *self.tail)
-        if self.fails or here[2] < self.points[0][2] - SINKS:
+        if self.fails or self.telemetry.location[2] < self.points[0][2] - SINKS:
             return here, (here[0], here[1], 0.0)
         return (here, *self.tail) if now < self.until else (here,)
 
@@ -109,6 +125,16 @@ def _widened(box: Box) -> Box:
 def part_way(a: Point, b: Point, part: float) -> Point:
     """Return the place on a straight way that has this part of it behind."""
     return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2] + part * (b[2] - a[2])
+
+
+def nearest_on(start: Point, end: Point, place: Point) -> Point:
+    """Return the point of a straight leg that is nearest to a place."""
+    if start == end:
+        return start
+    toward = [b - a for a, b in zip(start, end, strict=True)]
+    along = sum(w * (p - a) for w, p, a in zip(toward, place, start, strict=True))
+    part = along / sum(w * w for w in toward)
+    return part_way(start, end, min(1.0, max(0.0, part)))
 
 
 def ahead(shape: tuple[Point, ...], metres: float) -> tuple[Point, ...]:

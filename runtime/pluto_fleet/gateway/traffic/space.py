@@ -47,8 +47,14 @@ class Space:
     def claim(self, drone: str) -> Reservation:
         claim = self.claims.get(drone)
         if claim is None:
-            claim = self.claims[drone] = Reservation(drone, self._telemetry[drone])
+            slack = max(0.0, self._limit - self._apart) if self._is_real else 0.0
+            claim = self.claims[drone] = Reservation(drone, self._telemetry[drone], slack)
         return claim
+
+    def place(self, drone: str) -> Point:
+        """Return where a drone is, by what it was told, if it is there but for what is measured."""
+        claim = self.claims.get(drone)
+        return self._telemetry[drone].location if claim is None else claim.place
 
     def drop(self, drone: str) -> None:
         """Release all that a drone has reserved."""

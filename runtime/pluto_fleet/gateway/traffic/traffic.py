@@ -80,14 +80,14 @@ class Traffic:
         )
         self._space.changed = self._waiting.changed
         self._claims = self._space.claims
-        self.touches_down = self._space.touches_down
+        self.touches_down, self.place = self._space.touches_down, self._space.place
         self.lost, self.found = self._space.lost, self._space.found
         self._free: dict[str, None] = {}
         """The drones that have released space at this instant."""
         self.halted: dict[str, None] = {}
         """Drones that were stopped because another has failed, and continue by another route."""
         self._timer: Timer | None = None
-        self.ground = Ground(self._drones, self._telemetry, airspace, self.step)
+        self.ground = Ground(self._drones, self._telemetry, airspace, self.step, self.place)
         self.look_around()
 
     def join(self, drone: FleetDrone) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from itertools import chain, islice, pairwise
 from math import dist, hypot
@@ -188,8 +188,10 @@ class Ground:
         telemetry: Mapping[str, Telemetry],
         airspace: Airspace,
         step: float,
+        place: Callable[[str], Point],
     ) -> None:
-        self._drones, self._telemetry = drones, telemetry
+        """`place` returns where a drone in the air is, by what it was told."""
+        self._drones, self._telemetry, self._place = drones, telemetry, place
         self._airspace, self._step = airspace, step
 
     def below(self, drone: str, here: Point) -> Point | None:
@@ -224,13 +226,13 @@ class Ground:
 
     def way_down(self, drone: str) -> Section:
         """Return the best way to the ground; straight down if none is free."""
-        x, y, z = self._telemetry[drone].location
+        x, y, z = self._place(drone)
         straight = Section(drone, ((x, y, z), (x, y, 0.0)), False, True, aside=True)
         return next(self.ways_down(drone), straight)
 
     def ways_down(self, drone: str) -> Iterator[Section]:
         """Yield ways to where a drone that hovers can land: straight below first, its dock last, if it may."""
-        here, airspace, step = self._telemetry[drone].location, self._airspace, self._step
+        here, airspace, step = self._place(drone), self._airspace, self._step
         below, (x, y, z) = self.below(drone, here), here
         if below is not None:
             yield Section(drone, (here, below), False, True, aside=True)

@@ -58,7 +58,8 @@ def test_no_way_down_leads_through_a_no_fly_area() -> None:
     """A landing place beyond one is come to around it."""
     sky = Sky([(3.9, 5), (8, 5)], airspace=WALL)
     sky.put("cf2", (3.9, 5, 1.2))
-    ground = Ground({one.id: one for one in sky.drones}, sky.navigation.telemetry, WALL, 0.5)
+    drones = {one.id: one for one in sky.drones}
+    ground = Ground(drones, sky.navigation.telemetry, WALL, 0.5, sky.at)
     ways = list(ground.ways_down("cf2"))
     assert any(way.points[-1][0] > 6 for way in ways)
     legs = [leg for way in ways for leg in pairwise(way.points)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import dist, hypot
 
 import pytest
@@ -51,6 +52,28 @@ def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
     sky.link = sky.another().link(sky.epoch)
     assert sky.until(sky.gives("cf2", (9, 5, 1.2)), 40)
     assert sky.nearest >= APART + CRAZYFLIE.slack - 1e-6
+
+
+def test_a_few_centimetres_change_no_way() -> None:
+    """Each hovers some centimetres off; the one way that is free leads along below the ceiling."""
+    motion = replace(CRAZYFLIE.exact, spread=1e-9)
+    high = Airspace(size=(10, 10), cruise_height=1.6, ceiling=3.0)
+    sky = Sky(
+        [(1, 5), (5, 1), (5, 9)],
+        airspace=high,
+        slack=CRAZYFLIE.slack,
+        category=replace(ENDURING, motion=motion),
+    )
+    assert sky.until(sky.gives("cf3", (5, 5, 2.3)), 60)
+    assert sky.until(sky.gives("cf2", (5, 5, 1.6)), 60)
+    took, heights = [], []
+    for x in (2, 8) * 6:
+        began = sky.kernel.now
+        assert sky.until(sky.gives("cf1", (x, 5, 1.6)), 120)
+        took.append(sky.kernel.now - began)
+        heights.append(sky.at("cf1")[2])
+    assert max(heights) - min(heights) > 0.05
+    assert max(took[2:]) - min(took[2:]) < 0.3
 
 
 def test_of_two_with_the_same_target_the_second_comes_when_the_first_has_gone() -> None:
