@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from pluto_fleet.app import App
 from pluto_fleet.shared.domain.actions import Parameter
 from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.quantities import Type
@@ -12,7 +11,6 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.reach import problems, reckoned
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
-from tests.batteries import one_app
 from tests.kit import apps
 
 SCOUT = Category(name="scout", payload=0.01, flight_time=240.0, reserve=0.2)
@@ -28,7 +26,7 @@ def looking(seconds: float, takes: float | str | None = None) -> OwnAction:
     return OwnAction(name="look", hook=look, takes=takes, parameters=(span,))
 
 
-def app(action: OwnAction) -> App:
+def app(action: OwnAction) -> apps.App:
     return apps.app(apps.flow(attempts=1), categories=(SCOUT,), actions=[action])
 
 
@@ -75,10 +73,3 @@ def test_what_nobody_has_said_is_told() -> None:
     assert reckoned(app(looking(1.0, 9.0)), [mission]) == []
     (told,) = reckoned(app(looking(1.0)), [mission])
     assert told.startswith("look is reckoned with 5 s")
-
-
-@pytest.mark.parametrize("number", [41, 70, 75, 84, 88])
-def test_nothing_falls_with_actions_of_drawn_length(number: int) -> None:
-    """More by `python -m tests.batteries`."""
-    wrong, came = one_app(number)
-    assert not wrong and came["flights"] == 2
