@@ -13,6 +13,7 @@ from ..files.fleet import FleetFile, fleet_of, shared_by_air, too_fast
 from ..files.missions import missions_of
 from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems
+from ..files.plan_waits import waits
 from ..files.promise_check import impossible
 from ..files.reading import parsed, read, shortened, text_of
 from ..shared import output
@@ -88,7 +89,8 @@ def load(app: App, options: Options) -> LoadedPlan:
 
 def _of_day(options: Options) -> float:
     """Return at which time of day what is loaded is to be started."""
-    if options.command == "fly" and not options.dry_run:
+    is_now = options.command == "check" and options.start is None
+    if is_now or (options.command == "fly" and not options.dry_run):
         now = time.localtime()
         return now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
     return options.start or 0.0
@@ -138,6 +140,10 @@ _MOST_AREAS = 50
 """The most areas of which `check` says what they have become."""
 
 
+_MOST_WAITS = 50
+"""The most missions of which `check` says for what they wait."""
+
+
 def check(app: App, options: Options) -> int:
     """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
     if options.write is not None and os.path.lexists(options.write):
@@ -160,6 +166,11 @@ def check(app: App, options: Options) -> int:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:
         output.line(f"… and {counted(more, 'more area')}")
+    waiting = [*waits(plan.missions, _of_day(options))]
+    for sentence in waiting[:_MOST_WAITS]:
+        output.line(printable(sentence))
+    if (more := len(waiting) - _MOST_WAITS) > 0:
+        output.line(f"… and {more} more wait")
     if options.write is not None:
         _write(options.write, plan.missions_text)
     trips = sum(len(mission.trips) for mission in plan.missions)

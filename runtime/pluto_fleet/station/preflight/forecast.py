@@ -95,12 +95,13 @@ def readiness(question: Question, needs: Needs) -> list[Readiness]:
         kind, home = kinds[entries[one.id].category], entries[one.id].home
         wanted = needs.levels.get(one.id, kind.reserve)
         seconds = ready_in(kind, one.battery, wanted, docked=docked(one.at, home))
+        is_for_later = one.id in needs.why and one.id not in needs.levels
         why = one.out or _why_not(one, wanted, seconds, needs, docked=docked(one.at, home))
         found.append(
             {
                 "id": one.id,
                 "battery": one.battery if one.known else None,
-                "ready": why is None,
+                "ready": why is None or (one.out is None and is_for_later and not seconds),
                 "why": why,
                 "ready_in": None if one.out is not None else seconds,
                 "assumed": one.assumed,

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from ...flight.simulate import Sampling, simulate
 from ...shared.domain.errors import BadInput
 from ...shared.domain.status import COMPLETED
-from ...shared.fleet.reach import Reach, chain_of, miss_of
+from ...shared.fleet.reach import Lacks, Reach, chain_of, miss_of
 from ...trials.case import fresh
 from .rehearsal import FRAMES, MOST_CHAINS, Rehearsal, Waits
 
 if TYPE_CHECKING:
     from ...flight.outcome import SimulationResult
-    from ...shared.domain.model import Point, Trip
+    from ...shared.domain.model import Category, Point, Trip
     from ...shared.domain.trace import Event
     from .question import Question
 
@@ -69,7 +69,8 @@ class Needs(NamedTuple):
     """What drones need to fly any mission at first."""
 
     levels: Mapping[str, float]
-    """Of each drone: the least level of battery with which it can; infinite: it never can."""
+    """Of each drone: the least level of battery with which it can; infinite: it never can. None: it is
+    there for what comes later, or what an evaluator sends for."""
     why: Mapping[str, str]
     """Why those never can."""
 
@@ -218,8 +219,17 @@ def needs(question: Question) -> Needs:
             )
             some = [miss for miss in misses if miss is not None]
             if len(some) == len(chains):
-                why[entry.id] = min(some, key=lambda miss: (-miss.lacks, miss.by)).reason
+                nearest = min(some, key=lambda miss: (-miss.lacks, miss.by))
+                why[entry.id] = nearest.reason
+                if nearest.lacks is Lacks.ACTION and _may_follow(question, kinds[entry.category]):
+                    del levels[entry.id]  # it is there for what comes later
     return Needs(levels, why)
+
+
+def _may_follow(question: Question, kind: Category) -> bool:
+    """Return whether drones of a category can do what comes later: trips of the plan, or what an evaluator sends for."""
+    later = {trip.action for mission in question.missions for trip in mission.trips}
+    return any(map(kind.can, question.app.actions if question.app.evaluators else later))
 
 
 def _chains(question: Question) -> Iterator[list[Trip]]:

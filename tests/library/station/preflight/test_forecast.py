@@ -120,6 +120,21 @@ def test_a_drone_that_can_do_none_of_the_missions_says_why(tmp_path: Path) -> No
     assert cannot == ["scout cannot pick_item"] * 2
 
 
+@pytest.mark.parametrize("is_judged", [True, False])
+def test_who_can_only_do_what_an_evaluator_sends_for_is_ready_if_there_is_one(
+    is_judged: bool, tmp_path: Path
+) -> None:
+    """It says that it can do none of the missions all the same; a low battery still counts."""
+    asked = question(mission("mission-one", *handling("aa")))
+    asked = replace(
+        asked, app=replace(asked.app, evaluators={"find_blooms": len} if is_judged else {})
+    )
+    scouts = [one for one in answer(asked, tmp_path)["drones"] if one["why"] is not None]
+    assert [one["ready"] for one in scouts] == [is_judged] * 2
+    low = replace(asked, present=present(asked.fleet, 0.1))
+    assert not any(one["ready"] for one in answer(low, tmp_path)["drones"])
+
+
 def test_what_repeats_for_ever_has_no_end_and_says_so(tmp_path: Path) -> None:
     forecast = answer(question(mission("mission-one", trip(), repeat=True), runs=1), tmp_path)
     assert (forecast["median"], forecast["high"]) == (None, None)
