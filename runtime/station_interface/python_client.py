@@ -19,12 +19,10 @@ _HEAD = '''"""Every address of a station as a method; made by `python -m station
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, {typing}
+from typing import {typing}
 
+{imports}
 from .connection import Connection
-
-if TYPE_CHECKING:
-    {imports}
 
 
 class Calls(Connection):
@@ -42,7 +40,7 @@ def calls(addresses: Sequence[Address] = ADDRESSES) -> str:
         if (names := [name for name in _own(module) if _is_named(name, code)])
     ]
     typing = ", ".join(name for name in ("Any", "Literal") if _is_named(name, code))
-    head = _HEAD.format(imports="\n    ".join(imports), typing=typing)
+    head = _HEAD.format(imports="\n".join(imports), typing=typing)
     return formatted(head + methods)
 
 
@@ -114,10 +112,11 @@ def _call(address: Address, query: str, body: str) -> str:
         return f'return self._command("{address.path}", id, {body})'
     if isinstance(address.body, tuple):
         media = "media" if len(address.body) > 1 else f'"{address.body[0]}"'
-        call = f"self._sent({where}, {query}, body, {media})"
+        call = f"self._sent({where}, {query}, body, {media}, wanted={_answer(address)})"
     else:
         sent = [f"query={query}"] if address.query else []
         sent += [f"body={body}"] if body else []
+        sent.append(f"wanted={_answer(address)}")
         call = f"self._json({', '.join([where, *sent])})"
     return f"answer: {_answer(address)} = {call}\n        return answer"
 

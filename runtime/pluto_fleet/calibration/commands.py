@@ -14,7 +14,7 @@ from ..journal import errors
 from ..journal.facts import Event, check
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import quoted
+from ..shared.domain.text import bounded, quoted
 
 if TYPE_CHECKING:
     from ..journal.database import Row
@@ -116,12 +116,15 @@ def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:
             charge_time=float(facts.get("charge_time", 0.0)),
         )
     except (KeyError, TypeError, ValueError) as error:
-        said = f"{type(error).__name__}: {error}"
+        said = bounded(f"{type(error).__name__}: {error}", _LONGEST)
         raise BadInput(
             f"{path}: row {row} has a measurement that this pluto-fleet does not know ({said}): use a"
             " newer one"
         ) from None
 
+
+_LONGEST = 200
+"""Characters of what is wrong."""
 
 _NONE = (
     "no drone has flown in it, so there is nothing to calibrate with; what `simulate` flies is not"

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
+from ..station.wire import (
+    DroneHours,
+    FlightReport,
+    FlightSummary,
+    Forecast,
+    Laid,
+    LiveMessage,
+    MapData,
+    Place,
+    Replay,
+    SavedPlans,
+    Swept,
+    Ways,
+    Zone,
+)
+from ..station.wire_app import AppData, PlanData, PlanMission, PlanTrip
 from .connection import Connection
-
-if TYPE_CHECKING:
-    from ..station.wire import (
-        DroneHours,
-        FlightReport,
-        FlightSummary,
-        Forecast,
-        Laid,
-        LiveMessage,
-        MapData,
-        Place,
-        Replay,
-        SavedPlans,
-        Swept,
-        Ways,
-        Zone,
-    )
-    from ..station.wire_app import AppData, PlanData, PlanMission, PlanTrip
 
 
 class Calls(Connection):
@@ -30,7 +28,7 @@ class Calls(Connection):
 
     def app(self) -> AppData:
         """The app with its fields, actions and graph, and the fleet."""
-        answer: AppData = self._json("GET", "/api/app")
+        answer: AppData = self._json("GET", "/api/app", wanted=AppData)
         return answer
 
     def live(
@@ -41,12 +39,13 @@ class Calls(Connection):
             "GET",
             "/api/live",
             query={"flight": flight, "seen": seen, "log": log, "results": results},
+            wanted=LiveMessage,
         )
         return answer
 
     def plan(self) -> PlanData:
         """The plan, with all its problems."""
-        answer: PlanData = self._json("GET", "/api/plan")
+        answer: PlanData = self._json("GET", "/api/plan", wanted=PlanData)
         return answer
 
     def plan_file(self) -> str:
@@ -59,24 +58,26 @@ class Calls(Connection):
 
     def description(self) -> dict[str, object]:
         """This description."""
-        answer: dict[str, object] = self._json("GET", "/api/openapi.json")
+        answer: dict[str, object] = self._json("GET", "/api/openapi.json", wanted=dict[str, object])
         return answer
 
     def flights(self) -> list[FlightSummary]:
         """The flights of the past and that of now, the newest first."""
-        answer: list[FlightSummary] = self._json("GET", "/api/flights")
+        answer: list[FlightSummary] = self._json("GET", "/api/flights", wanted=list[FlightSummary])
         return answer
 
     def replay(self, *, flight: str, start: float = 0.0) -> Replay:
         """A part of what pages were shown of a flight."""
         answer: Replay = self._json(
-            "GET", "/api/flights/replay", query={"flight": flight, "start": start}
+            "GET", "/api/flights/replay", query={"flight": flight, "start": start}, wanted=Replay
         )
         return answer
 
     def report(self, *, flight: str) -> FlightReport:
         """What is to be said of a flight on paper."""
-        answer: FlightReport = self._json("GET", "/api/flights/report", query={"flight": flight})
+        answer: FlightReport = self._json(
+            "GET", "/api/flights/report", query={"flight": flight}, wanted=FlightReport
+        )
         return answer
 
     def mcap(self, *, flight: str) -> bytes:
@@ -85,12 +86,14 @@ class Calls(Connection):
 
     def hours(self) -> list[DroneHours]:
         """What each drone has flown, over all flights that are kept."""
-        answer: list[DroneHours] = self._json("GET", "/api/drones/hours")
+        answer: list[DroneHours] = self._json("GET", "/api/drones/hours", wanted=list[DroneHours])
         return answer
 
     def results(self, *, flight: str = "") -> list[object]:
         """What a flight has brought, with full values."""
-        answer: list[object] = self._json("GET", "/api/results.json", query={"flight": flight})
+        answer: list[object] = self._json(
+            "GET", "/api/results.json", query={"flight": flight}, wanted=list[object]
+        )
         return answer
 
     def results_table(self, *, flight: str = "") -> str:
@@ -112,7 +115,7 @@ class Calls(Connection):
     def replace_plan(self, *, revision: int, missions: list[PlanMission]) -> PlanData:
         """Replace the plan's missions, but for those that fly."""
         answer: PlanData = self._json(
-            "PUT", "/api/plan", body={"revision": revision, "missions": missions}
+            "PUT", "/api/plan", body={"revision": revision, "missions": missions}, wanted=PlanData
         )
         return answer
 
@@ -124,17 +127,20 @@ class Calls(Connection):
             {"revision": revision, "file": file},
             body,
             "application/toml",
+            wanted=PlanData,
         )
         return answer
 
     def add_example(self, *, revision: int) -> PlanData:
         """Add missions that this fleet can fly."""
-        answer: PlanData = self._json("POST", "/api/plan/example", body={"revision": revision})
+        answer: PlanData = self._json(
+            "POST", "/api/plan/example", body={"revision": revision}, wanted=PlanData
+        )
         return answer
 
     def map_data(self) -> MapData:
         """The places and zones that have names, north, and where the floor plan lies."""
-        answer: MapData = self._json("GET", "/api/map")
+        answer: MapData = self._json("GET", "/api/map", wanted=MapData)
         return answer
 
     def change_map(
@@ -157,6 +163,7 @@ class Calls(Connection):
                 "north": north,
                 "image": image,
             },
+            wanted=MapData,
         )
         return answer
 
@@ -165,13 +172,18 @@ class Calls(Connection):
     ) -> MapData:
         """Take a picture as the floor plan."""
         answer: MapData = self._sent(
-            "PUT", "/api/map/image", {"revision": revision, "name": name}, body, media
+            "PUT",
+            "/api/map/image",
+            {"revision": revision, "name": name},
+            body,
+            media,
+            wanted=MapData,
         )
         return answer
 
     def find_ways(self, *, ways: list[list[list[float]]]) -> Ways:
         """The ways that drones fly between pairs of places, around walls."""
-        answer: Ways = self._json("POST", "/api/ways", body={"ways": ways})
+        answer: Ways = self._json("POST", "/api/ways", body={"ways": ways}, wanted=Ways)
         return answer
 
     def sweep_area(
@@ -187,12 +199,13 @@ class Calls(Connection):
             "POST",
             "/api/plan/sweep",
             body={"polygon": polygon, "spacing": spacing, "height": height, "before": before},
+            wanted=Swept,
         )
         return answer
 
     def saved_plans(self) -> SavedPlans:
         """The plans and templates that are kept under names, and those that were deleted."""
-        answer: SavedPlans = self._json("GET", "/api/plans")
+        answer: SavedPlans = self._json("GET", "/api/plans", wanted=SavedPlans)
         return answer
 
     def save_plan(
@@ -209,24 +222,30 @@ class Calls(Connection):
             "/api/plans",
             query={"name": name},
             body={"by": by, "template": template, "replace": replace},
+            wanted=SavedPlans,
         )
         return answer
 
     def delete_plan(self, *, name: str) -> SavedPlans:
         """Put a plan that is kept into the trash."""
-        answer: SavedPlans = self._json("DELETE", "/api/plans", query={"name": name})
+        answer: SavedPlans = self._json(
+            "DELETE", "/api/plans", query={"name": name}, wanted=SavedPlans
+        )
         return answer
 
     def open_plan(self, *, name: str, revision: int, add: bool | None = None) -> PlanData:
         """Take a plan that is kept in place of what has not been started, or beside it."""
         answer: PlanData = self._json(
-            "POST", "/api/plans/open", body={"name": name, "revision": revision, "add": add}
+            "POST",
+            "/api/plans/open",
+            body={"name": name, "revision": revision, "add": add},
+            wanted=PlanData,
         )
         return answer
 
     def restore_plan(self, *, id: str | None = None) -> SavedPlans:
         """Take a plan out of the trash."""
-        answer: SavedPlans = self._json("POST", "/api/plans/restore", body={})
+        answer: SavedPlans = self._json("POST", "/api/plans/restore", body={}, wanted=SavedPlans)
         return answer
 
     def preflight(
@@ -247,6 +266,7 @@ class Calls(Connection):
                 "only_failed": only_failed,
                 "runs": runs,
             },
+            wanted=Forecast,
         )
         return answer
 

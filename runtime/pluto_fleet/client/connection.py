@@ -6,15 +6,33 @@ import json
 import secrets
 from collections.abc import Mapping
 from contextlib import closing
-from http.client import HTTPConnection, HTTPException, HTTPSConnection
+from http.client import (
+    HTTPConnection,
+    HTTPException,
+    HTTPResponse,
+    HTTPSConnection,
+    IncompleteRead,
+)
 from typing import Any
 from urllib.parse import parse_qs, quote, urlencode, urlsplit
 
+from ..process.untrusted import fits, parsed
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import quoted
+from ..shared.domain.text import bounded, printable, quoted
+from ..station.requests import Said
+from .timely import TimelyResponse
 
 JSON = "application/json"
 OK, CONFLICT = 200, 409
+
+LARGEST = 1024 * 1024 * 1024
+"""Bytes of an answer."""
+
+LARGEST_JSON = 64 * 1024 * 1024
+"""Bytes of an answer that is read as JSON."""
+
+LONGEST_SENTENCE = 10_000
+"""Characters of what a station says."""
 
 
 class Refused(BadInput):
@@ -43,7 +61,8 @@ class Connection:
     ) -> None:
         """`address` is as the station has printed it, which may have the token in it.
 
-        `who` is the name in the station's audit; `timeout` is in seconds.
+        `who` is the name in the station's audit; `timeout` is in seconds: an answer begins within it,
+        and comes at 10 kB a second at least.
         """
         parts = urlsplit(address)
         try:
@@ -69,31 +88,61 @@ class Connection:
         path: str,
         query: Mapping[str, object] | None = None,
         body: Mapping[str, object] | None = None,
+        *,
+        wanted: Any = Any,
     ) -> Any:
-        """Return an answer in JSON."""
+        """Return an answer in JSON, which is of the wanted type."""
         given = None if body is None else {key: one for key, one in body.items() if one is not None}
         sent = None if given is None else json.dumps(given).encode()
-        return json.loads(self._ask(method, path, query, sent, JSON))
+        return self._read(self._ask(method, path, query, sent, JSON, LARGEST_JSON), wanted)
 
     def _command(self, path: str, id: str | None, arguments: Mapping[str, object]) -> str:
         """Carry out a command, and return what was done."""
         body = {"id": id or secrets.token_hex(8), **arguments}
-        return str(self._json("POST", path, body=body)["said"])
+        said: str = self._json("POST", path, body=body, wanted=Said)["said"]
+        return said
 
     def _text(self, method: str, path: str, query: Mapping[str, object] | None = None) -> str:
         """Return an answer that is text."""
-        return self._bytes(method, path, query).decode()
+        try:
+            return self._bytes(method, path, query).decode()
+        except UnicodeDecodeError:
+            raise self._no_station("is no text") from None
 
     def _bytes(self, method: str, path: str, query: Mapping[str, object] | None = None) -> bytes:
         """Return an answer of any other kind."""
-        return self._ask(method, path, query, None, JSON)
+        return self._ask(method, path, query, None, JSON, LARGEST)
 
     def _sent(
-        self, method: str, path: str, query: Mapping[str, object], body: str | bytes, kind: str
+        self,
+        method: str,
+        path: str,
+        query: Mapping[str, object],
+        body: str | bytes,
+        kind: str,
+        *,
+        wanted: Any = Any,
     ) -> Any:
         """Send a body of another kind, and return the answer in JSON."""
         sent = body.encode() if isinstance(body, str) else body
-        return json.loads(self._ask(method, path, query, sent, kind))
+        return self._read(self._ask(method, path, query, sent, kind, LARGEST_JSON), wanted)
+
+    def _read(self, answer: bytes, wanted: Any) -> Any:
+        """Return the data of an answer, which anyone may give at that address."""
+        try:
+            data = parsed(answer)
+        except ValueError:
+            raise self._no_station("is no JSON") from None
+        if not fits(wanted)(data):
+            raise self._no_station("is not what this version of the client knows")
+        return data
+
+    def _no_station(self, what: str) -> BadInput:
+        return BadInput(f"what is answered at {self._where} {what}: is that a station?")
+
+    @property
+    def _where(self) -> str:
+        return f"{self._host}:{self._port}" if self._port else self._host
 
     def _ask(
         self,
@@ -102,27 +151,50 @@ class Connection:
         query: Mapping[str, object] | None,
         body: bytes | None,
         kind: str,
+        largest: int,
     ) -> bytes:
         where = f"{path}?{urlencode(query)}" if query else path
         headers = self._headers if body is None else {**self._headers, "Content-Type": kind}
         try:
             with closing(self._new(self._host, self._port, timeout=self._timeout)) as line:
+                line.response_class = TimelyResponse
                 line.request(method, where, body, headers)
                 answer = line.getresponse()
-                found = answer.read()
-        except (OSError, HTTPException) as error:
-            where = f"{self._host}:{self._port}" if self._port else self._host
-            raise BadInput(f"no station answers at {where}: {error}") from None
+                found = _bounded(answer, largest)
+        except (OSError, HTTPException, ValueError) as error:  # ValueError: in what is sent
+            said = printable(bounded(str(error) or type(error).__name__, LONGEST_SENTENCE))
+            raise BadInput(f"no station answers at {self._where}: {said}") from None
+        if found is None:
+            raise self._no_station(f"is larger than {largest // 2**20} MiB")
         if answer.status != OK:
             raise _refusal(answer.status, found)
         return found
 
 
+def _bounded(answer: HTTPResponse, largest: int) -> bytes | None:
+    """Return what is answered; None: it is larger."""
+    found = bytearray()
+    while piece := answer.read1(_AT_ONCE):
+        found += piece
+        if len(found) > largest:
+            return None
+    if answer.length:
+        raise IncompleteRead(bytes(found[:_SHOWN]), answer.length)
+    return bytes(found)
+
+
+_AT_ONCE, _SHOWN = 1024 * 1024, 100
+
+
 def _refusal(status: int, answer: bytes) -> Refused:
     try:
-        data = json.loads(answer)
-        if status == CONFLICT and "revision" in data:
+        data = parsed(answer)
+    except ValueError:
+        data = None
+    match data:
+        case {"revision": int()} if status == CONFLICT:
             return Outdated(data)
-        return Refused(status, data["said"])
-    except (ValueError, KeyError, TypeError):  # no station answers so: perhaps a proxy before it
-        return Refused(status, f"what is at this address answers {status}, and is no station")
+        case {"said": str(said)}:
+            return Refused(status, bounded(said, LONGEST_SENTENCE))
+    # no station answers so: perhaps a proxy before it
+    return Refused(status, f"what is at this address answers {status}, and is no station")

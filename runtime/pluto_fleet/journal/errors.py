@@ -8,7 +8,7 @@ from pathlib import Path
 
 from .. import __version__
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import counted, printable
+from ..shared.domain.text import bounded, counted, printable
 
 TROUBLE = (sqlite3.Error, UnicodeDecodeError)
 """The exceptions of the database; the second where it quotes damaged text."""
@@ -78,9 +78,13 @@ def in_use(path: Path, pid: int | None) -> JournalError:
 
 def of_another_app(path: Path, theirs: str, ours: str) -> JournalError:
     """The journal belongs to another app."""
+    called = printable(bounded(theirs, _LONGEST_NAME))
     return JournalError(
-        f"{path}: this is a journal of {theirs}, and this app is {ours}: use {theirs}"
+        f"{path}: this is a journal of {called}, and this app is {ours}: use {called}"
     )
+
+
+_LONGEST_NAME = 80
 
 
 def cannot_make(path: Path, error: Exception) -> JournalError:
@@ -212,12 +216,14 @@ def unfit(seq: int, error: ValueError) -> str:
 
 def unknown_drone(drone: str) -> str:
     """A mission has a drone that the fleet does not have."""
-    return f"a mission has the drone {printable(drone)}, which is not in its fleet"
+    name = printable(bounded(drone, _LONGEST_NAME))
+    return f"a mission has the drone {name}, which is not in its fleet"
 
 
 def does_not_follow(kind: str, error: Exception) -> str:
     """An event cannot come after those before it."""
-    return f"{printable(kind)} does not fit to what is said before it ({type(error).__name__})"
+    kind = printable(bounded(kind, _LONGEST_NAME))
+    return f"{kind} does not fit to what is said before it ({type(error).__name__})"
 
 
 def no_header() -> str:

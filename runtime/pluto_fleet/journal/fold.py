@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.actions import PICK, RELEASE
 from . import errors
-from .facts import check, snapshot_of
+from .facts import BEGUN, check, snapshot_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -490,7 +490,7 @@ def replayed(read: Read, header: Event | None = None) -> Records:
             if read.snapshot is not None:
                 records = Records(snapshot_of(read.snapshot))
             elif header is not None:
-                records.read(header)
+                records.read({"t": 0.0, **header, "event": BEGUN})
             for row in read.rows:
                 number = row.seq
                 for event in row.events:

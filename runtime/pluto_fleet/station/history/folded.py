@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 STEP = 0.5
 """Seconds between two frames in which drones only move."""
 
-MOST_STEPS = 200_000
-"""The most frames in which drones only move: in a longer flight than a day they are further apart."""
+MOST_STEPS = 50_000
+"""The most frames in which drones only move: in a flight of over seven hours they are further apart."""
 
 NOT_TOLD = "not known: this flight was not recorded"
 

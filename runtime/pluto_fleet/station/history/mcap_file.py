@@ -31,7 +31,7 @@ HOW_TO_INSTALL = (
 LARGEST = 1024 * 1024 * 1024
 """Bytes of a file, which is made in memory."""
 
-_SECOND = 1_000_000_000
+_SECOND, _LATEST = 1_000_000_000, 2**64 - 1
 _LEVELS = {"bad": 4, "info": 2, "good": 2, "hook": 2}
 """Foxglove's levels of a log: 2 is information, 4 an error."""
 
@@ -126,7 +126,7 @@ class _Writing:
             channel = self._channels[topic] = self._writer.register_channel(
                 topic, "json", self._schema(schema)
             )
-        at = self._begin + round(t * _SECOND)
+        at = min(max(self._begin + round(t * _SECOND), 0), _LATEST)
         if self._file.tell() > LARGEST:
             raise BadInput(f"the MCAP file would be larger than {LARGEST // 2**20} MiB")
         self._writer.add_message(channel, at, json.dumps(data, default=str).encode(), at)

@@ -1,6 +1,6 @@
 """Gives everything that reads journals and recordings files that were written to do harm.
 
-    python -m tests.hostile --files 2000
+    python -m tests.forged --files 2000
 
 Each must be read as far as it can be, or refused in a sentence. `--only N` makes that file again.
 """
@@ -17,21 +17,22 @@ from functools import cache
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
+from typing import Any
 
 from pluto_fleet.journal.fold import Records, replayed
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.time.told import Stuck
 from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.recording import Recording
-from tests.hostile.files import (
+from tests.forged.files import (
     TABLES,
     changed,
-    hostile_lines,
-    hostile_rows,
+    forged_lines,
+    forged_rows,
     write_journal,
     write_snapshot,
 )
-from tests.hostile.readers import FLIGHT, faults_of
+from tests.forged.readers import FLIGHT, faults_of
 from tests.kit import apps
 from tests.kit.campaign import Campaign
 from tests.kit.living import Living, enterable
@@ -42,7 +43,7 @@ OF_A_RECORDING = ("replay", "mcap", "console", "report")
 
 def main() -> int:
     """Try the files."""
-    campaign = Campaign("tests.hostile", __doc__)
+    campaign = Campaign("tests.forged", __doc__)
     campaign.draws("files", 1000)
     campaign.parse()
     for number, faults in campaign.each(one, campaign.numbers):
@@ -60,7 +61,7 @@ def one(number: int) -> list[str]:
 
 
 def _journal(random: Random, folder: Path) -> list[str]:
-    write_journal(kept(folder, FLIGHT), hostile_rows(random, _rows()), random)
+    write_journal(kept(folder, FLIGHT), forged_rows(random, _rows()), random)
     return list(faults_of(folder))
 
 
@@ -77,7 +78,7 @@ def _snapshot(random: Random, folder: Path) -> list[str]:
 
 
 def _recording(random: Random, folder: Path) -> list[str]:
-    recording_of(kept(folder, FLIGHT)).write_bytes(hostile_lines(random, _lines()))
+    recording_of(kept(folder, FLIGHT)).write_bytes(forged_lines(random, _lines()))
     return list(faults_of(folder, only=OF_A_RECORDING))
 
 
@@ -103,7 +104,7 @@ def _life(random: Random, folder: Path) -> list[str]:
 def _go_on(random: Random, living: Living) -> None:
     """Kill the brain, and begin another one, unless its journal is refused."""
     living.die()
-    changed_rows = hostile_rows(random, living.memory.rows)
+    changed_rows = forged_rows(random, living.memory.rows)
     living.memory.replace(changed_rows)
     read = living.memory.read()
     known = replayed(read)
@@ -128,7 +129,8 @@ def _lines() -> Sequence[bytes]:
         kept(path, FLIGHT)
         recording = Recording(path / "it", begun_at=1_700_000_000_000)
         frames = frames_of(past_of(path), FLIGHT)[:100]
-        missions, drones = {}, {}
+        missions: dict[str, Any] = {}
+        drones: dict[str, Any] = {}
         for frame in frames:
             missions |= {row["name"]: row for row in frame["missions"]}
             drones |= {row["id"]: row for row in frame["drones"]}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 import json
-import shutil
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
@@ -14,15 +13,13 @@ from pluto_fleet.calibration.command import main as calibrate
 from pluto_fleet.cli import main
 from pluto_fleet.flight.lives import reopen
 from pluto_fleet.flight.mission_status import records_in
-from pluto_fleet.journal.fold import replayed
 from pluto_fleet.report.report import report_of, waiting_lines
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.history.recorded import Recorded
 from pluto_fleet.station.results.flights import ResultsOfFlights
 from pluto_fleet.station.results.tables import cells, csv_text, geojson
 from tests.library.station.history.test_past import FARM, past_of
 
-FLIGHT = "hostile"
+FLIGHT = "forged"
 
 
 def readers(folder: Path) -> Iterator[tuple[str, Callable[[], object]]]:

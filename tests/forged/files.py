@@ -52,7 +52,7 @@ def changed(random: Random, data: Any) -> Any:
     return data
 
 
-def hostile_rows(random: Random, rows: Sequence[str]) -> list[str]:
+def forged_rows(random: Random, rows: Sequence[str]) -> list[str]:
     """Return the texts of a journal's rows, some of which are others."""
     found = list(rows)
     for _ in range(random.choice((1, 1, 3))):
@@ -86,7 +86,9 @@ def write_journal(path: Path, rows: Sequence[str], random: Random | None = None)
             values: list[Any] = [epoch, wall]
             if random is not None and random.random() < 0.02:
                 values[random.randrange(2)] = random.choice(COLUMNS)
-            checksum = row_checksum(seq, *values, text.encode("utf-8", "surrogatepass"))
+            checksum = row_checksum(
+                seq, values[0], values[1], text.encode("utf-8", "surrogatepass")
+            )
             sent: Any = text.encode("utf-8", "surrogatepass").decode("utf-8", "replace")
             database.execute(
                 "INSERT INTO journal VALUES (?, ?, ?, ?, ?)", (seq, *values, sent, checksum)
@@ -108,13 +110,16 @@ def write_snapshot(path: Path, seq: int, text: str, wall: Any = 1_700_000_000_00
         database.execute("INSERT OR REPLACE INTO snapshot VALUES (?, ?, ?, ?, ?)", row)
 
 
+_ENDLESS = (
+    "ALTER TABLE journal RENAME TO j2; CREATE VIEW journal AS WITH RECURSIVE n(i) AS (SELECT 1"
+    " UNION ALL SELECT i + 1 FROM n) SELECT i AS seq, 1 AS epoch, 1 AS wall, '' AS text, 1 AS checksum"
+    " FROM n"
+)
 TABLES = (
+    _ENDLESS,
     "CREATE TRIGGER t AFTER INSERT ON journal BEGIN DELETE FROM journal; END",
     "ALTER TABLE journal RENAME TO j2; CREATE VIEW journal AS SELECT * FROM j2",
     "DROP TABLE tip; CREATE VIEW tip AS SELECT 0 AS id, 1 AS seq, 1 AS epoch, 0 AS checksum",
-    "ALTER TABLE journal RENAME TO j2; CREATE VIEW journal AS WITH RECURSIVE n(i) AS"
-    " (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i AS seq, 1 AS epoch, 1 AS wall, '' AS text,"
-    " 1 AS checksum FROM n",
     "CREATE VIRTUAL TABLE v USING fts5(x)",
     "DROP TABLE snapshot; CREATE TABLE snapshot (seq)",
     "DELETE FROM journal",
@@ -123,7 +128,7 @@ TABLES = (
 """What makes other tables of a journal's."""
 
 
-def hostile_lines(random: Random, lines: Sequence[bytes]) -> bytes:
+def forged_lines(random: Random, lines: Sequence[bytes]) -> bytes:
     """Return a recording of these lines, some of which are others."""
     found = [json.loads(line) for line in lines]
     texts: list[str] = []
