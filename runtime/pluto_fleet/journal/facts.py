@@ -218,6 +218,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
         ),
         _DRONE,
     ),
+    "drone.drained": {"drone": str, "level": float},
     "drone.not_ready": {"drone": str, "reason": str},
     "drone.brought_back": {**_DRONE, "lost?": bool},
     "drone.joined": {"drone": str, "entry": dict[str, Any]},

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
-from ..shared.domain.text import duration, number, place, printable
+from ..shared.domain.text import duration, number, percent, place, printable
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -127,6 +127,9 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "drone.landed": lambda event: f"{event['drone']} has landed at {_at(event)}, where nobody asked it to",
     "drone.retired": lambda event: f"{event['drone']} is retired",
     "drone.brought_back": _brought_back,
+    "drone.drained": lambda event: (
+        f"{event['drone']} came home with {percent(event['level'])} of its battery, less than its reserve"
+    ),
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",

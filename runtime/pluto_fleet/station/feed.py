@@ -147,7 +147,7 @@ class Feed:
 
 _BAD = (
     *("trip.failed", "mission.judged", "mission.late", "mission.uncertain", "mission.held"),
-    "drone.lost",
+    *("drone.lost", "drone.drained"),
 )
 
 

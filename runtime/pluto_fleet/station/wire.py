@@ -478,7 +478,7 @@ class Incident(TypedDict):
     """Something that did not go as planned, or that was found."""
 
     time: float
-    kind: Literal["lost", "failed", "uncertain", "held", "late", "finding", "stopped"]
+    kind: Literal["lost", "drained", "failed", "uncertain", "held", "late", "finding", "stopped"]
     mission: str | None
     drone: str | None
     text: str

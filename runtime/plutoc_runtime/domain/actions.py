@@ -37,7 +37,7 @@ class Action:
     @property
     def seconds(self) -> float:
         """How many seconds plans reckon with, whatever a trip says."""
-        return self.takes if isinstance(self.takes, float) else RECKONED
+        return self.takes if isinstance(self.takes, (int, float)) else RECKONED
 
     def lasts(self, parameters: Mapping[str, Plain]) -> float:
         """Return how many seconds plans reckon with on a trip with these parameters."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import FlightFailed
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
-from ..domain.text import cut_off, printable
+from ..domain.text import LONGEST_REASON, cut_off, printable
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
 from .reach import LOW, docked
@@ -140,14 +140,16 @@ class Fleet:
 
     def _settle_here(self, drone: Drone) -> bool:
         """Make a healthy drone FREE, CHARGING or, if retired, OFFLINE; return False: it must go home for that."""
-        reserve, retired = drone.category.reserve, drone in self.retired
-        if drone.battery_level > reserve and not retired:
+        reserve, level, retired = drone.category.reserve, drone.battery_level, drone in self.retired
+        if level > reserve and not retired:
             self._become(drone, _FREE)
         elif not self._is_docked(drone):
             return False
         elif retired:
             self._become(drone, DroneStatus.OFFLINE)
         else:
+            if level < reserve - 0.005:  # less than that is chance
+                self._trace.note("drone.drained", drone=drone.id, level=level)
             self._become(drone, DroneStatus.CHARGING)
             self._free_after(drone.charging(reserve) + 0.001, drone)
         return True
@@ -215,7 +217,7 @@ class Fleet:
             self._lose(drone, self.lost_before[drone])
         elif home is not True:
             why = self._not_ready(drone, str(home or "")) if repaired else str(home or "")
-            reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
+            reason = cut_off(printable(reason), LONGEST_REASON) or "it could not be brought home"
             self._lose(drone, why or reason)
         else:
             self.unready.pop(drone, None)
@@ -250,7 +252,7 @@ class Fleet:
 
     def _not_ready(self, drone: Drone, why: str) -> str:
         """Note why a drone may not fly, if it says why, and return that."""
-        why = cut_off(printable(why), LONGEST)
+        why = cut_off(printable(why), LONGEST_REASON)
         if why and self._trace.live:
             self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         return why
@@ -297,4 +299,3 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
-LONGEST = 500  # characters of the reason why a drone is lost

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-import pytest
+from dataclasses import replace
 
+import pytest
+from tests.batteries import one_app
+
+from pluto_fleet.report.sentences import sentence_of
 from pluto_fleet.shared.domain.actions import Parameter
+from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Drone
+from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.reach import problems, reckoned
@@ -73,3 +79,27 @@ def test_what_nobody_has_said_is_told() -> None:
     assert reckoned(app(looking(1.0, 9.0)), [mission]) == []
     (told,) = reckoned(app(looking(1.0)), [mission])
     assert told.startswith("look is reckoned with 5 s")
+
+
+def test_a_reserve_that_was_broken_is_told() -> None:
+    """Drones are slower than they are reckoned with: such is chance, and so is traffic."""
+    on = replace(apps.fleet(), motion=replace(CRAZYFLIE, spread=0.2))
+    slow = moving(app(looking(96.0, 96.0)), on.motion)
+    told = []
+    for seed in range(10):
+        trip = apps.trip("A", 9.0, 3.0, action="look")
+        flown = apps.fly(slow, apps.mission("m", trip), on=on, seed=seed)
+        told += apps.events(flown, "drone.drained")
+    assert told
+    for event in told:
+        level = event["level"]
+        assert isinstance(level, float)
+        assert level < SCOUT.reserve
+        assert "less than its reserve" in (sentence_of(event) or "")
+
+
+@pytest.mark.parametrize("number", [41, 70, 75, 84, 88])
+def test_nothing_falls_with_actions_of_drawn_length(number: int) -> None:
+    """More by `python -m tests.batteries`."""
+    wrong, came = one_app(number)
+    assert not wrong and came["flights"] == 2

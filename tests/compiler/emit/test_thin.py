@@ -17,7 +17,7 @@ SMALLEST = "drugs_distribution"
 MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_300, 68, 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
 MOST_LINES_OF_ANY = 9_200
-LONGEST_FILE = 300
+LONGEST_FILE = 305
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}

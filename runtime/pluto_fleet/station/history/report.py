@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 _KINDS: Mapping[str, Any] = {
     "drone.lost": "lost",
+    "drone.drained": "drained",
     "trip.failed": "failed",
     "mission.uncertain": "uncertain",
     "mission.held": "held",

@@ -304,7 +304,7 @@ export interface GraphDrawing {
 /** Something that did not go as planned, or that was found. */
 export interface Incident {
   time: number;
-  kind: "lost" | "failed" | "uncertain" | "held" | "late" | "finding" | "stopped";
+  kind: "lost" | "drained" | "failed" | "uncertain" | "held" | "late" | "finding" | "stopped";
   mission: string | null;
   drone: string | null;
   text: string;
