@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from tests.batteries import one_app
 
 from pluto_fleet.report.sentences import sentence_of
 from pluto_fleet.shared.domain.actions import Parameter
@@ -17,6 +16,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.reach import problems, reckoned
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
+from tests.batteries import Judged, judged
 from tests.kit import apps
 
 SCOUT = Category(name="scout", payload=0.01, flight_time=240.0, reserve=0.2)
@@ -98,8 +98,7 @@ def test_a_reserve_that_was_broken_is_told() -> None:
         assert "less than its reserve" in (sentence_of(event) or "")
 
 
-@pytest.mark.parametrize("number", [41, 70, 75, 84, 88])
-def test_nothing_falls_with_actions_of_drawn_length(number: int) -> None:
+@pytest.mark.parametrize("number", [16, 24])
+def test_nothing_falls_with_actions_that_take_long(number: int) -> None:
     """More by `python -m tests.batteries`."""
-    wrong, came = one_app(number)
-    assert not wrong and came["flights"] == 2
+    assert judged(number) == Judged("kept")
