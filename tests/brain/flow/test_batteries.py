@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.report.sentences import sentence_of
 from pluto_fleet.shared.domain.actions import Parameter
 from pluto_fleet.shared.domain.app import moving
@@ -32,7 +33,7 @@ def looking(seconds: float, takes: float | str | None = None) -> OwnAction:
     return OwnAction(name="look", hook=look, takes=takes, parameters=(span,))
 
 
-def app(action: OwnAction) -> apps.App:
+def app(action: OwnAction) -> App:
     return apps.app(apps.flow(attempts=1), categories=(SCOUT,), actions=[action])
 
 
@@ -98,7 +99,7 @@ def test_a_reserve_that_was_broken_is_told() -> None:
         assert "less than its reserve" in (sentence_of(event) or "")
 
 
-@pytest.mark.parametrize("number", [16, 24])
+@pytest.mark.parametrize("number", [5, 12, 15])
 def test_nothing_falls_with_actions_that_take_long(number: int) -> None:
     """More by `python -m tests.batteries`."""
     assert judged(number) == Judged("kept")
