@@ -31,6 +31,8 @@ CAMPAIGNS = (
     "python -m tests.service",
     "python -m tests.generated",
     "python -m tests.fuzz --minutes 10",
+    "python -m tests.forged --files 2000",
+    "python -m tests.forged.floods",
     "python -m tests.soundness --random 2000",
     "python -m tests.soundness --loops 5000 --fly 50",
     "python -m tests.mutations",

@@ -12,6 +12,7 @@ import pytest
 from pluto_fleet.station.history.folder import recording_of
 from tests.forged.__main__ import one
 from tests.forged.files import DEEP, write_journal
+from tests.forged.floods import MOST_MEMORY, flooded
 from tests.forged.readers import FLIGHT, faults_of
 from tests.library.station.history.test_past import ROWS, frames_of, kept, past_of
 
@@ -81,3 +82,12 @@ def test_a_flight_of_years_is_replayed_in_time(tmp_path: Path) -> None:
     end = {"t": 9e8, **flew, "seconds": 9e8}
     write_journal(kept(tmp_path, FLIGHT), [json.dumps([header]), json.dumps([began, end])])
     assert list(faults_of(tmp_path, only=("replay", "report", "flights", "mcap"))) == []
+
+
+@pytest.mark.long
+def test_a_flooded_station_serves_its_page_and_stays_small() -> None:
+    """See `python -m tests.forged.floods`: by real processes, with a Stop at the end."""
+    figures = flooded(10.0)
+    assert figures.faults == []
+    assert figures.answers > 20 and figures.asked > 5
+    assert figures.memory < MOST_MEMORY

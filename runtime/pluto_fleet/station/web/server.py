@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 _LARGEST_MESSAGE = 64 * 1024
 _LARGEST_HEAD = 16 * 1024
 """The largest WebSocket message and head of a request, in bytes."""
-_BODY_WITHIN, _BYTES_A_SECOND = 10.0, 512 * 1024
+BODY_WITHIN, BYTES_A_SECOND = 10.0, 512 * 1024
 """The time-out of a body in seconds, and the rate that lengthens it for large ones."""
 _FIELDS = 16
 _LONGEST_REASON = 120
@@ -271,7 +271,7 @@ async def _body(most: int, headers: Mapping[str, str], scope: Scope, receive: Re
     body = bytearray()
     try:
         async with (
-            asyncio.timeout(max(_BODY_WITHIN, most / _BYTES_A_SECOND)),
+            asyncio.timeout(max(BODY_WITHIN, most / BYTES_A_SECOND)),
             aclosing(StarletteRequest(scope, receive).stream()) as stream,
         ):
             async for chunk in stream:

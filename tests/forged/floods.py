@@ -1,0 +1,212 @@
+"""Floods a running station with forged files and hostile clients, and counts what it costs the others.
+
+    python -m tests.forged.floods
+
+A station of its own process flies; beside it lie journals and recordings that were written to do harm, and everything that
+can be asked of them is asked; strangers hold connections, send halves, depths and lengths. Meanwhile its own
+page reads and commands, and a Stop is taken at the end. Printed are memory and the slowest answer to its page.
+"""
+
+from __future__ import annotations
+
+import gzip
+import http.client
+import json
+import socket
+import sys
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from itertools import cycle
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from pluto_fleet.journal.store import Store
+from pluto_fleet.station.history.folder import recording_of
+from tests.forged.files import DEEP, write_journal
+from tests.kit.campaign import Campaign
+from tests.kit.station import Station, Stations, until
+
+SECONDS = 20.0
+IDLE = 300
+"""Connections that say nothing: more than a station has."""
+MOST_MEMORY = 1024
+"""MiB that a station may have grown by: the largest file here has 64 MiB of text in a member."""
+BOMB = 60 * 1024 * 1024
+
+
+@dataclass
+class Figures:
+    """What it has come to."""
+
+    answers: int = 0
+    slowest: float = 0.0
+    memory: int = 0
+    """MiB at most, beside what it had before."""
+    asked: int = 0
+    """Of forged files."""
+    faults: list[str] = field(default_factory=list)
+
+
+def flooded(seconds: float = SECONDS) -> Figures:
+    """Flood a station for some seconds."""
+    with TemporaryDirectory() as folder:
+        stations = Stations(Path(folder))
+        station = stations.fresh("pm10")
+        try:
+            station.start()
+            return _flood(station, seconds)
+        finally:
+            station.end()
+            stations.end()
+
+
+def _flood(station: Station, seconds: float) -> Figures:
+    figures = Figures()
+    if not station.missions:
+        station.post("/api/plan/example", {"revision": station.get("/api/plan")["revision"]})
+    station.tell("start")
+    until(lambda: station.phase == "flying", "it flies")
+    journal = station.journals()[0]
+    ids = _forge(journal.parent)
+    before, over = _peak(station.pid), threading.Event()
+    floods = [*(_idle, _halves, _bodies), *[_asks(ids, figures)] * 2]
+    threads = [threading.Thread(target=one, args=(station.port, over)) for one in floods]
+    for thread in threads:
+        thread.start()
+    ends = time.monotonic() + seconds
+    while time.monotonic() < ends:
+        asked = time.monotonic()
+        station.now()
+        station.get("/api/plan")
+        figures.answers += 2
+        figures.slowest = max(figures.slowest, time.monotonic() - asked)
+        time.sleep(0.1)
+    station.tell("stop", how="land")
+    over.set()
+    for thread in threads:
+        thread.join()
+    figures.memory = _peak(station.pid) - before
+    if "Traceback" in station.said():
+        figures.faults.append(station.said())
+    figures.faults += [str(one["trouble"]) for one in station.audit() if "trouble" in one]
+    return figures
+
+
+def _forge(folder: Path) -> list[str]:
+    """Write files beside a journal; return the ids of their flights."""
+    header = json.dumps([{"t": 0.0, "event": "journal.begun", "app": "pm10", "sim": True}])
+    head = b'{"recording": 1, "begun_at": 7}\n'
+    lists = "[]," * (BOMB // 3) + "[]"
+    recordings = {
+        "bomb": gzip.compress(b"[" * BOMB) * 5,
+        "lists": gzip.compress(f"[{lists}]\n".encode()),
+        "deep": gzip.compress(head + DEEP.encode()),
+        "junk": gzip.compress(head + b'{"log": 1}\n' * 1_000_000),
+        "torn": gzip.compress(head + b'{"t": 1, "drones": [1]}\n' * 1_000)[:-9],
+    }
+    rows = {
+        "text": json.dumps([{"t": 1, "event": "log", "text": "x" * BOMB}]),
+        "parts": '[{"t": 1, "event": "log", "text": "", "a": [' + lists + "]}]",
+        "late": json.dumps([{"t": 9e8, "event": "brain.began", "epoch": 1}]),
+        "nested": DEEP,
+    }
+    for id in (*recordings, *rows):
+        path = folder / f"{id}.journal"
+        Store.create(path, {"event": "journal.begun"}).close()
+        write_journal(path, [header, rows[id]] if id in rows else [header])
+        if id in recordings:
+            recording_of(path).write_bytes(recordings[id])
+    return [*recordings, *rows]
+
+
+def _peak(process: int) -> int:
+    status = Path(f"/proc/{process}/status").read_text()
+    [line] = [line for line in status.splitlines() if line.startswith("VmHWM")]
+    return int(line.split()[1]) // 1024
+
+
+def _asks(ids: list[str], figures: Figures) -> Callable[[int, threading.Event], None]:
+    """Ask everything of the forged flights, one after the other."""
+    asks = (
+        *("flights/replay", "flights/report", "flights/mcap", "flights", "drones/hours"),
+        *("console.txt", "results.csv", "results.json"),
+    )
+
+    def ask(port: int, over: threading.Event) -> None:
+        for id, what in cycle([(id, what) for id in ids for what in asks]):
+            if over.is_set():
+                return
+            line = http.client.HTTPConnection("127.0.0.1", port, timeout=120)
+            with suppress(OSError, http.client.HTTPException):
+                line.request("GET", f"/api/{what}?flight={id}&start=0", headers={"X-Pluto": "1"})
+                answer = line.getresponse()
+                answer.read()
+                figures.asked += 1
+                if answer.status >= 500 and answer.status != 503:
+                    figures.faults.append(f"{what} of {id}: {answer.status}")
+            line.close()
+
+    return ask
+
+
+def _idle(port: int, over: threading.Event) -> None:
+    lines: list[socket.socket] = []
+    while not over.wait(0.01):
+        with suppress(OSError):
+            lines.append(socket.create_connection(("127.0.0.1", port), 1))
+        if len(lines) > IDLE:
+            lines.pop(0).close()
+    for line in lines:
+        line.close()
+
+
+def _halves(port: int, over: threading.Event) -> None:
+    """Begin requests, and never end them."""
+    lines: list[socket.socket] = []
+    while not over.wait(0.05):
+        with suppress(OSError):
+            line = socket.create_connection(("127.0.0.1", port), 1)
+            line.sendall(
+                b"POST /api/start HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 999999\r\n"
+            )
+            lines.append(line)
+        if len(lines) > 100:
+            lines.pop(0).close()
+    for line in lines:
+        line.close()
+
+
+def _bodies(port: int, over: threading.Event) -> None:
+    """Send bodies that are too deep, too long, or no JSON."""
+    bodies = cycle([DEEP[:100_000].encode(), b"x" * 2_000_000, b'{"id": 1e999}', b"\xff" * 1000])
+    while not over.wait(0.02):
+        line = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
+        with suppress(OSError, http.client.HTTPException):
+            line.request(
+                "POST",
+                "/api/pause",
+                next(bodies),
+                {"X-Pluto": "1", "Content-Type": "application/json"},
+            )
+            line.getresponse().read()
+        line.close()
+
+
+def main() -> int:
+    """Flood one, and say what it has cost."""
+    campaign = Campaign("tests.forged.floods", __doc__)
+    campaign.option("--seconds", type=float, default=SECONDS)
+    figures = flooded(campaign.parse().seconds)
+    for fault in dict.fromkeys(figures.faults):
+        campaign.found(fault)
+    return campaign.over(
+        f"{figures.answers} answers to its own page, the slowest after {figures.slowest:.1f} s;"
+        f" {figures.asked} questions about forged files; {figures.memory} MiB more at most"
+    )
+
+
+if __name__ == "__main__":
+    sys.exit(main())
