@@ -27,6 +27,7 @@ from .flow.mission import Core
 from .flow.restore import Recording, Restorer
 from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
 from .hooks.plain_data import value_data
+from .time.hours import Hours
 from .time.kernel import FLEET
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
 from .trips.flight import Limits
@@ -55,14 +56,17 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        `motion` is how they move; `midnight` is how many seconds after midnight the app has started.
+        `motion` is how they move; `began` is when the app has started, in seconds since 1970, `zone` says
+        which hour that is, and `drift` is as `tell` takes it.
         With `recorded` in it, the events say all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
         app = moving(app, Motion(**fleet.get("motion", {})))
         self._app, recorded = app, fleet.get("recorded", False)
-        self._kernel = kernel = ToldTime(hooks, fleet.get("midnight", 0.0))
+        of_day = Hours(fleet.get("began", 0.0), fleet.get("zone", "UTC"))
+        self._kernel = kernel = ToldTime(hooks, of_day)
+        kernel.drift = fleet.get("drift", 0.0)
         self._events: list[Event] = []
         self._states: dict[str, MissionState] = {}
         results = ResultStore()
@@ -147,7 +151,8 @@ class Brain:
 
         `{"done": id, "value": …}` or `{"failed": id, "failure": …, "reason": …}` for an order,
         `{"telemetry": {drone: {"leg" or "at", "battery", "landed"}}}` for drones, `{"hook": number}`
-        for a hook that took its time, `{"durable": count}` for events that are on the disk.
+        for a hook that took its time, `{"durable": count}` for events that are on the disk, `{"drift":
+        seconds}` when the clock of the hours has gone on so much more than `now` since the app began.
         """
         if "telemetry" in message:
             self._kernel.now = now
@@ -160,6 +165,8 @@ class Brain:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.hook_ended, message)
         elif "durable" in message:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._recording.durable, message)
+        elif "drift" in message:
+            self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.drifted, message["drift"])
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""

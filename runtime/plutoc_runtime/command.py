@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from .domain.app import SEAM, needs_library
 from .domain.errors import BadInput
 from .domain.status import Status
-from .domain.text import counted, duration, printable
+from .domain.text import counted, duration, printable, quoted
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
@@ -27,10 +27,21 @@ if TYPE_CHECKING:
 
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 _EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
-_EXTRAS |= dict.fromkeys(("--jobs", "--start"), "")
+_EXTRAS["--jobs"] = ""
 """What needs the library, and with which of its extras."""
 _WORDS = [*_EXTRAS, "check", "simulate", "--version"]
-_WORDS += ["--fleet", "--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
+_WORDS += [
+    "--start",
+    "--date",
+    "--zone",
+    "--fleet",
+    "--seed",
+    "--no-spread",
+    "--fail",
+    "--until",
+    "--trace",
+    "--json",
+]
 _WORLD = "each drone alone in the air"
 
 
@@ -123,6 +134,7 @@ def _checked(app: App, options: Any) -> int:
     from .alone.simulate import default_fleet, simulate
     from .domain.app import moving
     from .fleet.reach import idle_actions, problems, reckoned
+    from .time.hours import Hours, beginning
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -131,6 +143,8 @@ def _checked(app: App, options: Any) -> int:
     fleet = load_fleet(options.fleet, app) if options.fleet else default_fleet(app)
     if options.no_spread:
         fleet = replace(fleet, motion=fleet.motion.exact)
+    if options.command == "simulate":
+        fleet = replace(fleet, **beginning(options.date, options.start, options.zone))
     app = moving(app, fleet.motion)
     missions = load_missions(options.missions, app, fleet.airspace)
     forever = options.command == "check" or options.until is not None
@@ -147,10 +161,10 @@ def _checked(app: App, options: Any) -> int:
         return 0
     seed, faults, until = options.seed, Faults(**options.fail), options.until
     outcome = simulate(app, missions, fleet, seed=seed, faults=faults, until=until, on_event=None)
-    return _told(app.name, outcome, options)
+    return _told(app.name, outcome, options, Hours(fleet.began, fleet.zone).start)
 
 
-def _told(name: str, outcome: Outcome, options: Any) -> int:
+def _told(name: str, outcome: Outcome, options: Any, start: str) -> int:
     from .alone.simulate import outcome_data
     from .domain.trace import dumped
 
@@ -160,8 +174,11 @@ def _told(name: str, outcome: Outcome, options: Any) -> int:
         except (OSError, ValueError) as error:
             raise BadInput(f"{options.trace}: the trace cannot be written: {error}") from None
     if options.json:
-        print(dumped({**outcome_data(name, options.seed, outcome), "world": _WORLD}))
+        when = {"start": start} if start else {}
+        print(dumped({**outcome_data(name, options.seed, outcome), **when, "world": _WORLD}))
     else:
+        if start:
+            print(f"starts at {start}")
         print("\n".join(map(printable, _report(outcome))))
     statuses = {mission["status"] for mission in outcome.standing["missions"].values()}
     return 1 if outcome.given_up or Status.FAILED.value in statuses else 0
@@ -181,6 +198,30 @@ def _report(outcome: Outcome) -> Iterator[str]:
     drones = f"{counted(len(drones), 'drone')}, {outcome.crashed} crashed"
     yield f"{done} in {duration(outcome.duration)} ({flights}; {drones})"
     yield f"flown with {_WORLD}; with pluto-fleet they keep apart"
+
+
+def add_beginning(parser: ArgumentParser, default: str) -> None:
+    """Add the flags that say when a plan is started, and by the hours of which zone."""
+    from .domain.fields import time_of_day
+    from .domain.quantities import typed
+    from .time.hours import day_of, zone_of
+
+    def quoting(read: Callable[[str], Any], keeps: bool = False) -> Callable[[str], Any]:
+        def reading(text: str) -> Any:
+            try:
+                return text if (found := read(text)) is None or keeps else found
+            except ValueError as error:
+                raise ValueError(f"{quoted(text)} {error}") from None
+
+        return typed(reading)
+
+    add = parser.add_argument
+    hour = f"at this time of day; default: {default}"
+    add("--start", metavar="HH:MM", type=quoting(time_of_day), help=hour)
+    day = "on this day, which may have 23 or 25 hours; default: one of 24 hours"
+    add("--date", metavar="YYYY-MM-DD", type=quoting(day_of), help=day)
+    zone = "by the hours of this zone, such as Europe/Rome; default: with --date, this computer's"
+    add("--zone", metavar="ZONE", type=quoting(zone_of, keeps=True), help=zone)
 
 
 def _parser(app: App) -> ArgumentParser:
@@ -211,6 +252,7 @@ def _parser(app: App) -> ArgumentParser:
     )
     add("--no-spread", action="store_true", help="let all take exactly as long as expected")
     add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
+    add_beginning(simulate, "midnight")
     add("--until", metavar="TIME", type=typed(time_from), help='stop then, such as "2 h"')
     add("--trace", metavar="FILE", type=Path, help="write every event there, as a JSON object")
     add("--json", action="store_true", help="print one JSON object instead")

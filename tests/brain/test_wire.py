@@ -73,7 +73,7 @@ def test_an_example_flies_over_a_wire_as_without(example: Example) -> None:
 
 MISSION = {"name": "1", "index": 0, "fields": {}}
 TRIP = {"name": "1", "index": 0, "fields": {}, "source": None, "parameters": {}, "item": None}
-FLEET: Data = {"after_trip": "home", "max_airborne": None, "silent": False, "midnight": 0.0}
+FLEET: Data = {"after_trip": "home", "max_airborne": None, "silent": False, "began": 0.0}
 DONE = {"value": None}
 FAILED = {"failure": "UNKNOWN", "reason": ""}
 NEWS = {"at": [1.0, 0.5, 0.0], "battery": 1.0, "landed": True}

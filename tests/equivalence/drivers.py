@@ -53,14 +53,6 @@ class _ToTheLastBit(JumpingLoop):
             self.now = self.whens[0]
 
 
-class _Midnight(RealTime):
-    """Its day begins when it does, as a simulation's."""
-
-    @property
-    def time_of_day(self) -> float:
-        return self.now % 86_400
-
-
 def in_real_time(
     app: App,
     missions: Sequence[Mission[Any]],
@@ -76,7 +68,7 @@ def in_real_time(
     loop = _ToTheLastBit()
     heard = on_event or (lambda _: None)
     try:
-        task = loop.create_task(flown(_Midnight, app, missions, fleet, heard, seed, faults, until))
+        task = loop.create_task(flown(RealTime, app, missions, fleet, heard, seed, faults, until))
         try:
             return loop.run_until_complete(task)
         except RuntimeError:  # nothing is left to wait for

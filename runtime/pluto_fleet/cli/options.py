@@ -5,17 +5,17 @@ from __future__ import annotations
 from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..arguments import whole_number
 from ..shared import output
 from ..shared.alone.faults import FAULTS, shares
+from ..shared.command import add_beginning
 from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
-from ..shared.domain.fields import time_of_day
 from ..shared.domain.quantities import time_from, typed
-from ..shared.domain.text import quoted
 from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
 from .size_flags import Deadline, add_size
 
@@ -43,6 +43,8 @@ class Options:
     write: Path | None = None
     until: float | None = None
     start: float | None = None
+    date: date | None = None
+    zone: str | None = None
     fail: dict[str, float] = field(default_factory=dict)
     trace: Path | None = None
     plot: Path | None = None
@@ -134,7 +136,7 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     add_size(size, typed(time_from))
     check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
     _files(check)
-    _start(check, "check", "what is promised by a time of day is not checked")
+    add_beginning(check, "what is promised by a time of day is not checked")
     check.add_argument(
         "--write",
         metavar="P.toml",
@@ -237,22 +239,6 @@ def _chance(parser: ArgumentParser, only: str = "") -> None:
     )
 
 
-def _time_of_day(text: str) -> float:
-    try:
-        return time_of_day(text.strip())
-    except ValueError as error:
-        raise ValueError(f"{quoted(text)} {error}") from None
-
-
-def _start(parser: ArgumentParser, does: str, default: str) -> None:
-    parser.add_argument(
-        "--start",
-        metavar="HH:MM",
-        type=typed(_time_of_day),
-        help=f"{does} a plan that is started at this time of day; default: {default}",
-    )
-
-
 def _jobs(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--jobs",
@@ -288,7 +274,7 @@ def _simulation(parser: ArgumentParser) -> None:
         type=typed(time_from),
         help='stop at this simulated time, such as "2 h"',
     )
-    _start(parser, "simulate", "midnight")
+    add_beginning(parser, "midnight")
     parser.add_argument(
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
     )

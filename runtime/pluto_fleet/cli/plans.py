@@ -21,6 +21,7 @@ from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
 from ..shared.fleet.reach import idle_actions, reckoned
+from ..shared.time.hours import Hours, beginning
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -57,8 +58,7 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
-    if options.start is not None:
-        fleet = replace(fleet, midnight=options.start)
+    fleet = replace(fleet, **beginning(options.date, options.start, options.zone))
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
@@ -74,7 +74,7 @@ def load(app: App, options: Options) -> LoadedPlan:
     if not options.supervised:  # its supervisor has said so
         warnings = [*look_alikes(missions, fleet.drones)]
         if options.command != "check":
-            warnings += impossible(missions, app, fleet, _of_day(options))
+            warnings += impossible(missions, app, fleet, _hours(fleet, options))
         for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
@@ -87,13 +87,13 @@ def load(app: App, options: Options) -> LoadedPlan:
     )
 
 
-def _of_day(options: Options) -> float:
-    """Return at which time of day what is loaded is to be started."""
-    is_now = options.command == "check" and options.start is None
+def _hours(fleet: FleetFile, options: Options) -> Hours:
+    """Return the hours from the start of what is loaded."""
+    said = (options.start, options.date, options.zone) != (None, None, None)
+    is_now = options.command == "check" and not said
     if is_now or (options.command == "fly" and not options.dry_run):
-        now = time.localtime()
-        return now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
-    return options.start or 0.0
+        return Hours(time.time(), "")
+    return Hours(fleet.began, fleet.zone)
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -156,7 +156,9 @@ def check(app: App, options: Options) -> int:
     ]
     for sentence in doubts:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
-    broken = impossible(plan.missions, plan.app, plan.fleet, options.start)
+    known = (options.start, options.date, options.zone) != (None, None, None)
+    hours = _hours(plan.fleet, options) if known else None
+    broken = impossible(plan.missions, plan.app, plan.fleet, hours)
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
         return 1

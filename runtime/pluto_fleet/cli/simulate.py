@@ -20,6 +20,7 @@ from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
+from ..shared.time.hours import Hours
 from ..trials.case import fresh
 from .plans import LoadedPlan, load
 
@@ -57,6 +58,9 @@ def simulate(app: App, options: Options) -> int:
 
 def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> int:
     watch = _watcher(options, len(plan.missions), progress)
+    start = Hours(plan.fleet.began, plan.fleet.zone).start
+    if start and not options.json:
+        output.line(f"starts at {start}")
     with trace_file(options.trace) as write:
 
         def listen(event: Event) -> None:
@@ -74,7 +78,8 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
             raise halt.error from None
         progress.clear()
         if options.json:
-            output.line(dumped(simulation_data(app.name, options.seed, outcome)))
+            when = {"start": start} if start else {}
+            output.line(dumped({**simulation_data(app.name, options.seed, outcome), **when}))
         else:
             output.line()
             for line in report(app, outcome, plan.fleet.apart):

@@ -16,6 +16,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType, time_of_day
 from ..shared.domain.text import counted, duration
 from ..shared.domain.trace import dumped
+from ..shared.time.hours import DAY
 from ..sizing.answer import Answer, sized
 from ..sizing.batteries import swapping
 from ..sizing.bounds import Rule, usual_runs
@@ -34,8 +35,6 @@ if TYPE_CHECKING:
 
 FOR_A_MISSION, AND_MORE = 4, 4
 """Drones for each mission, and some more, that are tried by default: one flies, the others charge."""
-
-DAY = 86_400.0
 
 
 def size(app: App, options: Options) -> int:

@@ -16,11 +16,13 @@ from ..shared.domain.fields import FieldType, time_of_day
 from ..shared.domain.model import AfterTrip
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.fleet.reach import chain_of, flight_seconds, stops_of
-from ..shared.flow.promises import DAY, kept_from
+from ..shared.flow.promises import kept_from
+from ..shared.time.hours import DAY
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.model import Category, Mission, Point, Trip
+    from ..shared.time.hours import Hours
     from .fleet import FleetFile
 
 _SLACK = 1e-6
@@ -40,18 +42,18 @@ class _Flight:
 
 
 def impossible(
-    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, of_day: float | None = None
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, hours: Hours | None = None
 ) -> list[str]:
     """Return a sentence for each promise that no order of flights can keep.
 
-    `of_day`: when they are started, in seconds after midnight; None: that is not known.
+    `hours` from their start on; None: it is not known when that is.
     """
     if not any(one.promises for one in missions):
         return []
     bounds = _Bounds(app, fleet)
     flights = {one.name: bounds.flights(one) for one in missions}
-    if of_day is not None:
-        missions = [replace(m, promises=kept_from(m.promises, 0.0, of_day)) for m in missions]
+    if hours is not None:
+        missions = [replace(m, promises=kept_from(m.promises, hours)) for m in missions]
     named = {one.name: one for one in missions}
     order = TopologicalSorter({one.name: one.promises.get("after", ()) for one in missions})
     found, ends = [*_in_vain(missions, app)], dict[str, float]()

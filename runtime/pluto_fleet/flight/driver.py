@@ -55,6 +55,8 @@ class Driver:
         self._next_at: float | None = None
         self.halted = False
         """Whether the brain is not called any more."""
+        self.drift: Callable[[], float | None] = _no_drift
+        """Returns how far the clock of the hours has drifted; None: as far as before."""
         self.pumped: Callable[[], object] = _nothing
         """Called when the brain has been told, and has said, all that there was."""
         self.done: Future[float] = Future()
@@ -114,13 +116,24 @@ class Driver:
         self._next = self._next_at = None
         if not self.halted:
             self.look()
+            self.ask_for_the_hour()
             self._brain.advance(self._kernel.now)
             self.pump()
+
+    def ask_for_the_hour(self) -> None:
+        """Tell the brain if the clock of the hours has moved."""
+        drift = self.drift()
+        if drift is not None:
+            self.tell({"drift": drift})
 
     def look(self) -> None:
         """Tell the brain where the drones are: hooks may look between two of its calls."""
         if not self.halted and (motions := self._motions()):
             self._brain.tell({"telemetry": motions}, self._kernel.now)
+
+
+def _no_drift() -> None:
+    """Say that the clock has not moved."""
 
 
 def _nothing() -> None:

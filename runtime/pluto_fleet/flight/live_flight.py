@@ -20,6 +20,7 @@ from ..journal.errors import JournalError
 from ..journal.writer import Writer
 from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
+from ..process.wall_clock import WallClock
 from ..shared.domain.errors import BadInput, Cancelled
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET
@@ -55,6 +56,7 @@ class LiveFlight:
         self._setting, self._store = setting, store
         self._loop = asyncio.get_running_loop()
         self._kernel = RealTime(setting.speed, begin)
+        self._clock = WallClock(self._kernel, records.clock)
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
         self._stops: Stops | None = None
@@ -75,7 +77,7 @@ class LiveFlight:
         fleet = with_joined(setting.app, setting.fleet, self._records.joined)
         self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
         link.on_telemetry(self._seen)
-        hooks = RealHooks(kernel)
+        hooks, clock = RealHooks(kernel), self._clock
         self.life = life = RecordedFlight(
             setting.app,
             fleet,
@@ -87,8 +89,9 @@ class LiveFlight:
             listeners=(self._count,),
             watcher=setting.tell,
             hooks=hooks,
-            midnight=(kernel.time_of_day - kernel.time()) % 86_400,
+            hours={"began": clock.began, "drift": clock.drift},
         )
+        life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
         link.on_flown(life.flown)
         life.patient, life.carried_home = setting.patient, setting.sim
@@ -195,6 +198,17 @@ class LiveFlight:
                 self._store.look()
             except JournalError as failure:
                 self._unwritable(failure)
+            if self.life is not None and self._clock.moved():
+                self._kernel.post(self.life.driver.ask_for_the_hour)
+
+    def _drifted(self) -> float | None:
+        """Return how far the clock of the hours has drifted, and record it, if that is news."""
+        self._clock.moved()
+        life, drift = self.life, self._clock.drift
+        if life is None or not life.is_set_out or life.records.clock["drift"] == drift:
+            return None
+        life.note("clock.moved", by=drift - life.records.clock["drift"], drift=drift)
+        return drift
 
     def _unwritable(self, failure: JournalError) -> None:
         """Bring everything down, and say why: the journal cannot be written any more."""

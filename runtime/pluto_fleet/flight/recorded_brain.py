@@ -52,16 +52,17 @@ class RecordedBrain:
         listeners: Sequence[Listener] = (),
         watcher: Listener | None = None,
         hooks: HookRunner | None = None,
-        midnight: float = 0.0,
+        hours: Mapping[str, float] | None = None,
     ) -> None:
         """`watcher` is called with an event only when it is durable, `listeners` at once.
 
-        `midnight`: the seconds between the midnight before the app's start and the start.
+        `hours`: when the app first `began`, in seconds since 1970, and the `drift` of this computer's clock since.
         """
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
         self.recorder = Recorder(kernel, sink, records)
+        self.hours = hours or {}
         self.brain = app.new_brain(
-            {**fleet_data(fleet), "recorded": True, "midnight": midnight},
+            {**fleet_data(fleet), "recorded": True, "zone": "", **self.hours},
             space=fleet.airspace,
             hooks=hooks,
         )

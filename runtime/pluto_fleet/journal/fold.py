@@ -60,6 +60,8 @@ class Records:
         """The drones that were lost and repaired, and are not back yet."""
         self.joined: list[Record] = self.data.setdefault("joined", [])
         """The drones that have joined the fleet, in their order, each as in a fleet file."""
+        self.clock: Record = self.data.setdefault("clock", {"began": None, "drift": 0.0})
+        """When the app first began, by the clock of the hours, and how far that has drifted since."""
         self.lost: dict[str, Record] = self.data.setdefault("lost", {})
         """The drones that no trip may have before a person has looked after them: why, and where
         each was when it was lost."""
@@ -181,16 +183,16 @@ def _delayed(_: Records, record: Record, event: Fact) -> None:
     record["at"], record["delay"] = event["resumes_at"], [place, event["over"], event["begins"]]
 
 
-def _allocated(_: Records, record: Record, event: Fact) -> None:
+def _allocated(records: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
     if record["delay"] is not None:
         place, over, begins = record["delay"]
         record["waited"].append(place)
         record["delay"] = None
         if record["first_start"] is None:
-            record["first_start"] = max(over, begins)
+            record["first_start"] = max(over + records.clock["drift"], begins)
     if record["first_start"] is None:
-        record["first_start"] = event["t"]
+        record["first_start"] = event["t"] + records.clock["drift"]
     record["at"] = event["resumes_at"]
 
 
@@ -356,6 +358,12 @@ def _began(records: Records, event: Fact) -> None:
         shift_delays(records, float(event["t"]) - float(records.data["stopped"]))
     records.data["stopped"] = None
     records.data["lives"] += 1
+    if "began" in event:
+        records.clock.update(began=event["began"], drift=event["drift"])
+
+
+def _clock_moved(records: Records, event: Fact) -> None:
+    records.clock["drift"] = event["drift"]
 
 
 def _stopped(records: Records, event: Fact) -> None:
@@ -468,6 +476,7 @@ _MISSION: dict[str, Callable[[Records, Record, Fact], None]] = {
 _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
     "journal.begun": _inherited,
     "brain.began": _began,
+    "clock.moved": _clock_moved,
     "stopped": _stopped,
     "commanded": _commanded,
     "drone.joined": _joined,

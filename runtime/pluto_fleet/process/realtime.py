@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import time
 from collections.abc import Callable
 from functools import partial
 from math import inf
@@ -50,12 +49,6 @@ class RealTime(Kernel):
         self._disarm()
         if not self._draining:
             self._arm()
-
-    @property
-    def time_of_day(self) -> float:
-        """Seconds since midnight, local time."""
-        local = time.localtime()
-        return local.tm_hour * 3600.0 + local.tm_min * 60.0 + local.tm_sec
 
     def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
         """Schedule a call; hooks may do so between the kernel's own events."""

@@ -61,7 +61,8 @@ def living_row(
     `fleet` returns why no drone flies its trip yet.
     """
     status, todo, at = Status(record["status"]), record["todo"], blocks_of(where["block"])
-    opens = None if at or status is not Status.UNEXECUTED else record["promises"].get("opens")
+    moments = {name: where.get(name, known) for name, known in record["promises"].items()}
+    opens = None if at or status is not Status.UNEXECUTED else moments.get("opens")
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
     why = partial(fleet, name, todo)
@@ -71,7 +72,7 @@ def living_row(
     # once its trips are done, a block has yet to decide
     stands = Status.STANDBY if status in ENDED else status
     row = _row(name, record, stands, str(record["reason"]), trips, [*at], wait)
-    row["drone"], row["until"] = where["drone"], until
+    row["drone"], row["until"], row["due"] = where["drone"], until, moments.get("deadline")
     return row
 
 

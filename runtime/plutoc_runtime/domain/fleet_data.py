@@ -65,5 +65,8 @@ class FleetData:
     after_trip: AfterTrip = AfterTrip.NEXT
     max_airborne: int | None = None
     motion: Motion = STRAIGHT
-    midnight: float = 0.0  # seconds from midnight to the start of a simulation
+    began: float = 0.0
+    """When a simulation begins, in seconds since 1970."""
+    zone: str = "UTC"
+    """The zone whose hours count then, as "Europe/Rome"; empty: that of this computer."""
     world: WorldData | None = None  # None: a simulation makes up a world from its seed

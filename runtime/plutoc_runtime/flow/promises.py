@@ -1,13 +1,16 @@
 """What a plan promises of missions: when they may begin, after which others, and by when they end.
 
 As plain data: `deadline` and `opens` are moments, `after` the names of missions. A moment is a number, seconds
-since the mission was started, or a text, a time of day; once it was started, seconds since the app was.
+since the mission was started, or a text, a time of day. Once it was started all are seconds since the app was; those
+of which `hours` has the text are so by the clock, the others by the app's own time.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from datetime import timedelta
 from functools import partial
+from math import inf, nextafter
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
@@ -20,6 +23,7 @@ from ..time.kernel import EventKind, mission_key
 if TYPE_CHECKING:
     from ..domain.model import Mission
     from ..domain.status import Status
+    from ..time.hours import Hours
     from .mission import Core, MissionState
     from .run import Run
 
@@ -34,18 +38,19 @@ class Promises:
         self.waiting: dict[str, Future[str]] = {}
         """Of each mission that waits for others: set to which has ended, when it must look again."""
         self._waited_for: dict[str, list[str]] = {}
+        core.kernel.on_drift = self._watch_all
 
     def start(self, mission: Mission[Any]) -> None:
         """Fix a new mission's promises in seconds since the app started, and record them."""
-        clock = self._core.kernel
-        mission.promises = kept_from(mission.promises, clock.now, clock.time_of_day)
+        kernel = self._core.kernel
+        mission.promises = kept_from(mission.promises, kernel.hours, kernel.now, kernel.drift)
         if self._core.trace.live:
             self._core.trace.note("mission.promised", mission=mission.name, **mission.promises)
         self.watch(mission)
 
     def watch(self, mission: Mission[Any]) -> None:
         """Notice when a mission is late."""
-        mission.deadline = deadline = mission.promises.get("deadline")
+        mission.deadline = deadline = moment_of(mission, "deadline", self._core.kernel.drift)
         kernel, key = self._core.kernel, mission_key(mission.index)
         if deadline is None or mission.late:
             return
@@ -54,7 +59,16 @@ class Promises:
         else:  # what ends at that very instant has ended before
             kernel.at(deadline, EventKind.ALLOCATE, key, partial(self._look, mission))
 
+    def _watch_all(self) -> None:
+        """Called when the clock has moved: what is due at an hour is so at another time of the app."""
+        for state in self._states.values():
+            if state.mission.promises.get("hours") and not state.ended:
+                self.watch(state.mission)
+
     def _look(self, mission: Mission[Any]) -> None:
+        due = moment_of(mission, "deadline", self._core.kernel.drift)
+        if due is not None and due > self._core.kernel.now:
+            return  # the clock was set back
         if not (mission.late or self._states[mission.name].ended):
             mission.late = True
             if (trace := self._core.trace).live:
@@ -81,9 +95,13 @@ class Promises:
                 if (ended := await must_look) in names:
                     self._refuse_vain(ended)
             self._refuse_vain(name)
-        kernel, opens = self._core.kernel, mission.promises.get("opens", 0.0)
-        if opens > kernel.now:
-            await kernel.sleep(opens - kernel.now, EventKind.CLOCK, mission_key(mission.index))
+        kernel = self._core.kernel
+
+        def opens() -> float:
+            return moment_of(mission, "opens", kernel.drift) or 0.0
+
+        if opens() > kernel.now:
+            await kernel.before(Future(), opens, EventKind.CLOCK, mission_key(mission.index))
         return await self._core.app.flow(run)
 
     def _refuse_vain(self, name: str) -> None:
@@ -96,24 +114,34 @@ class Promises:
             raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
 
 
-DAY = 86_400.0
+def moment_of(mission: Mission[Any], which: str, drift: float) -> float | None:
+    """Return when its window `opens`, or its `deadline`, in the app's own time; None: it has none."""
+    moment: float | None = mission.promises.get(which)
+    by_hour = which in mission.promises.get("hours", ())
+    return moment - drift if moment is not None and by_hour else moment
 
 
-def kept_from(promises: Mapping[str, Any], now: float, of_day: float) -> Mapping[str, Any]:
-    """Return promises of a mission that starts now, at this time of day, in seconds since the app started.
+def kept_from(
+    promises: Mapping[str, Any], hours: Hours, now: float = 0.0, drift: float = 0.0
+) -> Mapping[str, Any]:
+    """Return promises of a mission that starts now, in seconds since the app started.
 
-    A window that is open now has opened, though that was earlier this day; one that closes now opens tomorrow.
+    A window that is open now has opened, though that was earlier; what is due at this hour is so tomorrow. `drift`
+    is by how much the clock of the hours is ahead of the app's own time.
     """
-    deadline, opens = promises.get("deadline"), promises.get("opens")
-    found: dict[str, Any] = {**promises}
-    if deadline is not None:  # what is due at this hour is so tomorrow
-        found["deadline"] = now + (_until(deadline, of_day) or DAY * isinstance(deadline, str))
-    if opens is not None:
-        found["opens"] = now + _until(opens, of_day)
-    if isinstance(deadline, str) and isinstance(opens, str):
-        found["opens"] = found["deadline"] - _until(deadline, time_of_day(opens))
-    return found
-
-
-def _until(moment: float | str, of_day: float) -> float:
-    return (time_of_day(moment) - of_day) % DAY if isinstance(moment, str) else moment
+    found, said, day = {**promises}, dict[str, str](), None
+    for name in ("deadline", "opens"):
+        moment = promises.get(name)
+        if not isinstance(moment, str):
+            if moment is not None:
+                found[name] = now + moment
+            continue
+        said[name], hour, clock = moment, time_of_day(moment), now + drift
+        if name == "deadline":
+            clock = nextafter(clock, inf)
+        if day is not None:  # of a window that closes on that day
+            day -= (hour >= time_of_day(said["deadline"])) * timedelta(days=1)
+        else:
+            day = hours.day(hour, clock)
+        found[name] = hours.on(day, hour)
+    return {**found, "hours": said} if said else found

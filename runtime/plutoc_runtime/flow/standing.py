@@ -18,6 +18,7 @@ from ..domain.guard import unless_by_a_person
 from ..domain.status import Status, TripStatus
 from ..domain.text import said
 from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
+from .promises import moment_of
 
 if TYPE_CHECKING:
     from types import CodeType, FrameType
@@ -96,6 +97,7 @@ def _trip(app: App, trip: Trip) -> Data:
 
 def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
     """Return where a mission is in its graph, which drone it has, and until when it is delayed."""
+    drift = state.core.kernel.drift
     flight, drone = state.in_flight, state.allocated or state.carrier
     if state.allocated is None and flight is not None:
         drone = flight.flier
@@ -105,7 +107,9 @@ def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
         "drone": drone and drone.id,
         "flies": flight is not None,
         "allocated": state.allocated is not None,
-        "until": state.delay and max(state.delay[1:]),
+        "until": state.delay and max(state.delay[1], state.delay[2] - drift),
+        "opens": moment_of(state.mission, "opens", drift),
+        "deadline": state.mission.deadline,
     }
 
 
@@ -158,7 +162,8 @@ def fleet_data(fleet: FleetData) -> Data:
         "after_trip": fleet.after_trip.value,
         "max_airborne": fleet.max_airborne,
         "motion": asdict(fleet.motion),
-        "midnight": fleet.midnight,
+        "began": fleet.began,
+        "zone": fleet.zone,
     }
 
 

@@ -6,7 +6,8 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any, Protocol, TypeVar
 
 from .future import Future, Watcher
-from .kernel import Kernel
+from .hours import Hours
+from .kernel import EventKind, Kernel, Key
 
 T = TypeVar("T")
 
@@ -34,10 +35,16 @@ class HookRunner(Protocol):
 class ToldTime(Kernel):
     """The kernel of a brain. Without a runner hooks are called at once, in virtual time."""
 
-    def __init__(self, runner: HookRunner | None = None, midnight: float = 0.0) -> None:
-        """`midnight`: the seconds between the midnight before the start and the start."""
+    def __init__(self, runner: HookRunner | None = None, hours: Hours | None = None) -> None:
         super().__init__()
-        self.runner, self._midnight = runner, midnight
+        self.runner = runner
+        self.hours = hours or Hours()
+        """When hours come, in seconds since the start by the clock."""
+        self.drift = 0.0
+        """By how much the clock has gone on more than `now` since the start: it was set, or the computer slept."""
+        self.on_drift: Callable[[], object] | None = None
+        self._waits: dict[Future[Any], None] = {}
+        """Of each that waits for an hour: set when it must ask again."""
         self._inside = runner is None
         """Whether the brain is being called: without a runner, nothing happens between two calls."""
         self.hooks: dict[int, Future[None]] = {}
@@ -69,9 +76,36 @@ class ToldTime(Kernel):
         return max(self.now, self.runner.now())
 
     @property
-    def time_of_day(self) -> float:
-        """Seconds since midnight."""
-        return (self._midnight + self.now) % 86_400
+    def clock(self) -> float:
+        """Seconds since the start, by the clock that says which hour it is."""
+        return self.now + self.drift
+
+    def drifted(self, drift: float) -> None:
+        """Take over how the clock stands: whatever waits for an hour asks again when that is."""
+        self.drift = drift
+        if self.on_drift is not None:
+            self.on_drift()
+        for woken in self._waits:
+            woken.set(None)
+
+    async def before(
+        self, future: Future[Any], moment: Callable[[], float], kind: EventKind, key: Key
+    ) -> bool:
+        """Wait until the future is set or a moment comes, and return whether it was set.
+
+        The moment is asked for again each time that the clock has moved.
+        """
+        while True:
+            woken = Future[Any]()
+            self._waits[woken] = None
+            future.watch(woken.set)
+            try:
+                await self.within(woken, moment(), kind, key)
+            finally:
+                del self._waits[woken]
+                future.unwatch(woken.set)
+            if future.is_set or not self.now < moment():
+                return future.is_set
 
     def post(self, call: Callable[..., T], *args: object) -> T:
         """Make a call within the kernel, for a hook that runs outside of it."""

@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class VirtualTime(ToldTime):
-    """A kernel that runs by itself. Its day begins at midnight."""
+    """A kernel that runs by itself."""
 
     def run(self, done: Future[T], until: float | None = None) -> bool:
         """Run until this future is set, or until a time; return whether it was set."""

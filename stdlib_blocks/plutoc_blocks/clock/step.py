@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from math import ceil, isfinite
 from typing import TYPE_CHECKING, Any
 
+from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.hours import DAY
 from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
     from plutoc_runtime.flow.run import Run
-
-DAY = 86_400.0
 
 
 async def wait_for_time(
@@ -31,42 +30,45 @@ async def wait_for_time(
         waited = state.waited is not None and place in state.waited
         over = arrival if waited else arrival + (delay or 0.0)
         begins = _begins(run)
-    until = max(over, begins)
-    if until > arrival:
+
+    def until() -> float:
+        nonlocal begins
+        if begins and abs(begins - kernel.clock) > DAY:  # or the clock was wrong by days
+            begins = _begins(run)
+        return max(over, begins - kernel.drift)
+
+    if until() > arrival:
         state.delay = (place, over, begins)
         if run.core.trace.live:
             run.core.trace.note(
                 "trip.delayed",
                 mission=mission.name,
                 trip=trip.name,
-                until=until,
+                until=until(),
                 over=over,
                 begins=begins,
                 block=block,
                 resumes_at=state.at,
             )
-        await kernel.sleep(until - arrival, EventKind.CLOCK, run.key)
+        await kernel.before(Future(), until, EventKind.CLOCK, run.key)
     state.delay = None
     if state.waited is None:
         state.waited = set()
     state.waited.add(place)
     if state.first_start is None:
-        state.first_start = kernel.now
+        state.first_start = kernel.clock
     return status
 
 
 def _begins(run: Run[Any]) -> float:
-    """Return when its round may begin: a time of day, or a multiple since the first start."""
+    """Return when its round may begin by the clock: at an hour, or at a multiple since the first start."""
     kernel, mission, first_start = run.core.kernel, run.mission, run.state.first_start
-    arrival = kernel.now
     at: float | None = mission.at
     every: float | None = mission.every
     if mission.completed_trips or mission.current.attempt > 1:
         return 0.0
     if mission.round == 0 and at is not None and first_start is None:
-        return arrival + (at - kernel.time_of_day) % DAY
+        return kernel.hours.next(at, kernel.clock)
     if mission.round > 0 and every and first_start is not None:
-        rounds = (arrival - first_start) / every
-        # a hook may have made it as short as it likes: then the next round begins at once
-        return first_start + ceil(round(rounds, 9)) * every if isfinite(rounds) else arrival
+        return kernel.hours.again(first_start, every, kernel.clock)
     return 0.0

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Generator
+from functools import partial
+from math import inf
 from types import coroutine
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +14,7 @@ from plutoc_runtime.domain.text import duration
 from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
+    from plutoc_runtime.domain.model import Mission
     from plutoc_runtime.fleet.needs import Request
     from plutoc_runtime.fleet.policies import Policy
     from plutoc_runtime.flow.run import Run
@@ -51,7 +54,7 @@ def allocate_drone(
         request.hurries = allocate_within is not None
         try:
             if fail_late and mission.deadline is not None:
-                yield from _in_time(run, request, mission.deadline, allocate_within)
+                yield from _in_time(run, request, allocate_within)
             elif allocate_within is not None:
                 yield from _no_longer_than(run, request, allocate_within)
             if not request.is_set:
@@ -65,13 +68,17 @@ def allocate_drone(
     return status
 
 
-async def _in_time(run: Run[Any], request: Request, deadline: float, within: float | None) -> None:
+async def _in_time(run: Run[Any], request: Request, within: float | None) -> None:
     """Wait until the mission is late, but not longer than any mission waits here."""
-    kernel = run.core.kernel
-    if within is not None and kernel.now + within < deadline:
+    kernel, mission = run.core.kernel, run.mission
+    if within is not None and kernel.now + within < _due(mission):
         await _no_longer_than(run, request, within)
-    elif not await kernel.within(request, deadline, EventKind.ALLOCATE, run.key):
+    elif not await kernel.before(request, partial(_due, mission), EventKind.ALLOCATE, run.key):
         raise MissionFailed(f"it is late: trip {request.trip.name} had no drone by its deadline")
+
+
+def _due(mission: Mission[Any]) -> float:
+    return inf if mission.deadline is None else mission.deadline
 
 
 async def _no_longer_than(run: Run[Any], request: Request, seconds: float) -> None:

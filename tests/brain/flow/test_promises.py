@@ -14,6 +14,7 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status
 from pluto_fleet.shared.flow.promises import kept_from
+from pluto_fleet.shared.time.hours import Hours
 from tests.kit import apps
 from tests.kit.living import Living, enterable
 
@@ -91,7 +92,7 @@ def test_a_window_that_has_opened_today_is_open(
     now: float, of_day: float, opens: int, hours: int
 ) -> None:
     written = {"opens": f"{opens}:00", "deadline": f"{(opens + hours) % 24}:00"}
-    kept = kept_from(written, now, of_day)
+    kept = kept_from(written, Hours(of_day - now), now)
     assert kept["deadline"] - kept["opens"] == pytest.approx(hours * HOUR)
     assert now <= kept["deadline"] <= now + DAY
     assert (kept["deadline"] - now + of_day) % DAY == pytest.approx(
@@ -102,11 +103,13 @@ def test_a_window_that_has_opened_today_is_open(
 @pytest.mark.parametrize("closes", ["08:00", "8:00", "08:00:00"])
 def test_what_is_due_at_this_very_hour_is_due_tomorrow(closes: str) -> None:
     """A deadline at once could never be kept; a simulation starts at midnight, and "00:00" is the one to come."""
-    assert kept_from({"deadline": closes}, 5.0, 8 * HOUR) == {"deadline": 5.0 + DAY}
-    window = {"opens": "07:00", "deadline": closes}
-    assert kept_from(window, 5.0, 8 * HOUR) == {"opens": 5.0 + 23 * HOUR, "deadline": 5.0 + DAY}
-    assert kept_from({"opens": closes, "deadline": "09:00"}, 5.0, 8 * HOUR)["opens"] == 5.0
-    assert kept_from({"deadline": 0.0}, 5.0, 8 * HOUR) == {"deadline": 5.0}
+    at_eight = Hours(8 * HOUR - 5.0)
+    due = {"deadline": 5.0 + DAY, "hours": {"deadline": closes}}
+    assert kept_from({"deadline": closes}, at_eight, 5.0) == due
+    window = kept_from({"opens": "07:00", "deadline": closes}, at_eight, 5.0)
+    assert (window["opens"], window["deadline"]) == (5.0 + 23 * HOUR, 5.0 + DAY)
+    assert kept_from({"opens": closes, "deadline": "09:00"}, at_eight, 5.0)["opens"] == 5.0
+    assert kept_from({"deadline": 0.0}, at_eight, 5.0) == {"deadline": 5.0}
 
 
 # Deadlines

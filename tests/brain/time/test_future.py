@@ -113,13 +113,6 @@ def test_branches_come_in_their_order_within_their_mission() -> None:
     assert branch_key(0, 5_000, 1) == branch_key(0, 1_022, 1) < mission_key(1)
 
 
-def test_the_time_of_day_begins_anew_at_midnight() -> None:
-    kernel = ToldTime(midnight=86_000.0)
-    assert kernel.time_of_day == 86_000.0
-    kernel.now = 500.0
-    assert (kernel.time_of_day, kernel.time()) == (100.0, 500.0)
-
-
 def test_what_ends_the_wait_for_an_end_is_no_cancellation() -> None:
     kernel = VirtualTime()
 

@@ -14,6 +14,7 @@ from pluto_fleet.files.promise_check import impossible
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import AfterTrip, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
+from pluto_fleet.shared.time.hours import Hours
 from pluto_fleet.shared.fleet.reach import chain_of, flight_seconds, stops_of
 from tests.kit import apps
 
@@ -142,21 +143,25 @@ def test_times_of_day_are_known_where_the_start_is() -> None:
     late, soon = {"deadline": "08:30"}, {"opens": "08:00", "deadline": "08:30"}
     fleet = replace(apps.fleet(), motion=CRAZYFLIE.exact)
     mission = apps.mission("a", apps.trip("1", 6.0), promises=late)
-    assert impossible([mission], APP, fleet) == impossible([mission], APP, fleet, 30_000.0) == []
+    assert (
+        impossible([mission], APP, fleet)
+        == impossible([mission], APP, fleet, Hours(30_000.0))
+        == []
+    )
     said = "it is due after 10 s, and takes 32.6 s at the least"
-    assert impossible([mission], APP, fleet, 30_590.0) == [f'mission "a": {said}']
+    assert impossible([mission], APP, fleet, Hours(30_590.0)) == [f'mission "a": {said}']
     mission.promises = soon
-    assert impossible([mission], APP, fleet, 29_000.0) == []
-    assert impossible([mission], APP, fleet, 30_590.0) == [f'mission "a": {said}']
+    assert impossible([mission], APP, fleet, Hours(29_000.0)) == []
+    assert impossible([mission], APP, fleet, Hours(30_590.0)) == [f'mission "a": {said}']
 
 
 def test_a_window_that_mixes_both_kinds_of_time_may_close_before_it_opens() -> None:
     mission = apps.mission(
         "a", apps.trip("1", 6.0), promises={"opens": 1800.0, "deadline": "00:10"}
     )
-    told = impossible([mission], APP, apps.fleet(), 85_800.0)  # at 23:50
+    told = impossible([mission], APP, apps.fleet(), Hours(85_800.0))  # at 23:50
     assert told == ['mission "a": it is due 10 min before its window opens']
-    assert impossible([mission], APP, apps.fleet(), 80_000.0) == []
+    assert impossible([mission], APP, apps.fleet(), Hours(80_000.0)) == []
 
 
 def test_too_few_drones_are_told_once() -> None:

@@ -21,6 +21,7 @@ from pluto_fleet.gateway import process, starting
 from pluto_fleet.gateway.process import SETTINGS
 from pluto_fleet.gateway.settings import Settings, data_of
 from pluto_fleet.journal.reader import Reader
+from pluto_fleet.process import wall_clock
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.simulation.body import Body
@@ -120,6 +121,7 @@ def world(patch: pytest.MonkeyPatch) -> Iterator[World]:
     patch.setattr(preflight, "in_a_copy", in_this_process)
     hangs_up, here = signal.getsignal(signal.SIGHUP), World()
     patch.setattr(live_flight, "Writer", AtOnce)
+    patch.setattr(wall_clock, "now", lambda: here.loop.now)
     patch.setattr(starting, "start", here.start)
     patch.setattr(process, "RealTime", here.clock)
     patch.setattr(process, "this_moment", here.moment)

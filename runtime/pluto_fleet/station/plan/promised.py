@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.promise_check import impossible
+from ...shared.time.hours import Hours
 from .problems import sentence
 
 if TYPE_CHECKING:
@@ -30,15 +31,13 @@ async def broken(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -
     """Return a sentence for each promise that cannot be kept, found in a thread: flights go on meanwhile."""
     if not missions:
         return ()
-    now = time.localtime()
-    of_day = now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec
     beside = replace(fleet, airspace=replace(fleet.airspace))  # threads share no cache of routes
-    return await asyncio.to_thread(_sentences, missions, app, beside, of_day)
+    return await asyncio.to_thread(_sentences, missions, app, beside, Hours(time.time(), ""))
 
 
 def _sentences(
-    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, of_day: float
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, hours: Hours
 ) -> Sequence[str]:
-    found = [sentence(one, ()) for one in impossible(missions, app, fleet, of_day)]
+    found = [sentence(one, ()) for one in impossible(missions, app, fleet, hours)]
     more = len(found) - MOST
     return found if more <= 0 else [*found[:MOST], f"… and {more} more"]

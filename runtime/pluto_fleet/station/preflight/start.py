@@ -79,11 +79,11 @@ class StartForecasts:
                 words("preflight.refused", text, why=text) for text in str(error).split("\n")
             ]
             return without_runs(None, asked.revision, problems)
-        now = time.localtime()
         fleet = replace(
             self._config.fleet,
             airspace=replace(self._config.fleet.airspace),
-            midnight=now.tm_hour * 3600.0 + now.tm_min * 60.0 + now.tm_sec,
+            began=time.time(),
+            zone="",
         )
         beside = list(_left_of(session))
         names = {mission.name for mission in (*beside, *missions)}
