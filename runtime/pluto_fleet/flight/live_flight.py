@@ -77,7 +77,7 @@ class LiveFlight:
         fleet = with_joined(setting.app, setting.fleet, self._records.joined)
         self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
         link.on_telemetry(self._seen)
-        hooks, clock = RealHooks(kernel), self._clock
+        hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
             fleet,
@@ -89,7 +89,7 @@ class LiveFlight:
             listeners=(self._count,),
             watcher=setting.tell,
             hooks=hooks,
-            hours={"began": clock.began, "drift": clock.drift},
+            clock=self._clock,
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump

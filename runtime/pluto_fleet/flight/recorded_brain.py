@@ -16,6 +16,7 @@ from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
 from ..shared.flow.standing import fleet_data, update
+from ..shared.time.hours import Hours
 from ..shared.time.kernel import FLEET, Kernel
 from .acts_beside import acts_beside
 from .driver import Driver
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from ..jobs.flown import Flown
     from ..jobs.job import CommandLink
     from ..journal.fold import Record, Records
+    from ..process.wall_clock import WallClock
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
     from ..shared.time.told import HookRunner
@@ -52,21 +54,18 @@ class RecordedBrain:
         listeners: Sequence[Listener] = (),
         watcher: Listener | None = None,
         hooks: HookRunner | None = None,
-        hours: Mapping[str, float] | None = None,
+        clock: WallClock | None = None,
     ) -> None:
         """`watcher` is called with an event only when it is durable, `listeners` at once.
 
-        `hours`: when the app first `began`, in seconds since 1970, and the `drift` of this computer's clock since.
+        By `clock` it is which hour it is; without one the hours are the fleet's.
         """
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
         self.recorder = Recorder(kernel, sink, records)
-        self.hours = hours or {}
-        self.brain = app.new_brain(
-            {**fleet_data(fleet), "recorded": True, "zone": "", **self.hours},
-            space=fleet.airspace,
-            hooks=hooks,
-        )
-        self.midnight = midnight
+        self.clock = {} if clock is None else clock.data
+        data = {**fleet_data(fleet), "recorded": True, **self.clock}
+        self.hours = Hours(data["began"], data["zone"])
+        self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.told_to: dict[str, str] = {}
         """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
         self._listeners, self._watcher = tuple(listeners), watcher

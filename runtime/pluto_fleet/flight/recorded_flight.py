@@ -85,7 +85,7 @@ class RecordedFlight(RecordedBrain):
             # else one of them, which was repaired, is queried again
             lost = {name: one["reason"] for name, one in records.lost.items()}
             _refuse_if_none_is_ready(fleet_report, lost)
-        self.note("brain.began", epoch=self._epoch, **self.hours)
+        self.note("brain.began", epoch=self._epoch, **self.clock)
         recovery = Recovery(self, self.control, fleet_report)
         recovery.ask_the_mended()
         self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones()))
@@ -95,7 +95,7 @@ class RecordedFlight(RecordedBrain):
 
     async def _went_on(self) -> float:
         fleet_report = await self.link.fleet_report()
-        self.note("brain.began", epoch=self._epoch, **self.hours)
+        self.note("brain.began", epoch=self._epoch, **self.clock)
         recovery = Recovery(self, self.control, fleet_report)
         recovery.ask_the_mended()
         await recovery.find_out()

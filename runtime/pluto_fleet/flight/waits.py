@@ -111,10 +111,9 @@ class Waits:
     def _tell(self, event: str, wait: Wait, **who: object) -> None:
         until: dict[str, object] = {}
         if wait.until is not None:
-            # the time of day, to the second where it is no whole minute
-            minutes, seconds = divmod(round(self._life.midnight + wait.until), 60)
-            hour = f"{minutes // 60 % 24:02}:{minutes % 60:02}" + f":{seconds:02}" * (seconds > 0)
-            until = {"until": round(wait.until, 3), "hour": hour}
+            drift = self._life.records.clock["drift"]
+            clock = round(wait.until + drift), self._life.kernel.now + drift
+            until = {"until": round(wait.until, 3), "hour": self._life.hours.said(*clock)}
         self._life.note(event, **who, **{"for": wait.what, "reason": wait.reason, **until})
 
     # Drones
@@ -225,7 +224,7 @@ def of_mission(
         first = [name for name in promises.get("after", ()) if not ended.get(name, True)]
         if first:
             return Wait(what="after", reason=f"waits for {', '.join(first)}, after which it comes")
-        opens = promises.get("opens", 0.0)
+        opens = where.get("opens", promises.get("opens")) or 0.0
         return (
             Wait(what="window", reason="waits for its window", until=opens) if opens > now else None
         )

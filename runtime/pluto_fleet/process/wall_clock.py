@@ -28,6 +28,11 @@ class WallClock:
             self.drift = now() - began - kernel.time()
         self._ahead = self._measured() - self.drift
 
+    @property
+    def data(self) -> Mapping[str, object]:
+        """What a brain, and a journal, must know of it."""
+        return {"began": self.began, "drift": self.drift, "zone": ""}
+
     def moved(self) -> bool:
         """Take over how it stands; return whether it has moved since it was asked last."""
         drift = self._measured() - self._ahead

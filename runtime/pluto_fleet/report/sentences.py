@@ -97,12 +97,19 @@ def _waits(event: Event) -> str:
     return f"{', '.join(names[:_NAMED])}{more}: {said}" if names else said
 
 
+def _clock_moved(event: Event) -> str | None:
+    by = float(str(event["by"]))
+    how = f"{duration(abs(by))} {'ahead' if by > 0.0 else 'back'}"
+    said = f"the computer's clock is {how}, as it was set, or the computer slept: all hours count by it"
+    return said if abs(by) >= 1.0 else None
+
+
 _NAMED = 50
 """The most missions that one line names."""
 
 _HOW = {"rtl": "all fly home", "land": "all land"}
 
-_SENTENCES: Mapping[str, Callable[[Event], str]] = {
+_SENTENCES: Mapping[str, Callable[[Event], str | None]] = {
     "trip.launched": _launched,
     "trip.completed": _completed,
     ACTS_BESIDE: _beside,
@@ -134,6 +141,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str]] = {
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
     "drone.recovering": lambda event: f"{event['drone']} recovers",
     "drone.lost": _lost,
+    "clock.moved": _clock_moved,
     "log": lambda event: str(event["text"]),
 }
 
@@ -187,8 +195,10 @@ def _created(event: Fact) -> str:
 def _promised(event: Fact) -> str:
     after = ", ".join(str(name) for name in event.get("after", ()))
     told = [f"begins after {after}"] if after else []
-    told += [f"begins at {duration(event['opens'])} at the soonest"] if "opens" in event else []
-    told += [f"is due at {duration(event['deadline'])}"] if "deadline" in event else []
+    when = {name: duration(event[name]) for name in ("opens", "deadline") if name in event}
+    when |= event.get("hours", {})
+    told += [f"begins at {when['opens']} at the soonest"] if "opens" in when else []
+    told += [f"is due at {when['deadline']}"] if "deadline" in when else []
     return ", ".join(told)
 
 

@@ -14,8 +14,8 @@ from pluto_fleet.files.promise_check import impossible
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import AfterTrip, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
-from pluto_fleet.shared.time.hours import Hours
 from pluto_fleet.shared.fleet.reach import chain_of, flight_seconds, stops_of
+from pluto_fleet.shared.time.hours import Hours
 from tests.kit import apps
 
 APP = moving(apps.app(apps.flow()), CRAZYFLIE.exact)
