@@ -89,11 +89,14 @@ def load(app: App, options: Options) -> LoadedPlan:
 
 def _hours(fleet: FleetFile, options: Options) -> Hours:
     """Return the hours from the start of what is loaded."""
-    said = (options.start, options.date, options.zone) != (None, None, None)
-    is_now = options.command == "check" and not said
+    is_now = options.command == "check" and not _says_when(options)
     if is_now or (options.command == "fly" and not options.dry_run):
         return Hours(time.time(), "")
     return Hours(fleet.began, fleet.zone)
+
+
+def _says_when(options: Options) -> bool:
+    return (options.start, options.date, options.zone) != (None, None, None)
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -156,8 +159,7 @@ def check(app: App, options: Options) -> int:
     ]
     for sentence in doubts:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
-    known = (options.start, options.date, options.zone) != (None, None, None)
-    hours = _hours(plan.fleet, options) if known else None
+    hours = _hours(plan.fleet, options) if _says_when(options) else None
     broken = impossible(plan.missions, plan.app, plan.fleet, hours)
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
@@ -168,7 +170,7 @@ def check(app: App, options: Options) -> int:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:
         output.line(f"… and {counted(more, 'more area')}")
-    waiting = [*waits(plan.missions, _of_day(options))]
+    waiting = [*waits(plan.missions, _hours(plan.fleet, options))]
     for sentence in waiting[:_MOST_WAITS]:
         output.line(printable(sentence))
     if (more := len(waiting) - _MOST_WAITS) > 0:

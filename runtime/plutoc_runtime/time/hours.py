@@ -74,11 +74,11 @@ class Hours:
 
     def said(self, moment: float, now: float = 0.0) -> str:
         """Return when a moment is for people: its hour and zone, and its date if that is another than now's."""
-        then, today = self.shown(moment), self.shown(now).date()
+        then, today = self.shown(round(self.began + moment) - self.began), self.shown(now).date()
         clock = f"{then:%H:%M:%S}".removesuffix(":00")
         if not self.start:
             days = (then.date() - today).days
-            return f"{clock} of day {days + 1}" if days else clock
+            return f"{clock} on day {days + 1}" if days else clock
         return f"{clock} {then:%Z}" + (f" on {then:%Y-%m-%d}" if then.date() != today else "")
 
     def on(self, day: date, hour: float) -> float:
