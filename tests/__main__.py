@@ -44,6 +44,7 @@ CAMPAIGNS = (
     "python -m tests.kill --brain 500 --gateway 100",
     "python -m tests.flights_crazyflie.campaign",
     "python -m tests.flights_crazyflie.examples",
+    "python -m tests.waits --flights 6 --load 8",
     "python -m tests.areas --areas 1000",
     "python -m tests.batteries --apps 400",
     "python -m tests.calibrating --cases 100",

@@ -68,6 +68,8 @@ class RecordedBrain:
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.told_to: dict[str, str] = {}
         """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
+        self.to_land: set[str] = set()
+        """The drones that were ordered to land where they are; who looks at them takes out those that fly again."""
         self._listeners, self._watcher = tuple(listeners), watcher
         keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
         self._keys = keys
@@ -211,6 +213,8 @@ class RecordedBrain:
         """Carry out an order; a flight only once its launch is durable."""
         drone = order["drone"]
         self.told_to[drone] = order["do"]
+        if order["do"] == "land":
+            self.to_land.add(drone)
         match order["do"]:
             case "fly":
                 self._held[drone] = order

@@ -178,13 +178,16 @@ class Waits:
 
     def _see_landing(self, id: str, drone: Mapping[str, Any], mission: str | None) -> None:
         """Note that a drone has landed, if it was not told to, nor stands in its dock, nor is lost."""
+        life = self._life
+        if not drone["landed"] and life.told_to.get(id) != "land":
+            life.to_land.discard(id)
         before, self._landed[id] = self._landed.get(id, True), drone["landed"]
         is_lost = drone["status"] == DroneStatus.LOST.value
         if before or not drone["landed"] or is_lost or self._is_docked(id, drone):
             return
         on_target = mission is not None and self._acts(mission, drone["at"])
-        if self._life.told_to.get(id) != "land" and not on_target:
-            self._life.note("drone.landed", drone=id, at=drone["at"])
+        if id not in life.to_land and not on_target:
+            life.note("drone.landed", drone=id, at=drone["at"])
 
 
 def _of_missions(

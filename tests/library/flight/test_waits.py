@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from typing import Any
 
+import pytest
+
 from pluto_fleet.flight.waits import LONG, Waits
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.kit import apps
 from tests.kit.living import Living
+from tests.waits import fly
 
 APP = apps.loaded(
     """pluto 1
@@ -31,10 +35,10 @@ app NAME {
 ).app
 
 
-def watched(*missions: Any, homes: int = 1) -> Living:
+def watched(*missions: Any, homes: int = 1, after: AfterTrip = AfterTrip.HOME) -> Living:
     """Return a flight whose waits are watched, as in real flights."""
     places = [(0.5 + x, 0.5, 0.0) for x in range(homes)]
-    living = Living(APP, *missions, on=apps.fleet(*places))
+    living = Living(APP, *missions, on=apps.fleet(*places, after=after))
     living.kernel.spawn(Waits(living.life).watch(), FLEET, "what waits")
     return living
 
@@ -103,8 +107,22 @@ def test_a_drone_that_lands_somewhere_and_waits_there_says_so() -> None:
     assert not [line for line in told(living) if "cf2 has landed" in line]
 
 
+def test_a_drone_that_landed_as_it_was_told_to_is_not_told_of_though_it_is_to_fly_already() -> None:
+    """It may have its next trip by the time it is looked at."""
+    living = watched(mission("a", 4.0), mission("b", 5.0, delay=30.0), after=AfterTrip.STAY)
+    living.at(16.0, lambda: living.life.told_to.update(cf1="fly"))
+    assert living.run() == ["COMPLETED"] * 2
+    assert not [line for line in told(living) if "nobody asked" in line]
+
+
 def test_a_drone_that_does_a_long_action_does_not_wait() -> None:
     living = watched(mission("a", 6.0, action="look"))
     assert living.run() == ["COMPLETED"]
     assert living.kernel.now > 3 * LONG
     assert told(living) == []
+
+
+@pytest.mark.process
+@pytest.mark.long
+def test_no_wait_of_real_processes_goes_unsaid() -> None:
+    assert fly(0, load=0, crtp=False)[1] == []
