@@ -7,7 +7,7 @@ a drone that has begun one, which its state then shows.
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from math import ceil, inf
 from typing import TYPE_CHECKING
 
 from ..drones.errors import LinkLost, Rejected
@@ -122,7 +122,7 @@ async def answered(
     again, and counts as done.
     """
     look = session.well if well else session.now
-    for _ in range(_TIMES):
+    for _ in range(max(_TIMES, ceil(session.silence / _ACKNOWLEDGED))):
         look()
         if session.loop.time() >= until:
             return bytes(4)

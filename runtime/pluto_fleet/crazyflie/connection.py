@@ -20,6 +20,7 @@ from . import logs, messages, parameters
 from .driver import (
     LINK_CONTROL,
     PLATFORM,
+    bear_silence,
     cache_folder,
     forget_dead_radios,
     load,
@@ -41,10 +42,10 @@ _ASK_AGAIN = 1.0
 
 
 async def open_session(
-    drone: str, uri: str, folder: Path, observer: SessionObserver
+    drone: str, uri: str, folder: Path, observer: SessionObserver, silence: float
 ) -> CrazyflieSession:
     """Return a session with running telemetry; raise `LinkLost` if that fails."""
-    session = CrazyflieSession(drone, uri, observer)
+    session = CrazyflieSession(drone, uri, observer, silence)
     try:
         await _open(session, folder)
     except BaseException:  # also if cancelled: nothing may be left open
@@ -70,6 +71,7 @@ def _begin(session: CrazyflieSession, folder: Path) -> None:
     from cflib.crazyflie import Crazyflie
 
     forget_dead_radios()
+    bear_silence(session.silence)
     cf = Crazyflie(rw_cache=cache_folder(folder))
     session.listen(cf)
     cf.open_link(session.uri)

@@ -72,6 +72,17 @@ def forget_dead_radios() -> None:
             RadioManager.remove(place)
 
 
+_PACKETS = 100
+"""How many packets in a row cflib sends in vain, in most of a second, until it takes a link for lost."""
+
+
+def bear_silence(seconds: float) -> None:
+    """Make links that are opened from now on outlast a silence."""
+    import cflib.crtp.radiodriver
+
+    cflib.crtp.radiodriver.set_retries_before_disconnect(round(_PACKETS * max(1.0, seconds)))
+
+
 _NAME = "crazyflie"
 
 

@@ -89,7 +89,8 @@ class Crazyflie:
             self._session.release()
             self._session = None
         await self._left()  # two links to one drone would steal each other's packets
-        session = await open_session(self._id, uri, self._setup.folder, self)
+        setup = self._setup
+        session = await open_session(self._id, uri, setup.folder, self, setup.silence)
         session.commanded = self._commanded
         if not self._options.starts_at_home:  # it only knows its relative movement
             session.lost_beyond = self._options.lost_beyond

@@ -15,6 +15,8 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
+from ..drones.lag import Lag
+from ..jobs.reports import SILENCE
 from . import messages
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
 from .state import PositionConfidence, State
@@ -75,8 +77,8 @@ class Acknowledgements:
             answer.set_result(data)
 
 
-SILENCE = 1.0
-"""Seconds without a state after which a link counts as lost; ten states a second are expected."""
+_LOOK = 0.1
+"""Seconds between two checks for silence; as often a state is expected."""
 
 FRESH = 0.5
 """The time-out of waiting for a new state, in seconds."""
@@ -105,8 +107,11 @@ class SessionObserver(Protocol):
 class CrazyflieSession:
     """The state of a connected drone, and the only way to call cflib for it."""
 
-    def __init__(self, drone: str, uri: str, observer: SessionObserver) -> None:
-        self.drone, self.uri = drone, uri
+    def __init__(
+        self, drone: str, uri: str, observer: SessionObserver, silence: float = SILENCE
+    ) -> None:
+        """`silence`: seconds without a state after which the link counts as lost."""
+        self.drone, self.uri, self.silence = drone, uri, silence
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
         self.established = asyncio.Event()
@@ -139,7 +144,8 @@ class CrazyflieSession:
         self._silent = False
         self._next = asyncio.Event()
         self._cf: Cf | None = None
-        self._looking = self.loop.call_later(SILENCE, self._look)
+        self._lag = Lag()
+        self._looking = self.loop.call_later(_LOOK, self._look)
 
     # Callbacks of cflib
 
@@ -199,11 +205,13 @@ class CrazyflieSession:
     def _look(self) -> None:
         """Check whether it has become silent."""
         if not self.lost:
-            if self.state is not None and not self._silent and self.silent_for > SILENCE:
+            now = self.loop.time()
+            self._lag.called(now, now + _LOOK)
+            if self.state is not None and not self._silent and self.silent_for > self.silence:
                 self._silent = True
                 self._observer.gone(f"it has told nothing for {self.silent_for:.1f} s")
                 self._wake()
-            self._looking = self.loop.call_later(SILENCE / 10, self._look)
+            self._looking = self.loop.call_at(self._lag.due, self._look)
 
     # Queries
 
@@ -216,8 +224,9 @@ class CrazyflieSession:
 
     @property
     def silent_for(self) -> float:
-        """Seconds since its last state."""
-        return self.loop.time() - (self._since if self.state is None else self.state.time)
+        """Seconds since its last state in which this process could have heard it."""
+        now, then = self.loop.time(), self._since if self.state is None else self.state.time
+        return now - then - self._lag.since(then, now)
 
     @property
     def alive(self) -> bool:
@@ -226,7 +235,7 @@ class CrazyflieSession:
             not self.lost
             and not self.worker.stuck
             and self.state is not None
-            and self.silent_for <= SILENCE
+            and self.silent_for <= self.silence
         )
 
     @property
@@ -249,7 +258,7 @@ class CrazyflieSession:
         """Return its state; raise if it cannot be commanded."""
         if self.lost:
             raise LinkLost(messages.ended(self.drone, self.lost))
-        if self.state is None or self.silent_for > SILENCE:
+        if self.state is None or self.silent_for > self.silence:
             raise LinkLost(f"{self.drone} stopped answering {self.silent_for:.1f} s ago")
         return self.state
 
@@ -293,15 +302,15 @@ class CrazyflieSession:
     ) -> State | None:
         """Return the first new state that fulfils a condition, or None after the time-out.
 
-        Raises what `well` raises, as soon as it does.
+        While it is silent there is no saying: then it is waited for, until that is too long. Raises what `well` raises, as soon as it does.
         """
         end = self.loop.time() + limit
         look = self.well if well else self.now
         while not ready(state := look()):
             left = end - self.loop.time()
-            if left <= 0.0:
+            if left <= 0.0 and self.silent_for < FRESH:
                 return None
-            await self.heard(min(left, 0.2))
+            await self.heard(min(max(left, _LOOK), 0.2))
         return state
 
     async def until_told(self, limit: float) -> State | None:

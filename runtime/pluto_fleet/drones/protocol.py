@@ -30,6 +30,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
+from ..jobs.reports import SILENCE
+
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
     from ..shared.domain.model import Item, Point
@@ -94,6 +96,8 @@ class DroneSetup:
     """The table `[navigation.NAME]` of the fleet file, overridden by the drone's `[drone.options]`."""
     folder: Path
     """An existing folder for files such as photos, shared by all drones."""
+    silence: float = SILENCE
+    """Seconds for which it may tell nothing in the air before its link counts as lost."""
 
 
 class DroneNavigation(Protocol):

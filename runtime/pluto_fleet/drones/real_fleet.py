@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import navigation_of, options_of
+from ..jobs.reports import SILENCE
 from ..shared.domain.actions import BUILT_IN, Plain
 
 if TYPE_CHECKING:
@@ -44,6 +45,8 @@ class RealFleet:
     """Their localization: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object]
     wanted: tuple[RequiredAction, ...] = ()
+    silence: float = SILENCE
+    """Seconds for which a drone in the air may tell nothing before its flight fails."""
 
 
 def real_fleet(
@@ -72,6 +75,7 @@ def real_fleet(
         localization=fleet.localization,
         localization_options=fleet.localization_options,
         wanted=_wanted([*_planned(missions), *_recorded(records)]),
+        silence=fleet.silence,
     )
 
 
@@ -104,4 +108,5 @@ def real_of(data: Mapping[str, Any]) -> RealFleet:
         localization=data["localization"],
         localization_options=data["localization_options"],
         wanted=tuple(RequiredAction(**wanted) for wanted in data["wanted"]),
+        silence=data.get("silence", SILENCE),
     )

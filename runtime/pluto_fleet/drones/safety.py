@@ -13,10 +13,12 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..jobs.landing_sites import free_spot
+from ..jobs.reports import SILENCE
 from ..shared.domain.airspace import Polygon, distance, inside, tidy
 from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
 from ..shared.domain.text import duration, number, percent, place
 from .commands import descend, fly
+from .lag import Lag
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timeouts import shortened
 from .vehicle import LAND, RISE
@@ -139,8 +141,8 @@ _HAS = {CRASHED: "crashed", LOCKED: "was locked"}
 
 EACH = 0.1
 """The interval of the checks, in seconds."""
-SILENCE, ON_GROUND = 1.0, 3.0
-"""Seconds after which a silent drone has lost its link: in the air, and on the ground."""
+ON_GROUND = 3.0
+"""Seconds after which a silent drone on the ground has lost its link, if it may not be silent for longer in the air."""
 EMPTY, LOW_FOR = 0.03, 3.0
 """A battery is empty when its level was at most this for this many seconds."""
 FALLEN_FOR = 1.0
@@ -153,8 +155,14 @@ class SafetyMonitor:
     """Monitors all drones of the team."""
 
     def __init__(
-        self, airspace: Airspace, say: Callable[[str], object], clock: Callable[[], float]
+        self,
+        airspace: Airspace,
+        say: Callable[[str], object],
+        clock: Callable[[], float],
+        silence: float = SILENCE,
     ) -> None:
+        """`silence`: seconds for which a drone in the air may tell nothing."""
+        self._silence, self._lag = silence, Lag()
         self._vehicles: list[Vehicle] = []
         self._airspace, self._say, self._clock = airspace, say, clock
         self._low_since: dict[str, float] = {}
@@ -164,14 +172,17 @@ class SafetyMonitor:
     def watch(self, vehicle: Vehicle) -> None:
         """Check this drone from now on."""
         self._vehicles.append(vehicle)
+        vehicle.telemetry.lag = self._lag
         self._low_since[vehicle.id] = self._fallen_since[vehicle.id] = inf
 
     def hear(self, late: float) -> None:
         """Check all drones; `late`: the delay in seconds."""
+        now = self._clock()
+        self._lag.called(now, now + EACH)
         if late > LATE:
             self._say(f"the gateway was kept from watching its drones for {duration(late)}")
         for vehicle in self._vehicles:
-            self.look(vehicle, late)
+            self.look(vehicle)
 
     def stop(self) -> list[asyncio.Task[None]]:
         """Start no further landings; return the tasks that are ending."""
@@ -180,13 +191,14 @@ class SafetyMonitor:
             task.cancel()
         return landings
 
-    def look(self, vehicle: Vehicle, late: float) -> None:
-        """Check one drone; messages received while the loop was blocked count as new."""
+    def look(self, vehicle: Vehicle) -> None:
+        """Check one drone."""
         telemetry = vehicle.telemetry
         if not vehicle.linked:
             return
         landed, busy = telemetry.landed, vehicle.commands.doing
-        if telemetry.silence > (ON_GROUND if landed and not busy else SILENCE) + late:
+        on_ground = landed and not busy
+        if telemetry.silence > (max(ON_GROUND, self._silence) if on_ground else self._silence):
             vehicle.lost(f"it has told nothing for {duration(telemetry.silence)}")
         elif landed:
             self._stands(vehicle, busy)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
-from ..jobs.reports import DroneReport
+from ..jobs.reports import SILENCE, DroneReport
 from ..jobs.telemetry import Publisher
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import ANY_ERROR, BadInput
@@ -54,9 +54,13 @@ class Team:
         feeding: LocalizationFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
         loaded: Collection[str] = (),
+        silence: float = SILENCE,
     ) -> None:
-        """`loaded`: the names of the navigations that drones may have that join."""
-        self._loaded = frozenset(loaded)
+        """`loaded`: the names of the navigations that drones may have that join.
+
+        `silence`: seconds for which a drone in the air may tell nothing.
+        """
+        self._loaded, self._silence = frozenset(loaded), silence
         self._kernel, self._wanted = kernel, tuple(wanted)
         self._cargo, self._feed = Cargo(folder, say), feeding
         self._say, self._clock, self._folder = say, clock, folder
@@ -66,7 +70,7 @@ class Team:
         self.telemetry: Mapping[str, Telemetry] = self._told
         """The drones' telemetry, always current."""
         self._links: dict[str, Connection] = {}
-        self._monitor = SafetyMonitor(airspace, say, clock)
+        self._monitor = SafetyMonitor(airspace, say, clock, silence)
         self._tasks: list[asyncio.Task[None]] = []
         self._monitoring: Subscription[float] | None = None
         for drone in drones:
@@ -92,7 +96,8 @@ class Team:
                 f"{drone.id} cannot join: no drone of this flight is flown by {how.navigation}, and to"
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
-        navigation = make_one(how, drone.home, drone.category.speed, self._folder / FILES)
+        folder, speed = self._folder / FILES, drone.category.speed
+        navigation = make_one(how, drone.home, speed, folder, self._silence)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise plugins.deaf(self._feed.name, [drone.id])
@@ -275,13 +280,21 @@ FILES = "files"
 """The folder, within the gateway's, for photos and other files of navigations."""
 
 
-def make_one(how: RealDrone, home: Point, speed: float, folder: Path) -> DroneNavigation:
+def make_one(
+    how: RealDrone, home: Point, speed: float, folder: Path, silence: float = SILENCE
+) -> DroneNavigation:
     """Create one drone's navigation, with a maximum speed; nothing is connected yet.
 
     `BadInput`: its options are wrong.
     """
     setup = DroneSetup(
-        id=how.id, uri=how.uri, home=home, speed=speed, options=how.options, folder=folder
+        id=how.id,
+        uri=how.uri,
+        home=home,
+        speed=speed,
+        options=how.options,
+        folder=folder,
+        silence=silence,
     )
     made = make_navigation(how.navigation, setup)
     if how.parameters and not isinstance(made, Readable):
@@ -305,7 +318,7 @@ def make_team(
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
     navigations = {
-        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files)
+        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real.silence)
         for drone in drones
     }
     return Team(
@@ -326,6 +339,7 @@ def make_team(
         wanted=real.wanted,
         feeding=_feeding(real, navigations, say),
         loaded={drone.navigation for drone in real.drones},
+        silence=real.silence,
     )
 
 

@@ -11,6 +11,7 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING, TypeVar
 
 from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
+from .lag import Lag
 from .protocol import CRASHED, DroneEvent, DroneTelemetry
 
 if TYPE_CHECKING:
@@ -21,15 +22,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 
-SILENCE = 1.0
-"""Seconds without a message after which a link is lost."""
+_LOOK = 0.1
+"""Seconds between two looks at a command that is carried out."""
 
 
 class Reports:
     """The messages of one drone; used within the event loop only."""
 
     def __init__(self, setup: DroneSetup) -> None:
-        self._id = setup.id
+        self._id, self._silence = setup.id, setup.silence
         self.telemetry = DroneTelemetry(
             time=-inf, position=setup.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
         )
@@ -93,17 +94,19 @@ class Reports:
         Raises `LinkLost` when it is silent, `Crashed` when it reports that, and `TargetTimeout` after
         the time-out.
         """
-        began = time.monotonic()
+        began, silent, lag = time.monotonic(), self._silence, Lag()
         while self.telemetry.time <= began or not done(self.telemetry):
             now = time.monotonic()
             if self.crashed:
                 raise Crashed(f"{self._id} has crashed: {self.crashed}")
-            if now - max(began, self.telemetry.time) > SILENCE:
-                raise LinkLost(f"{self._id} has told nothing for {SILENCE:.0f} s")
+            lag.called(now, now + _LOOK)
+            since = max(began, self.telemetry.time)
+            if now - since - lag.since(since, now) > silent:
+                raise LinkLost(f"{self._id} has told nothing for {silent:g} s")
             if now - began > seconds:
                 raise TargetTimeout(f"{self._id} is not there after {seconds:.0f} s")
             with suppress(TimeoutError):
-                async with asyncio.timeout(SILENCE / 10):
+                async with asyncio.timeout(_LOOK):
                     await self._told.wait()
 
     async def events(self) -> AsyncIterator[DroneEvent]:
@@ -154,6 +157,8 @@ class VehicleTelemetry:
         """When it was last seen in the air."""
         self.rises_until = -inf
         """Until when it may be taking off without having reported it."""
+        self.lag = Lag()
+        """When nothing could be heard of it."""
 
     def look(self) -> Sample | None:
         """Return its latest state, or None."""
@@ -196,9 +201,9 @@ class VehicleTelemetry:
 
     @property
     def silence(self) -> float:
-        """Seconds since its last valid state."""
-        last = self.look()
-        return inf if last is None else self._calls.clock() - last.time
+        """Seconds since its last valid state in which it could have been heard."""
+        last, now = self.look(), self._calls.clock()
+        return inf if last is None else now - last.time - self.lag.since(last.time, now)
 
 
 def _sample(raw: DroneTelemetry) -> Sample | None:

@@ -8,6 +8,7 @@ from itertools import cycle, islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..jobs.reports import SILENCE
 from ..shared.domain import values
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.fleet_data import Feature, FleetData, Source, WorldData
@@ -42,6 +43,10 @@ OWN = "own"
 """The default localization: the drones' own."""
 
 
+QUIET = values.Quantity(Type.TIME, 1.0, 30.0)
+"""How long a drone in the air may tell nothing."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Behaviour:
     """`[fleet]`."""
@@ -49,8 +54,15 @@ class Behaviour:
     after_trip: AfterTrip = AfterTrip.NEXT
     apart: float = APART
     max_airborne: int | None = None
+    silence: float = SILENCE
     navigation: str = CRAZYFLIE
     localization: str = OWN
+
+
+_BEHAVIOUR = (
+    *("after_trip", "apart", "max_airborne", "silence"),
+    *("navigation", "localization"),
+)
 
 
 def read_behaviour(top: Table) -> Behaviour:
@@ -58,12 +70,13 @@ def read_behaviour(top: Table) -> Behaviour:
     table = top.table("fleet")
     if table is None:
         return Behaviour()
-    table.only(("after_trip", "apart", "max_airborne", "navigation", "localization"), "[fleet]")
+    table.only(_BEHAVIOUR, "[fleet]")
     apart = table.read("apart", BETWEEN)
     return Behaviour(
         after_trip=table.read("after_trip", values.after_trip) or AfterTrip.NEXT,
         apart=APART if apart is None else apart,
         max_airborne=table.read("max_airborne", values.count),
+        silence=table.read("silence", QUIET) or SILENCE,
         navigation=table.read("navigation", values.name) or CRAZYFLIE,
         localization=table.read("localization", values.name) or OWN,
     )
@@ -184,6 +197,8 @@ class FleetFile(FleetData):
     """What the map shows."""
     apart: float = APART
     """The least distance between two drones, in metres."""
+    silence: float = SILENCE
+    """Seconds for which a real drone in the air may tell nothing before its flight fails."""
     navigation: str = CRAZYFLIE
     """How real drones are flown: a name, or `module:Class`."""
     options: Mapping[str, Options] = field(default_factory=dict)
@@ -234,6 +249,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         after_trip=behaviour.after_trip,
         apart=behaviour.apart,
         max_airborne=behaviour.max_airborne,
+        silence=behaviour.silence,
         motion=motion,
         navigation=behaviour.navigation,
         options=options,

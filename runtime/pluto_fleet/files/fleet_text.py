@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from ..jobs.reports import SILENCE
 from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import motion_of
 from ..shared.domain.values import MOTION
@@ -36,6 +37,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "after_trip": fleet.after_trip.value,
         "apart": float(fleet.apart),
         "max_airborne": fleet.max_airborne,
+        "silence": None if fleet.silence == SILENCE else fleet.silence,
         "navigation": None if fleet.navigation == CRAZYFLIE else fleet.navigation,
         "localization": None if fleet.localization == OWN else fleet.localization,
     }

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Point
 
 
+SILENCE = 3.0
+"""Seconds for which a drone in the air may tell nothing before its link counts as lost, if no fleet file says so."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneReport:
     """The report of one drone."""

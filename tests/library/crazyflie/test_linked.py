@@ -36,9 +36,9 @@ async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(
     began = the_air().time()
     with pytest.raises(LinkLost, match="cf1 stopped answering"):
         await flying
-    assert the_air().time() - began < 2.0  # and not the twenty that the course takes
+    assert the_air().time() - began < 4.0  # and not the twenty that the course takes
     assert (await one.hears(LINK_LOST)).reason.startswith("it has told nothing for")
-    assert the_air().time() - up.telemetry.time > 0.9
+    assert the_air().time() - up.telemetry.time > 2.9
     with pytest.raises(LinkLost, match="does not answer"):
         await up.connect()
     await one.let("silent", False)
@@ -47,6 +47,23 @@ async def test_silence_in_the_air_is_a_lost_link_and_connecting_again_lands_it(
     await up.hold()
     await up.land(FAST)
     assert not one.flies and not one.did("setpoint")
+
+
+@pytest.mark.parametrize(("silent", "stalled"), [(2.5, 0.0), (1.0, 2.9)])
+async def test_a_leg_is_finished_in_a_short_silence(
+    silent: float, stalled: float, one: Hangar, up: Crazyflie
+) -> None:
+    """The time in which this process could hear nothing is not counted."""
+    flying = asyncio.create_task(up.go_to((4.0, 2.0, 0.5), 1.0))
+    await passes(0.2)
+    await one.let("silent")
+    await passes(silent)
+    the_air().advance(stalled)
+    await passes(0.15)
+    await one.let("silent", False)
+    await flying
+    assert one.position == pytest.approx((4.0, 2.0, 0.5), abs=0.15)
+    assert len(one.did("go_to")) == 1 and not one.events
 
 
 async def test_a_drone_whose_port_is_closed_is_a_lost_link(one: Hangar, cf: Crazyflie) -> None:

@@ -35,6 +35,7 @@ no_fly = [[[8, 0], [9, 0], [9, 5], [8, 5]]]
 after_trip = "stay"
 apart = "40 cm"
 max_airborne = 5
+silence = "2 s"
 localization = "lab.mocap:Mocap"
 
 [localization]
@@ -94,6 +95,7 @@ def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
         after_trip=AfterTrip.STAY,
         apart=0.4,
         max_airborne=5,
+        silence=2.0,
         motion=CRAZYFLIE,
         navigation="crazyflie",
         options={
@@ -108,10 +110,10 @@ def test_a_file_says_where_drones_fly_and_how(tmp_path: Path) -> None:
                 home=(0.5, 0.5, 0.0),
                 uri="radio://0/80/2M/E7E7E7E7E1",
                 options={"camera": "192.168.4.1:5000"},
-                line=22,
+                line=23,
             ),
             DroneEntry(
-                id="cf2", category="carrier", home=(1.5, 0.5, 0.1), navigation="boats", line=30
+                id="cf2", category="carrier", home=(1.5, 0.5, 0.1), navigation="boats", line=31
             ),
         ),
         world=WorldData(
@@ -167,7 +169,7 @@ def test_a_crazyflie_without_a_uri_cannot_really_fly(tmp_path: Path) -> None:
     bare = FULL.replace('uri = "radio://0/80/2M/E7E7E7E7E1"\n', "")
     assert not_real(load(tmp_path, FULL)) is None
     assert not_real(load(tmp_path, bare)) == (
-        'drone "cf1" (line 22) has no uri, where a real drone is reached: add one, such as'
+        'drone "cf1" (line 23) has no uri, where a real drone is reached: add one, such as'
         ' uri = "radio://0/80/2M/E7E7E7E7E7"'
     )
 
