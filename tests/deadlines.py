@@ -15,6 +15,7 @@ from random import Random
 from typing import Any
 
 from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.model import AfterTrip, Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.earliest_deadline import earliest_deadline
@@ -68,7 +69,7 @@ class Drawn:
         inner = apps.flow(policy=policy, attempts=3)
 
         def flow(run: Run[apps.Mission]) -> Coroutine[Any, Any, Status]:
-            run.mission.deadline = self.deadlines[run.mission.name]
+            put(run.mission, deadline=self.deadlines[run.mission.name])
             return inner(run)
 
         missions = [

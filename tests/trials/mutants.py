@@ -15,6 +15,7 @@ from pluto_fleet.gateway.jobs import Jobs
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.recorder import Recorder
+from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
 from pluto_fleet.shared.flow import standing
@@ -114,7 +115,7 @@ def an_old_brain_still_commands(patch: pytest.MonkeyPatch) -> None:
 @mutant("before it was asked")
 def drones_count_as_free_before_they_answer(patch: pytest.MonkeyPatch) -> None:
     def take_up(self: Fleet, drone: Any, _: object) -> None:
-        drone.status = DroneStatus.FREE
+        put(drone, status=DroneStatus.FREE)
         self.queue.moved(drone)
 
     patch.setattr(Fleet, "take_up", take_up)

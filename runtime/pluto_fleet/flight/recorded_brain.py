@@ -193,8 +193,7 @@ class RecordedBrain:
         self.driver.tell({"durable": number})
 
     def _take(self, event: Event) -> None:
-        if not self.recorder.take(event):
-            return
+        self.recorder.take(event)
         if event["event"] in ("trip.completed", "trip.failed"):
             # it is durable in the journal: the gateway's ledger need not remember it
             self.recorder.when_durable(

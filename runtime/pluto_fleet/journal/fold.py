@@ -142,6 +142,7 @@ def _new() -> Record:
         "promises": {},
         "late": False,
         "replanned": False,
+        "changed": False,
     }
 
 
@@ -158,9 +159,31 @@ def _late(_: Records, record: Record, event: Fact) -> None:
 
 def _changed(_: Records, record: Record, event: Fact) -> None:
     """Take over a mission that a hook has changed."""
-    names = {trip["name"] for trip in (*event["todo"], *event["done"])}
-    record["gone"] += [t for t in (*record["todo"], *record["done"]) if t["name"] not in names]
-    record.update(fields=event["fields"], todo=event["todo"], done=event["done"])
+    at, todo, done = event["at"], record["todo"], record["done"]
+    old = todo[at : at + len(event["gone"])]
+    if [trip["name"] for trip in old] != event["gone"]:
+        raise KeyError(f"other trips than {event['gone']} at {at}")
+    flown = {trip["name"]: _flown(trip) for trip in old if trip.get("status") in _HAVE_FLOWN}
+    put = [{**flown.get(trip["name"], {}), **trip} for trip in event["put"]]
+    todo[at : at + len(old)] = put
+    names = {trip["name"] for trip in todo}
+    _leave(record, [trip for trip in old if trip["name"] not in names])
+    for trip in event["done"]:
+        place = next(n for n, one in enumerate(done) if one["name"] == trip["name"])
+        done[place] = {**_flown(done[place]), **trip}
+    record.update(fields=event["fields"], changed=True)
+
+
+def _flown(trip: Record) -> Record:
+    return {fact: trip[fact] for fact in ("start_time", "end_time", "reason") if fact in trip}
+
+
+_HAVE_FLOWN = ("EXECUTING", "FAILED")
+
+
+def _leave(record: Record, trips: list[Record]) -> None:
+    """Note trips that are gone, and the round: in that their names are taken."""
+    record["gone"] += [{**trip, "round": record["round"]} for trip in trips]
 
 
 def _replanned(_: Records, record: Record, event: Fact) -> None:
@@ -172,8 +195,9 @@ def _replanned(_: Records, record: Record, event: Fact) -> None:
         record["delay"] = None  # it was the delay of another trip, or another delay
     names = {trip["name"] for trip in todo}
     old = (*record["gone"], *record["todo"])
-    gone = [trip for trip in old if trip["name"] not in names]
-    record.update(gone=gone, todo=todo, replanned=True)
+    record["gone"] = []
+    _leave(record, [trip for trip in old if trip["name"] not in names])
+    record.update(todo=todo, replanned=True)
 
 
 def _delayed(_: Records, record: Record, event: Fact) -> None:
@@ -272,7 +296,7 @@ def _skipped(_: Records, record: Record, event: Fact) -> None:
     flight = record["flight"]
     if flight and flight["outcome"] and record["todo"][0]["name"] == event["trip"]:
         _goes_on(record)
-    record["gone"].append(_take(record["todo"], event["trip"]))
+    _leave(record, [_take(record["todo"], event["trip"])])
 
 
 def _prioritised(_: Records, record: Record, event: Fact) -> None:
@@ -281,7 +305,7 @@ def _prioritised(_: Records, record: Record, event: Fact) -> None:
 
 def _extended(records: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
-    record["judged"] = len(records.results)
+    record["judged"], record["changed"] = len(records.results), True
     for name in event["redo"]:
         trip = _take(record["done"], name)
         trip["attempt"] = trip.get("attempt", 1) + 1

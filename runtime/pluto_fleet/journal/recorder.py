@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ..shared.time.future import Future
 from .event_line import exact
-from .fold import Record, Records
+from .fold import Records
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -45,16 +45,13 @@ class Recorder:
         """The calls that wait for this instant's row."""
         kernel.settled = self._settle
 
-    def take(self, event: Event) -> bool:
-        """Add an event to those of its instant; return False if it says nothing that is new."""
-        if event["event"] == "mission.changed" and self._is_known(event):
-            return False
+    def take(self, event: Event) -> None:
+        """Add an event to those of its instant."""
         written = exact(event)
         self._lines.append(written)
         if event["event"] in _SHARED:
             event = json.loads(written)  # a copy, independent of the mission and its hooks
         self.records.take(event)
-        return True
 
     def measure(self, event: Event) -> None:
         """Add a measurement, which changes no record, and for whose row no one waits."""
@@ -82,14 +79,6 @@ class Recorder:
         while waiting and waiting[0][0] <= self._durable:
             waiting.popleft()[1]()
 
-    def _is_known(self, event: Event) -> bool:
-        """Return whether a hook that may have changed its mission has not."""
-        record, done = self.records.missions[str(event["mission"])], event["done"]
-        assert isinstance(done, list)
-        forgotten = len(done) != len(record["done"])
-        same = not forgotten and event["todo"] == [_as_new(trip) for trip in record["todo"]]
-        return same and event["fields"] == record["fields"]
-
     def _settle(self) -> None:
         """Append the row of an instant that has ended, with the calls that wait for it."""
         if self._lines:
@@ -107,18 +96,6 @@ class Recorder:
         if lines:
             self._added = self._sink.add("[" + ",\n".join(lines) + "]")
 
-
-def _as_new(trip: Record) -> Record:
-    """Return a trip's record as a brain writes it."""
-    data = {fact: value for fact, value in trip.items() if fact not in _OF_FLIGHTS}
-    if data.get("attempt") == 1:
-        del data["attempt"]
-    if not data.get("fields", True):
-        del data["fields"]
-    return data
-
-
-_OF_FLIGHTS = ("start_time", "end_time", "reason")
 
 _SHARED = (
     *("mission.created", "mission.changed", "mission.replanned", "mission.extended"),

@@ -203,8 +203,11 @@ def _promised(event: Fact) -> str:
 
 
 def _changed(event: Fact) -> str:
-    trips = ", ".join(str(trip["name"]) for trip in event["todo"]) or "none"
-    return f"was changed by the app's own code; trips to do: {trips}"
+    put = [str(trip["name"]) for trip in event["put"]]
+    gone = [str(name) for name in event["gone"] if name not in put]
+    told = [f"trips set or moved: {', '.join(put)}"] if put else []
+    told += [f"trips taken away: {', '.join(gone)}"] if gone else []
+    return "; ".join(["was changed by the app's own code", *told])
 
 
 def _allocated(event: Fact) -> str:

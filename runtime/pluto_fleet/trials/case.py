@@ -142,7 +142,7 @@ class Case:
 def fresh(mission: Mission[Any]) -> Mission[Any]:
     """Return a copy of a mission to fly."""
     flown = copy(mission)
-    flown.trips, flown.completed_trips = [copy(trip) for trip in mission.trips], []
+    flown.trips = [copy(trip) for trip in mission.trips]
     return flown
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .rules import Say, at, listed
+from .rules import Say, at, changed, listed
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -94,7 +94,7 @@ class DelaysAreWaited:
             self._tries[key] = self._tries.get(key, 1) + 1
 
     def _change(self, event: Event) -> None:
-        for trip in listed(event, "todo"):
+        for trip in changed(event):
             self._tries[event["mission"], trip["name"]] = trip.get("attempt", 1)
 
     def _repeat(self, event: Event) -> None:

@@ -51,6 +51,11 @@ def listed(event: Event, key: str) -> list[Any]:
     return value
 
 
+def changed(event: Event) -> list[Any]:
+    """Return the trips to do that a hook has changed, or that a person has put in place of others."""
+    return listed(event, "put" if event["event"] == "mission.changed" else "todo")
+
+
 ENDS = ("COMPLETED", "FAILED", "CANCELLED")
 
 
@@ -140,7 +145,7 @@ class CompletedDidEverything:
             "mission.repeated": self._repeat,
             "mission.ended": self._end,
             "mission.changed": self._change,
-            "mission.replanned": self._change,
+            "mission.replanned": self._replan,
             "trip.completed": self._complete,
             "trip.skipped": self._skip,
         }
@@ -156,6 +161,18 @@ class CompletedDidEverything:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
 
     def _change(self, event: Event) -> None:
+        own, to_do = self._own[event["mission"]], self._to_do[event["mission"]]
+        put = {str(trip["name"]): trip for trip in listed(event, "put")}
+        for name in listed(event, "gone"):
+            if name not in put:
+                del to_do[name]
+                own[:] = [one for one in own if one != name]
+        for name, trip in put.items():
+            to_do[name] = 1
+            if name not in own and not trip.get("added"):
+                own.append(name)
+
+    def _replan(self, event: Event) -> None:
         todo, done = listed(event, "todo"), listed(event, "done")
         own = [str(trip["name"]) for trip in (*done, *todo) if not trip.get("added")]
         self._own[event["mission"]] = own
@@ -237,8 +254,6 @@ class AttemptsCountUp:
         self._newest: dict[object, tuple[object, object, object]] = {}
         """By mission, its latest flight."""
         self._round: dict[object, object] = {}
-        self._shared: set[tuple[object, object]] = set()
-        """Names that a hook has given to several trips of a mission, which are then indistinguishable."""
         self.hears = {
             "trip.launched": self._launch,
             "trip.interrupted": self._interrupt,
@@ -251,10 +266,8 @@ class AttemptsCountUp:
         self._round[event["mission"]] = event["round"]
 
     def _change(self, event: Event) -> None:
-        todo, done, mission = listed(event, "todo"), listed(event, "done"), event["mission"]
-        names = Counter(trip["name"] for trip in (*todo, *done))
-        self._shared.update((mission, name) for name, trips in names.items() if trips > 1)
-        for trip in todo:  # a waiting trip has its next attempt's number
+        mission = event["mission"]
+        for trip in changed(event):  # a waiting trip has its next attempt's number
             flown = trip.get("attempt", 1) - ("status" not in trip)
             self._last[mission, trip["name"], self._round.get(mission, 0)] = flown
 
@@ -262,7 +275,7 @@ class AttemptsCountUp:
         trip = event["mission"], event["trip"], event["round"]
         self._newest[event["mission"]] = trip
         last = self._last[trip] = self._last.get(trip, 0) + 1
-        if event["attempt"] != last and trip[:2] not in self._shared:
+        if event["attempt"] != last:
             self._say(
                 f"{at(event)}: flight {last} of {event['trip']} of {event['mission']} "
                 f"calls itself attempt {event['attempt']}"

@@ -88,7 +88,7 @@ class IdealDrone(KnownState):
         """Leave the ground: the battery drains from now on, and faults are due."""
         leaves, drains = self._clock.now + self.motion.take_off, -1.0 / self.category.endurance
         self._charge = self._charge.changing(leaves, drains)
-        self.landed = False
+        self._landed = False
         self._look_ahead()
 
     def turn(self, legs: list[Leg], now: float) -> None:
@@ -109,7 +109,7 @@ class IdealDrone(KnownState):
         last, place = self._legs[-1], (*place_on(self._legs, now)[:2], 0.0)
         touched = min(now, last.arrives) if last.end[2] <= 0.0 else now
         rate = docked(place, self.home) / self.category.charge_time
-        self._charge, self.landed = self._charge.changing(touched, rate), True
+        self._charge, self._landed = self._charge.changing(touched, rate), True
         self.turn([resting(place, now)], now)
 
     def _look_ahead(self) -> None:

@@ -14,7 +14,8 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
-from ..domain.model import Drone, Mission, Point, ResultStore, Trip
+from ..domain.keeper import Keeper, Kept, hand_to, put
+from ..domain.model import Drone, Mission, Point, ResultStore, Trip, put_back
 from ..domain.status import RUNNING, Status
 from ..domain.trace import Trace
 from ..hooks.calls import call_hook, hook_name
@@ -142,6 +143,19 @@ class _Instruments:
         return measured() if callable(measured) else measured
 
 
+class _Open(Keeper):
+    """Lets a test, and the hooks in it, write everything."""
+
+    __slots__ = ()
+
+    def must_edit(self, what: str) -> None:
+        """Let it be done."""
+
+    def written(self, of: Kept, name: str, value: object) -> object:
+        """Let it be written."""
+        return value
+
+
 class AppKit(Generic[M, T, Given]):
     """What the hooks of an app are given, for one test."""
 
@@ -149,6 +163,7 @@ class AppKit(Generic[M, T, Given]):
         self._mission, self._trip = mission or {}, trip or {}  # what must be filled in
         self._app, self._store, self.clock = app, ResultStore(), Clock()
         kernel = self.clock.kernel
+        self._keeper = _Open(kernel.time)
         self._transitions = Transitions(kernel, Trace(kernel, ()), self._store)
         self._flights: dict[Mission[Any], Flight] = {}
         self._none = app.mission(name="no mission", trips=[], **self._mission)
@@ -166,7 +181,7 @@ class AppKit(Generic[M, T, Given]):
     def move(self, drone: Drone, *, to: Point | None = None, battery: float | None = None) -> None:
         """Change where a drone is, or what is left in its battery."""
         level = drone.battery_level if battery is None else battery
-        drone.telemetry = DroneState(to or drone.location, level)
+        put(drone, telemetry=DroneState(to or drone.location, level))
 
     def trip(
         self,
@@ -186,7 +201,7 @@ class AppKit(Generic[M, T, Given]):
             parameters={**values, **(parameters or {})},
             **{"name": f"trip {next(self._trips)}", **self._trip, **fields},
         )
-        trip.now = self.clock.kernel.time
+        hand_to(self._keeper, trip)
         return cast("T", trip)
 
     def mission(self, *trips: T, **fields: Any) -> M:
@@ -199,8 +214,8 @@ class AppKit(Generic[M, T, Given]):
     def launch(self, mission: M, drone: Drone | None = None) -> None:
         """Have a drone leave for the mission's next trip; one that flew before is put back."""
         trip, flier = mission.trips[0], drone or self.drone()
-        trip.reset()
-        trip.drone = flier
+        put_back(trip)
+        put(trip, drone=flier)
         self._transitions.launch(mission, trip, flier)
         self._flights[mission] = Flight(trip)
 

@@ -6,13 +6,14 @@ Positions are (x, y, z) in metres in the map's frame, times are seconds since th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import dist
-from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar, cast
 
 from .errors import MissionFailed
+from .keeper import Kept, Trips, keeper_of, list_of_trips, put
 from .motion import STRAIGHT, Motion, charging
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
 
@@ -98,9 +99,10 @@ class Telemetry(Protocol):
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class Drone:
+class Drone(Kept):
     """A drone of the fleet. The system chooses one: no user addresses it."""
 
+    called: ClassVar[str] = "drone"
     id: str
     category: Category
     home: Point
@@ -132,9 +134,13 @@ class Drone:
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class Trip:
+class Trip(Kept):
     """A drone's flight to a target that ends with an action."""
 
+    called: ClassVar[str] = "trip"
+    edited: ClassVar[frozenset[str]] = frozenset(
+        {"action", "item", "parameters", "source", "target"}
+    )
     name: str
     action: str
     target: Point
@@ -157,8 +163,6 @@ class Trip:
     """An evaluator added it: it is not repeated."""
     reason: str = field(default="", init=False)
     """Why it failed, the last time."""
-    now: Callable[[], float] | None = field(default=None, init=False, repr=False)
-    """The clock, once the trip belongs to a mission that runs."""
 
     @property
     def elapsed(self) -> float:
@@ -167,7 +171,8 @@ class Trip:
             return 0.0
         if self.end_time is not None:
             return self.end_time - self.start_time
-        return self.now() - self.start_time if self.now else 0.0
+        keeper = keeper_of(self)
+        return 0.0 if keeper is None else keeper.time() - self.start_time
 
     def expired(self, limit: float) -> bool:
         """Return whether it has been flying, or flew, for this many seconds or more."""
@@ -178,14 +183,30 @@ class Trip:
         """Whether it is over, well or not."""
         return self.status in (TripStatus.COMPLETED, TripStatus.FAILED)
 
+    def closed(self) -> str:
+        """Return why even a modifier may not write it now; empty: it may."""
+        match self.status:
+            case TripStatus.EXECUTING:
+                return f"trip {self.name} is in flight, and can be changed when it has ended"
+            case TripStatus.COMPLETED:
+                return f"trip {self.name} is completed, and an evaluator can have it flown again"
+        return ""
+
     def reset(self) -> None:
         """Put it back: it is WAITING again and counts as one more attempt."""
-        if self.status is TripStatus.EXECUTING:
-            raise ValueError(f"trip {self.name} is in flight: it can be reset when it has ended")
-        if self.status is not TripStatus.WAITING:
-            self.status = TripStatus.WAITING
-            self.attempt += 1
-            self.drone = self.start_time = self.end_time = None
+        if why := self.closed():
+            raise ValueError(f"it cannot be reset: {why}")
+        if (keeper := keeper_of(self)) is not None:
+            keeper.must_edit("trip.reset() cannot be called here")
+            keeper.note(self, "status", "attempt", "drone", "start_time", "end_time")
+        put_back(self)
+
+
+def put_back(trip: Trip) -> None:
+    """Make a trip WAITING again; if it was not, its next flight is one more attempt."""
+    if trip.status is not TripStatus.WAITING:
+        put(trip, status=TripStatus.WAITING, attempt=trip.attempt + 1)
+        put(trip, drone=None, start_time=None, end_time=None)
 
 
 T = TypeVar("T", bound=Trip)
@@ -194,13 +215,14 @@ NO_RESULT = -1  # the number of a result that there is not
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
-class Mission(Generic[T]):
+class Mission(Kept, Generic[T]):
     """A list of trips, flown one after the other. Missions run side by side."""
 
+    called: ClassVar[str] = "mission"
     name: str
     trips: list[T]
-    """Still to do, in order; the first is the one that flies now, or flies next."""
-    completed_trips: list[T] = field(default_factory=list, init=False)
+    """Still to do, in order; the first is the one that flies now, or flies next. Modifiers may change it."""
+    completed_trips: tuple[T, ...] = field(default=(), init=False)
     status: Status = field(default=UNEXECUTED, init=False)
     reason: str = field(default="", init=False)
     """Why it failed."""
@@ -219,14 +241,48 @@ class Mission(Generic[T]):
     last_result: int = field(default=NO_RESULT, init=False, repr=False)
     """The number of its newest result that its evaluator has not seen."""
 
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, name: str, value: object) -> None:
+            if name != "trips":
+                Kept.__setattr__(self, name, value)
+            elif (trips := getattr(self, "trips", None)) is None:
+                put(self, trips=Trips(value))
+            else:
+                trips[:] = list_of_trips(value)
+
     @property
     def current(self) -> T:
         """The trip that flies now, or flies next; when none is left, the one flown last."""
-        if self.trips:
-            return self.trips[0]
-        if not self.completed_trips:
-            raise MissionFailed("no trip is left to fly")
-        return self.completed_trips[-1]
+        return _current(self.trips, self.completed_trips)
+
+
+def trips_of(mission: Mission[T]) -> list[T]:
+    """Return a mission's trips to do for the runtime, to be read: without what a hook is changing."""
+    return cast("Trips[T]", mission.trips).kept
+
+
+def put_trips(mission: Mission[T], trips: Iterable[T]) -> None:
+    """Give a mission trips to do, as the runtime does."""
+    cast("Trips[T]", mission.trips).put(trips)
+
+
+def drop_trip(mission: Mission[T], trip: T) -> None:
+    """Take a trip away, as the runtime does."""
+    cast("Trips[T]", mission.trips).drop(trip)
+
+
+def current_of(mission: Mission[T]) -> T:
+    """Return the mission's trip that flies now or next, for the runtime."""
+    return _current(trips_of(mission), mission.completed_trips)
+
+
+def _current(trips: Sequence[T], completed: Sequence[T]) -> T:
+    if trips:
+        return trips[0]
+    if not completed:
+        raise MissionFailed("no trip is left to fly")
+    return completed[-1]
 
 
 M = TypeVar("M", bound=Mission[Any])

@@ -10,6 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import FlightFailed
+from ..domain.keeper import put
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
 from ..domain.text import LONGEST_REASON, cut_off, printable
@@ -121,7 +122,7 @@ class Fleet:
 
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
-            drone.status = status
+            put(drone, status=status)
             if self._trace.live:
                 self._note(drone)
         self.queue.moved(drone)

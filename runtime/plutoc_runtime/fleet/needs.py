@@ -7,6 +7,7 @@ from heapq import heappop, heappush, heapreplace
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any
 
+from ..domain.model import trips_of
 from ..time.future import Future
 from .reach import MORE, Reach, chain_of, miss_of
 
@@ -28,8 +29,8 @@ class Request(Future["Drone"]):
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.mission, self.trips, self.since = mission, mission.trips, 0.0
-        self.trip = trip = mission.trips[0]
+        self.mission, self.trips, self.since = mission, trips_of(mission), 0.0
+        self.trip = trip = self.trips[0]
         # the rank: its priority, and minus the number of its arrival; the highest is served first
         self.policy, self.rank = policy, rank
         self.goal = trip.source or trip.target  # where its drone flies to first

@@ -13,6 +13,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput, Failure, FlightFailed
+from ..domain.keeper import Keeper, hand_to
 from ..domain.model import Drone
 from ..hooks.plain_data import value_of
 from ..time.future import Future
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.status import DroneStatus
     from ..domain.trace import Clock
+
+_NOBODY = Keeper()  # who lets no hook write anything
 
 Order = dict[str, Any]
 Answer = Callable[[object], object]
@@ -52,9 +55,11 @@ class Orders:
         x, y, *z = data["home"]
         home = x, y, z[0] if z else 0.0
         self.drones[id] = known = KnownState(self._clock, home, app.categories[0].motion)
-        return Drone(
+        drone = Drone(
             id=id, category=category, home=home, telemetry=known, status=status, index=index
         )
+        hand_to(_NOBODY, drone)
+        return drone
 
     def take(self) -> list[Order]:
         """Return the orders that were given since the last call."""

@@ -15,6 +15,7 @@ from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import HookFault, MissionFailed
+from ..domain.keeper import put
 from ..domain.status import IN_THE_AIR, DroneStatus
 from ..time.kernel import FLEET, EventKind, Kernel, Timer
 from .needs import Needs, Request
@@ -56,7 +57,7 @@ class Queue:
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
         self._arrivals = number = self._arrivals - 1
-        rank, waiting = (+priority, number), self.requests  # raises in its mission, if that is odd
+        rank, waiting = (priority, number), self.requests
         request = Request(self._reach, mission, policy, rank)
         if waiting and waiting[0].rank > rank:  # most that enter
             waiting.insert(0, request)
@@ -185,7 +186,7 @@ class Queue:
             request = self.requests.pop(place)
             drone, request.why = choice
             self.ready.remove(drone)
-            drone.status = _BUSY  # at once: no other request may have it
+            put(drone, status=_BUSY)  # at once: no other request may have it
             request.set(drone)
 
     def refuse(self, request: Request, error: MissionFailed) -> None:
@@ -198,9 +199,8 @@ class Queue:
 
     def _place(self, request: Request) -> int:
         place = bisect_left(self.requests, request.rank, key=_by_rank)
-        if place < len(self.requests) and self.requests[place] is request:
-            return place
-        return self.requests.index(request)  # a hook has left a priority that compares with none
+        assert self.requests[place] is request
+        return place
 
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""

@@ -89,12 +89,12 @@ class Charge:
 class KnownState:
     """The state of one drone, as it was told last: the drone's `Telemetry`."""
 
-    __slots__ = ("_charge", "_clock", "_legs", "landed", "motion")
+    __slots__ = ("_charge", "_clock", "_landed", "_legs", "_motion")
 
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
-        self._clock, self.motion = clock, motion
+        self._clock, self._motion = clock, motion
         self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
-        self.landed = True  # whether it stands on the ground
+        self._landed = True
 
     @property
     def location(self) -> Point:
@@ -108,11 +108,21 @@ class KnownState:
         charge = self._charge
         return charge.at(self._clock.now) if charge.rate else charge.level
 
+    @property
+    def motion(self) -> Motion:
+        """How it moves."""
+        return self._motion
+
+    @property
+    def landed(self) -> bool:
+        """Whether it stands on the ground."""
+        return self._landed
+
     def take(self, told: Mapping[str, Any]) -> None:
         """Take over a message about it; what the message does not say stays as it was."""
         now, one = self._clock.now, told.get("leg")
         if legs := told.get("legs") or (one and [one]):
-            smooth = self.motion.smooth
+            smooth = self._motion.smooth
             self._legs = [
                 Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
             ]
@@ -120,7 +130,7 @@ class KnownState:
             self._legs = [resting(point_of(told["at"]), now)]
         match told.get("battery"):
             case [level, since, rate]:
-                self._charge = Charge(level, since, rate, self.motion.taper)
+                self._charge = Charge(level, since, rate, self._motion.taper)
             case float(level) | int(level):
                 self._charge = Charge(level, now)
-        self.landed = told.get("landed", self.landed)
+        self._landed = told.get("landed", self._landed)

@@ -1,29 +1,24 @@
-"""Asking a hook about a mission, and recording what it has changed."""
+"""Asking a hook about a mission, and taking over what it has changed: all of it, or nothing."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import partial
+from operator import is_
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import ANY_ERROR, HookFault, MissionFailed
-from ..domain.fields import Entity, FieldType, wrong_field
-from ..domain.guard import NOT_ITS_OWN, unless_by_a_person
-from ..domain.text import said
-from ..hooks.calls import (
-    Hook,
-    ProtectedFacts,
-    call_hook,
-    changed,
-    fault_of,
-    hook_name,
-    trace_of,
-)
+from ..domain.errors import ANY_ERROR, Cancelled, HookFault, MissionFailed
+from ..domain.fields import Entity
+from ..domain.guard import NOT_ITS_OWN
+from ..domain.keeper import Keeper, keeper_of
+from ..domain.model import trips_of
+from ..domain.status import TripStatus
+from ..domain.text import class_of
+from ..hooks.calls import Hook, call_hook, fault_of, hook_name
 from ..hooks.plain_data import fields_of, trip_data
+from ..hooks.soundness import taken_in, unsound
 
 if TYPE_CHECKING:
-    from ..domain.model import Mission
-    from .mission import Core
+    from ..domain.model import Mission, Trip
+    from .mission import Core, MissionState
     from .run import Run
 
 MOST_CALLS = 100_000
@@ -31,65 +26,109 @@ MOST_CALLS = 100_000
 return at once or sleep."""
 
 
-async def ask(run: Run[Any], hook: Hook, *args: object) -> object:
-    """Call one of the app's hooks; its faults end the mission."""
-    run.state.calls += 1
-    if run.state.calls > MOST_CALLS:
+async def ask(run: Run[Any], hook: Hook, *args: object, edits: bool = False) -> object:
+    """Call one of the app's hooks, which `edits` trips; its faults end the mission."""
+    state, keeper = run.state, kept_by(run.mission)
+    state.calls += 1
+    if state.calls > MOST_CALLS:
         raise MissionFailed(
             f"it goes round in its graph for ever: its hooks were called {MOST_CALLS:,} times "
             f"since its last launch, and now {hook_name(hook)} again"
         )
-    mission, flying = run.mission, run.state.in_flight
-    name, index = mission.name, mission.index
-    held = None if flying is None else ProtectedFacts(flying.trip, "name", "action")
     try:
-        answer = await call_hook(run.core.kernel, hook, *args)
+        with keeper.opened(edits=edits):
+            answer = await call_hook(run.core.kernel, hook, *args)
+    except Cancelled:  # another branch was faster, and what it has changed by now counts
+        try:
+            take_over(state, hook)
+        except HookFault as fault:
+            state.end(str(fault))
+        raise
     except NOT_ITS_OWN:
         raise
     except ANY_ERROR as error:
+        undo(run.mission)
         raise fault_of(hook, error) from error
-    finally:
-        known = mission.name is name and mission.index is index
-        if not known:
-            mission.name, mission.index = name, index
-        fact = held and held.put_back()
-    if not known:
-        raise changed(hook, "mission", "name or index")
-    if fact:
-        raise changed(hook, "trip", fact)
-    keep(run.core, hook, mission)
+    take_over(state, hook)
     return answer
 
 
-def keep(core: Core, hook: Hook, mission: Mission[Any]) -> None:
-    """Check what a hook may have changed of this mission, and record it if the run may be resumed."""
-    if own := [field for field in core.app.fields if not isinstance(field.type, FieldType)]:
-        trips = mission.trips if type(mission.trips) is list else ()
-        for entity, of in ((Entity.MISSION, mission), *((Entity.TRIP, one) for one in trips)):
-            if wrong := wrong_field(own, entity, of, ()):
-                left = f"hook {hook_name(hook)} left a {entity.value} that cannot go on"
-                raise HookFault(f"{left}: its {wrong}")
-    if core.on_record is not None:
-        look(hook, partial(note_change, core), mission)
+def kept_by(mission: Mission[Any]) -> Keeper:
+    """Return the keeper of a mission that runs."""
+    keeper = keeper_of(mission)
+    assert keeper is not None
+    return keeper
 
 
-def look(hook: Hook, note: Callable[[Mission[Any]], object], mission: Mission[Any]) -> None:
-    """Record what a hook has changed; a change that cannot be stored is a fault of the hook."""
-    try:
-        note(mission)
-    except ANY_ERROR as error:
-        unless_by_a_person(error)
-        reason = f"hook {hook_name(hook)} left its mission so that it cannot be kept: {said(error)}"
-        raise HookFault(reason, trace_of(error)) from None
+def undo(mission: Mission[Any]) -> None:
+    """Put back what a hook has changed of a mission."""
+    kept_by(mission).undo()
+    mission.trips.undo()  # type: ignore[attr-defined]
 
 
-def note_change(core: Core, mission: Mission[Any]) -> None:
-    """Make an event of a mission as it is now."""
-    app = core.app
+def take_over(state: MissionState, hook: Hook) -> None:
+    """Take over what a hook has changed of its mission; raise its fault if that cannot be flown."""
+    core, mission = state.core, state.mission
+    keeper, trips, before = kept_by(mission), mission.trips, trips_of(mission)
+    if not keeper.before and len(trips) == len(before) and all(map(is_, trips, before)):
+        return
+    if (wrong := _wrong_trips(state, keeper)) is not None:
+        undo(mission)
+        raise HookFault(f"modifier {hook_name(hook)} {wrong}")
+    changed = {of for (of, name), was in keeper.before.items() if getattr(of, name) != was}
+    keeper.before.clear()
+    keeper.changed = True
+    if core.trace.live and (changed or trips != before):
+        _note_change(core, mission, changed)
+    before[:] = trips
+
+
+def _wrong_trips(state: MissionState, keeper: Keeper) -> str | None:
+    """Return what a hook did to the trips so that they cannot be flown, or None."""
+    mission, flying, app = state.mission, state.in_flight, state.core.app
+    trips: list[Trip] = [*mission.trips]
+    if flying is not None and (not trips or trips[0] is not flying.trip):
+        return f"took trip {flying.trip.name}, which is flying, from its place"
+    written, seen = {of for of, _ in keeper.before}, set[int]()
+    for trip in trips:
+        problem = None
+        if type(trip) is not app.trip:
+            problem = f"it must be a Trip of this app, not {class_of(trip)}"
+        elif id(trip) in seen:
+            problem = f"trip {trip.name}: it is in the list twice"
+        elif keeper_of(trip) is not keeper:
+            problem = unsound(app, state.core.airspace, trip)
+            problem = problem or taken_in(mission, trip, added=False)
+        elif trip.status not in _TO_DO and (flying is None or trip is not flying.trip):
+            problem = f"trip {trip.name} is {trip.status.value}"
+        elif trip in written:
+            problem = unsound(app, state.core.airspace, trip)
+        if problem is not None:
+            return f"left a trip that cannot be flown: {problem}"
+        seen.add(id(trip))
+    return None
+
+
+_TO_DO = (TripStatus.WAITING, TripStatus.FAILED)
+
+
+def _note_change(core: Core, mission: Mission[Any], changed: set[Any]) -> None:
+    """Make an event of what has changed: of the trips to do the part from the first to the last that has."""
+    app, old, new = core.app, trips_of(mission), mission.trips
+    least = min(len(old), len(new))
+    first = last = 0
+    while first < least and old[first] is new[first] and old[first] not in changed:
+        first += 1
+    while (
+        last < least - first and old[-1 - last] is new[-1 - last] and old[-1 - last] not in changed
+    ):
+        last += 1
     core.trace.note(
         "mission.changed",
         mission=mission.name,
-        todo=[trip_data(app, trip) for trip in mission.trips],
-        done=[trip_data(app, trip) for trip in mission.completed_trips],
+        at=first,
+        gone=[trip.name for trip in old[first : len(old) - last]],
+        put=[trip_data(app, trip) for trip in new[first : len(new) - last]],
+        done=[trip_data(app, trip) for trip in mission.completed_trips if trip in changed],
         fields=fields_of(app, Entity.MISSION, mission),
     )

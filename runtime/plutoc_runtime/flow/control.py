@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput
+from ..domain.keeper import put
+from ..domain.model import drop_trip, put_trips, trips_of
 from ..domain.status import DroneStatus, Status
 from ..hooks.plain_data import trip_of
 from ..time.kernel import mission_key
@@ -55,27 +57,27 @@ class Control:
 
     def _skip(self, request: Request) -> str:
         state, trip = self._trip(request)
-        if trip is state.mission.trips[0] and state.task is not None:
+        if trip is trips_of(state.mission)[0] and state.task is not None:
             raise BadInput(f"trip {trip.name} may be flying: pause its mission first")
-        state.mission.trips.remove(trip)
+        drop_trip(state.mission, trip)
         return f"trip {trip.name} is skipped"
 
     def _change_trips(self, request: Request) -> str:
         """Replace all that a mission has to do behind its first trip, which may be flying."""
         state = self._state(request)
-        core, trips = self._core, state.mission.trips
+        core, trips = self._core, trips_of(state.mission)
         if state.task is None or not trips:
             raise BadInput(f"mission {request['mission']} has no trip before these in its graph")
-        trips[1:] = [trip_of(core.app, one, place) for place, one in enumerate(request["trips"], 1)]
-        for trip in trips[1:]:
-            trip.now = core.kernel.time
+        new = [trip_of(core.app, one, place) for place, one in enumerate(request["trips"], 1)]
+        put_trips(state.mission, [trips[0], *new])
+        self._engine.keep(state.mission, new)
         return f"mission {request['mission']} has {len(trips)} trips to do"
 
     def _prioritise(self, request: Request) -> str:
         _, trip = self._trip(request)
         if not any(field.name == PRIORITY for field in self._core.app.fields):
             raise BadInput("the trips of this app have no priority")
-        setattr(trip, PRIORITY, request["priority"])
+        put(trip, **{PRIORITY: request["priority"]})
         self._core.queue.prioritise(trip, request["priority"])
         return f"trip {trip.name} has priority {request['priority']}"
 
@@ -124,7 +126,7 @@ class Control:
 
     def _trip(self, request: Request) -> tuple[MissionState, Trip]:
         state = self._state(request)
-        for trip in state.mission.trips:
+        for trip in trips_of(state.mission):
             if trip.name == request["trip"]:
                 return state, trip
         raise BadInput(f"mission {request['mission']} has no trip {request['trip']} to do")

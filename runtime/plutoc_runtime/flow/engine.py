@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from gc import freeze
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Cancelled, HookFault, MissionFailed
-from ..domain.fields import Entity, wrong_field
-from ..domain.model import Mission
+from ..domain.fields import Entity
+from ..domain.keeper import Keeper, keep, keeper_of
+from ..domain.model import Mission, trips_of
 from ..domain.status import FAILED, UNEXECUTED, Status
+from ..domain.text import said
+from ..hooks.calls import trace_of
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
 from .mission import Core, MissionState
@@ -18,12 +21,17 @@ from .promises import Promises
 from .run import Run
 from .standing import as_crash, blame, blamed
 
+if TYPE_CHECKING:
+    from ..domain.model import Trip
+
 
 class Engine:
     """All missions of one running app."""
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
+        app, kinds = core.app, {Entity.MISSION: core.app.mission, Entity.TRIP: core.app.trip}
+        self._fields = {(kinds[field.on], field.name): field for field in app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
@@ -57,7 +65,15 @@ class Engine:
 
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
+        self.keep(mission, trips_of(mission))
         return MissionState(self.core, mission, self._doomed)
+
+    def keep(self, mission: Mission[Any], trips: Iterable[Trip]) -> Keeper:
+        """Have a mission kept, with trips that it has or had: from now on hooks may write what they may."""
+        core = self.core
+        keeper = keeper_of(mission) or Keeper(core.kernel.time, self._fields, core.app.evaluators)
+        keep(keeper, mission, trips)
+        return keeper
 
     def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
@@ -131,23 +147,16 @@ class Engine:
                 self._tell(error, state.mission)
         elif isinstance(error, Cancelled):
             status, reason = FAILED, state.doom or "it was called off"
-        elif (wrong := self._wrong(state.mission)) is not None:
-            status, reason = FAILED, wrong
+        elif (keeper := keeper_of(state.mission)) is not None and keeper.changed:
+            reason = f"by a bug of Pluto, or of a hook that has changed the mission: {said(error)}"
+            status = FAILED
+            self._tell(HookFault(reason, trace_of(error)), state.mission)
         else:
             crash = as_crash(error)
             blame(crash, self.core.app.flow)
             self.core.kernel.crash(crash)
             return
         self._end(state, status, reason)
-
-    def _wrong(self, mission: Mission[Any]) -> str | None:
-        """Return the invalid value that a hook left in the mission; None: the block itself is wrong."""
-        fields, names = self.core.app.fields, self.core.app.evaluators
-        for trip in mission.trips:
-            if wrong := wrong_field(fields, Entity.TRIP, trip, names):
-                return f"trip {trip.name}: its {wrong}"
-        wrong = wrong_field(fields, Entity.MISSION, mission, names)
-        return wrong and f"its {wrong}"
 
     def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
         """Log where a hook failed, and which block called it."""

@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR, HookFault
-from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
 from ..domain.plain import as_a
-from ..domain.status import COMPLETED, FAILED, STANDBY, Status, TripStatus
+from ..domain.status import COMPLETED, FAILED, STANDBY, Status
 from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import miss_of
 from ..hooks.calls import hook_name
 from ..hooks.context import Verdict
-from ..hooks.soundness import unsound, unsound_mission
+from ..hooks.soundness import taken_in, unsound
+from .asking import kept_by
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Trip
@@ -31,14 +31,9 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     mission, core = run.mission, run.core
     name = hook_name(hook)
     who = f"evaluator {name}"
-    wrong = unsound_mission(core.app, mission)
-    if wrong is not None:
-        raise HookFault(f"{who} left a mission that cannot go on: {wrong}")
     if not issubclass(type(verdict), Verdict):
         raise HookFault(f"{who} must return a Verdict, not {class_of(verdict)}")
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
-    if type(mission.trips) is not list or mission.trips:
-        raise HookFault(f"{who} changed the mission's trips: that is what `add` is for")
     if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
         return COMPLETED
     redo, add = _listed(who, "redo", verdict.redo), _listed(who, "add", verdict.add)
@@ -53,8 +48,12 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
             called = trip.name if type(trip) is core.app.trip else shown(trip)
             not_done = f"a trip that mission {mission.name} has not completed: {called!r}"
             raise HookFault(f"{who} asks to redo {not_done}")
-    added = tuple(_accepted(core, mission, who, trip) for trip in _once_each(add))
-    _name(mission, added)
+    added = tuple(_once_each(add))
+    for trip in added:
+        if (problem := _problem(core, mission, trip)) is not None:
+            raise HookFault(f"{who} adds a trip that cannot be flown: {problem}")
+    if added:
+        kept_by(mission).changed = True
     if not (redo or added):
         return COMPLETED
     core.transitions.redo(mission, tuple(_once_each(redo)), added)
@@ -85,41 +84,18 @@ def _once_each(trips: Sequence[Any]) -> list[Any]:
     return list({id(trip): trip for trip in trips}.values())
 
 
-def _accepted(core: Core, mission: Mission[Any], who: str, trip: Trip) -> Trip:
-    """Fill in a new trip's default parameters; raise `HookFault` if it cannot be flown."""
-    problem = _problem(core, mission, trip)
-    if problem is not None:
-        raise HookFault(f"{who} adds a trip that cannot be flown: {problem}")
-    parameters = core.app.actions[trip.action].parameters
-    defaults = {p.name: p.default for p in parameters if p.default is not None}
-    trip.parameters = {**defaults, **trip.parameters}
-    return trip
-
-
-def _name(mission: Mission[Any], added: Sequence[Trip]) -> None:
-    """Give each new trip a unique name: flights and results are identified by it."""
-    taken = {known.name for known in (*mission.trips, *mission.completed_trips)}
-    for trip in added:
-        name, number = trip.name, 1
-        while trip.name in taken:
-            number += 1
-            trip.name = f"{name} {number}"
-        taken.add(trip.name)
-
-
 def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:
-    problem = unsound(core.app, core.airspace, trip)
-    problem = problem or wrong_field(core.app.fields, Entity.TRIP, trip, core.app.evaluators)
-    if problem is not None:
-        return problem
     if any(trip is done for done in mission.completed_trips):
         return f"trip {trip.name} is the mission's already: ask to redo it"
-    if trip.now is not None or trip.status is not TripStatus.WAITING:
-        return f"trip {trip.name} has been used already: make a new Trip each time"
+    problem = unsound(core.app, core.airspace, trip)
+    if problem is not None:
+        return problem
     if trip.action in (PICK, RELEASE):
         return "items are planned by the user: pick and release cannot be added"
     misses = [
         miss_of(core.app, core.airspace, drone.category, drone.home, (trip,))
         for drone in core.fleet.drones
     ]
-    return None if None in misses else "; ".join(dict.fromkeys(m.reason for m in misses if m))
+    if None not in misses:
+        return "; ".join(dict.fromkeys(m.reason for m in misses if m))
+    return taken_in(mission, trip, added=True)

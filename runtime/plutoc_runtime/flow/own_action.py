@@ -12,15 +12,14 @@ from ..domain.guard import NOT_ITS_OWN
 from ..domain.plain import as_a
 from ..domain.text import LONGEST_REASON, bounded, text_of
 from ..fleet.reach import needed
-from ..hooks.calls import Hook, ProtectedFacts, call_hook, changed, fault_of, trace_of
+from ..hooks.calls import Hook, call_hook, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
 from ..time.future import Future
 from ..time.kernel import EventKind, mission_key
-from .asking import keep
+from .asking import kept_by, take_over
 
 if TYPE_CHECKING:
-    from ..time.told import ToldTime
     from ..trips.flight import Flight
     from .mission import MissionState
 
@@ -55,11 +54,10 @@ class OwnAction(Action):
             await core.on_record()
         live = LiveDrone(kernel, core.orders, drone, key) if can_wait(hook) else None
         context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
-        call = _call(kernel, hook, drone, trip, context, **trip.parameters)
+        call = _call(state, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.orders.ask("hold", drone.id), key, f"{drone.id} hovers")
         rest = kernel.spawn(self._while_it_suffices(state, flight), key, f"{drone.id}'s battery")
-        held = ProtectedFacts(trip, "name", "action", "item", "index", "attempt", "status")
         over, began = Future[None](), kernel.now
         work.watch(over.set)
         hover.watch(over.set)
@@ -78,15 +76,11 @@ class OwnAction(Action):
             why = bounded(text_of(error) or "it does not say why", LONGEST_REASON)
             raise FlightFailed(Failure.ACTION, f"{self.name} failed: {why}") from error
         finally:
-            fact = held.put_back() if work.is_set else ""  # it may have been called off
             work.cancel()
             hover.cancel()
             rest.cancel()
             if live is not None:
                 live.release()
-        if fact:
-            raise changed(hook, "trip", fact)
-        keep(core, hook, mission)
         return value
 
     async def _while_it_suffices(self, state: MissionState, flight: Flight) -> None:
@@ -131,11 +125,14 @@ class OwnAction(Action):
         return as_a(bool, answer)
 
 
-async def _call(kernel: ToldTime, hook: Hook, /, *args: object, **named: object) -> object:
+async def _call(state: MissionState, hook: Hook, /, *args: object, **named: object) -> object:
     """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
-        return await call_hook(kernel, hook, *args, **named)
+        with kept_by(state.mission).opened():
+            return await call_hook(state.core.kernel, hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
     except ANY_ERROR as error:
         raise fault_of(hook, error) from error
+    finally:
+        take_over(state, hook)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
 from ..domain.fields import time_of_day
+from ..domain.keeper import put, read_only
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
 from ..time.future import Future
@@ -43,14 +44,16 @@ class Promises:
     def start(self, mission: Mission[Any]) -> None:
         """Fix a new mission's promises in seconds since the app started, and record them."""
         kernel = self._core.kernel
-        mission.promises = kept_from(mission.promises, kernel.hours, kernel.now, kernel.drift)
+        promises = kept_from(mission.promises, kernel.hours, kernel.now, kernel.drift)
+        put(mission, promises=read_only(promises))
         if self._core.trace.live:
             self._core.trace.note("mission.promised", mission=mission.name, **mission.promises)
         self.watch(mission)
 
     def watch(self, mission: Mission[Any]) -> None:
         """Notice when a mission is late."""
-        mission.deadline = deadline = moment_of(mission, "deadline", self._core.kernel.drift)
+        deadline = moment_of(mission, "deadline", self._core.kernel.drift)
+        put(mission, deadline=deadline)
         kernel, key = self._core.kernel, mission_key(mission.index)
         if deadline is None or mission.late:
             return
@@ -70,7 +73,7 @@ class Promises:
         if due is not None and due > self._core.kernel.now:
             return  # the clock was set back
         if not (mission.late or self._states[mission.name].ended):
-            mission.late = True
+            put(mission, late=True)
             if (trace := self._core.trace).live:
                 trace.note("mission.late", mission=mission.name, deadline=mission.deadline)
 

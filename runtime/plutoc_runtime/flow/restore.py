@@ -11,6 +11,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.fields import Entity
+from ..domain.keeper import put
+from ..domain.model import current_of, trips_of
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
 from ..fleet.orders import failure_of
 from ..hooks.plain_data import (
@@ -65,9 +67,11 @@ class Recording:
             case "trip.completed":
                 return {"result": value_data(self._results.results[-1].value)}
             case "trip.reset":
-                return {"fields": fields_of(self._app, Entity.TRIP, self._mission(event).current)}
+                return {
+                    "fields": fields_of(self._app, Entity.TRIP, current_of(self._mission(event)))
+                }
             case "mission.extended":
-                names, trips = cast("list[str]", event["add"]), self._mission(event).trips
+                names, trips = cast("list[str]", event["add"]), trips_of(self._mission(event))
                 return {
                     "trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]
                 }
@@ -112,7 +116,7 @@ class Restorer:
         self._restore_results(standing.get("results", ()), standing.get("first_result", 0), records)
         for drone, flown in standing.get("flown", {}).items():
             if drone in self.drones:
-                self.drones[drone].trips = flown
+                put(self.drones[drone], trips=flown)
         engaged: set[Drone] = set()
         for name in by_index:
             if not records[name].get("ended"):
@@ -129,8 +133,11 @@ class Restorer:
         given = {"name": name, "trips": [], "index": index, **record.get("fields", {})}
         mission = known.mission if known else core.app.mission(**given)
         self._trips[name] = trips = update(core.app, mission, record)
-        for trip in trips.values():
-            trip.now = core.kernel.time
+        keeper = self._engine.keep(mission, trips.values())
+        gone = [one["name"] for one in record.get("gone", ()) if one.get("round") == mission.round]
+        left = (*trips_of(mission), *mission.completed_trips)
+        keeper.names = {*gone, *(trip.name for trip in left)}
+        keeper.changed = keeper.changed or bool(record.get("changed"))
         state = self._engine.new_state(mission)
         state.ended = bool(record.get("ended"))
         state.at, state.interrupted = record.get("at"), bool(record.get("interrupted"))
@@ -163,7 +170,8 @@ class Restorer:
         outcome, heard = known.get("outcome"), known.get("heard")
         if outcome is None and heard:
             return
-        trip.drone = drone = self.drones[known["drone"]]
+        drone = self.drones[known["drone"]]
+        put(trip, drone=drone)
         action, retry = self._core.app.actions[trip.action], bool(known.get("retry"))
         state.flight = flight = Flight(state.mission, trip, drone, action, known["since"], retry)
         if outcome is not None:
@@ -179,7 +187,7 @@ class Restorer:
             found = self._trips[name].get(trip)
             kept = self._core.results.add(mission, found, round_, attempt, gave)
             if number >= records[name].get("judged", 0):
-                mission.last_result = kept
+                put(mission, last_result=kept)
 
     def _resume(self, state: MissionState, record: Record, engaged: set[Drone]) -> None:
         """Resume a mission, unless it is suspended; add the drones that it needs."""
@@ -188,7 +196,8 @@ class Restorer:
         if flight is not None and not flight.is_set:
             if not suspended:
                 engaged.add(flight.flier)
-                state.goes_on, mission.status = True, RUNNING
+                state.goes_on = True
+                put(mission, status=RUNNING)
                 core.fleet.flies_on(flight.flier)
                 self._hear(state, flight, record["flight"].get("report"))
             else:
@@ -202,7 +211,7 @@ class Restorer:
             return
         status = STANDBY if mission.attempts or state.interrupted else UNEXECUTED
         if not state.goes_on:
-            mission.status, mission.reason = status, ""
+            put(mission, status=status, reason="")
         self._engine.enter(state, status)
 
     def _hear(self, state: MissionState, flight: Flight, report: Record | None) -> None:

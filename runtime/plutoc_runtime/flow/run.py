@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..domain.model import Mission
+from ..domain.model import Mission, current_of
 from ..domain.status import UNEXECUTED, Status
 from ..time.kernel import branch_key
 
@@ -44,7 +44,7 @@ class Run(Generic[M]):
     @property
     def trip(self) -> Any:
         """The mission's trip in flight, or the next one; of the app's own class."""
-        return self.mission.current
+        return current_of(self.mission)
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight."""

@@ -6,15 +6,14 @@ each call of it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from dataclasses import fields as dataclass_fields
-from math import isfinite
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
-from ..domain.guard import unless_by_a_person
+from ..domain.keeper import put
+from ..domain.model import put_trips, trips_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import said
 from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
@@ -50,8 +49,8 @@ def standing_of(app: App, state: MissionState) -> Data:
         "reason": mission.reason,
         "round": mission.round,
         "attempts": mission.attempts,
-        "todo": _trips(app, mission.trips),
-        "done": _trips(app, mission.completed_trips),
+        "todo": [_trip(app, trip) for trip in trips_of(mission)],
+        "done": [_trip(app, trip) for trip in mission.completed_trips],
         "at": state.at,
         "delay": state.delay and [list(state.delay[0]), state.delay[1], state.delay[2]],
         "waited": sorted(map(list, state.waited or ())),
@@ -62,7 +61,7 @@ def standing_of(app: App, state: MissionState) -> Data:
         "carries": item_data(state.carries),
         "interrupted": state.interrupted,
         "ended": state.ended,
-        **({"promises": mission.promises, "late": mission.late} if mission.promises else {}),
+        **({"promises": {**mission.promises}, "late": mission.late} if mission.promises else {}),
     }
 
 
@@ -74,19 +73,6 @@ def _flight(flight: Flight) -> Data:
         "retry": flight.retry,
         "outcome": flight.result().value if flight.is_set else None,
     }
-
-
-def _trips(app: App, trips: Sequence[Trip]) -> list[Data]:
-    """Return trips as plain data; none, if a hook has left nonsense there and ended its mission."""
-    try:
-        return [_trip(app, trip) for trip in trips if _is_sound(app, trip)]
-    except ANY_ERROR as error:
-        unless_by_a_person(error)
-        return []
-
-
-def _is_sound(app: App, trip: Trip) -> bool:
-    return trip.action in app.actions and len(trip.target) == 3 and all(map(isfinite, trip.target))
 
 
 def _trip(app: App, trip: Trip) -> Data:
@@ -131,22 +117,27 @@ def drone_standing(drone: Drone, fleet: Fleet, aside: bool) -> Data:
 
 def update(app: App, mission: Mission[Any], record: Mapping[str, Any]) -> dict[str, Trip]:
     """Bring a mission up to date with its record; return all its trips by name, also those dropped."""
-    trips = {trip.name: trip for trip in (*mission.trips, *mission.completed_trips)}
+    trips = {trip.name: trip for trip in (*trips_of(mission), *mission.completed_trips)}
     lists: dict[str, list[Trip]] = {}
     for which, status in _LISTS.items():
         lists[which] = []
         for data in record.get(which, ()):
             now = trip_of(app, data, status=status)
             trip = trips.setdefault(now.name, now)
-            for one in dataclass_fields(now):
-                setattr(trip, one.name, getattr(now, one.name))
+            put(trip, **{one.name: getattr(now, one.name) for one in dataclass_fields(now)})
             lists[which].append(trip)
-    mission.trips, mission.completed_trips = lists["todo"], lists["done"]
-    mission.status, mission.reason = Status(record["status"]), record.get("reason", "")
-    mission.round, mission.attempts = record.get("round", 0), record.get("attempts", 0)
-    mission.promises, mission.late = record.get("promises", {}), bool(record.get("late"))
-    for name, value in record.get("fields", {}).items():
-        setattr(mission, name, value)
+    put_trips(mission, lists["todo"])
+    put(
+        mission,
+        completed_trips=tuple(lists["done"]),
+        status=Status(record["status"]),
+        reason=record.get("reason", ""),
+        round=record.get("round", 0),
+        attempts=record.get("attempts", 0),
+        promises=record.get("promises", {}),
+        late=bool(record.get("late")),
+        **record.get("fields", {}),
+    )
     return trips
 
 

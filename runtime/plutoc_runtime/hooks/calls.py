@@ -94,30 +94,6 @@ def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
             raise
 
 
-# What it may not do
-
-
-class ProtectedFacts:
-    """Attributes that a hook may not change, such as names: saved before the call."""
-
-    def __init__(self, of: object, *facts: str) -> None:
-        self._of, self._facts = of, {fact: getattr(of, fact) for fact in facts}
-
-    def put_back(self) -> str:
-        """Restore them; return the name of one that was changed, or nothing."""
-        changed = ""
-        for fact, value in self._facts.items():
-            if getattr(self._of, fact, None) is not value:
-                setattr(self._of, fact, value)
-                changed = changed or fact
-        return changed
-
-
-def changed(hook: Hook, what: str, fact: str) -> HookFault:
-    """Return the fault of a hook that changed a protected attribute."""
-    return HookFault(f"hook {hook_name(hook)} changed the {what}'s {fact}, by which it is known")
-
-
 def fault_of(hook: Hook, error: BaseException) -> HookFault:
     """Return the error for what a hook raised.
 

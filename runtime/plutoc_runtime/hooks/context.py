@@ -9,6 +9,7 @@ from math import isfinite
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from ..domain.errors import ActionFailed, FlightFailed
+from ..domain.keeper import put
 from ..domain.model import NO_RESULT, Result, Results
 from ..domain.plain import number_of
 from ..domain.text import class_of, text_of
@@ -226,7 +227,8 @@ class View(Sequence[Result[Any, Any]]):
 def results_for(store: ResultStore, mission: Mission[Any]) -> Results[Any, Any]:
     """Return what a mission's evaluator gets now; what is new is old from then on."""
     new: list[Result[Any, Any]] = []
-    last, mission.last_result = mission.last_result, NO_RESULT
+    last = mission.last_result
+    put(mission, last_result=NO_RESULT)
     while last != NO_RESULT:
         new.append(store.results[last])
         last = store.before[last]

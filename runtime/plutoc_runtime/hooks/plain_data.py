@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
+from ..domain.keeper import put
 from ..domain.model import Item, Photo
 from ..domain.plain import MOST_BITS, plain_of
 from ..domain.status import TripStatus
@@ -80,7 +81,7 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
         "index": mission.index,
         "fields": fields_of(app, Entity.MISSION, mission),
         "trips": [trip_data(app, trip) for trip in mission.trips],
-        **({"promises": mission.promises} if mission.promises else {}),
+        **({"promises": {**mission.promises}} if mission.promises else {}),
     }
 
 
@@ -93,16 +94,21 @@ def trip_of(
     name, target = data.get("name", f"{index + 1}"), point_of(data["target"])
     fields = known_fields(app, Entity.TRIP, data) if "fields" in data else {}
     trip = app.trip(name=name, action=data["action"], target=target, index=index, **fields)
-    trip.status = status
     if not _LEAST.issuperset(data):  # most new trips have no more
         source = data.get("source")
-        trip.source = None if source is None else point_of(source)
-        trip.parameters = data.get("parameters") or trip.parameters
-        trip.item = item_of(data.get("item"))
-        trip.added, trip.attempt = bool(data.get("added")), data.get("attempt", 1)
-        trip.status = TripStatus(data["status"]) if "status" in data else status
-        trip.reason = data.get("reason", "")
-        trip.start_time, trip.end_time = data.get("start_time"), data.get("end_time")
+        status = TripStatus(data["status"]) if "status" in data else status
+        put(
+            trip,
+            source=None if source is None else point_of(source),
+            parameters=data.get("parameters") or {},
+            item=item_of(data.get("item")),
+            added=bool(data.get("added")),
+            attempt=data.get("attempt", 1),
+            reason=data.get("reason", ""),
+            start_time=data.get("start_time"),
+            end_time=data.get("end_time"),
+        )
+    put(trip, status=status)
     return trip
 
 

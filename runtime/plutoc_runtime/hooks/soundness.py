@@ -1,94 +1,77 @@
-"""Validation of trips and missions that a hook has made or changed."""
+"""Validation of the trips of a mission that a hook has made or changed."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, ParamSpec, cast
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, cast
 
+from ..domain.actions import PICK, RELEASE
 from ..domain.errors import ANY_ERROR
+from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
+from ..domain.keeper import keep, keeper_of, put, read_only
 from ..domain.model import Item
 from ..domain.plain import number_of, plain_of
-from ..domain.status import Status, TripStatus
+from ..domain.status import TripStatus
 from ..domain.text import class_of, said, shown
-from ..domain.values import parameters
+from ..domain.values import LONGEST_NAME, parameters
 from .plain_data import keepable
 
 if TYPE_CHECKING:
+    from typing import Any
+
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.model import Mission, Point, Trip
 
-P = ParamSpec("P")
+MOST_TRIPS = 10_000
+"""Trips of one mission in one round, with those completed or taken away; a hook adds no more."""
 
 
-def _of_any_class(check: Callable[P, str | None]) -> Callable[P, str | None]:
-    """Take all that a check raises for a fault: what a hook has put there may be of any class."""
-
-    def checked(*args: P.args, **named: P.kwargs) -> str | None:
-        try:
-            return check(*args, **named)
-        except ANY_ERROR as error:
-            unless_by_a_person(error)
-            return f"it cannot be read: {said(error)}"
-
-    return checked
-
-
-@_of_any_class
 def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     """Return what is wrong with a trip, or None.
 
     A point without a height gets the map's default, and a parameter with a unit is read.
     """
-    if not issubclass(type(trip), app.trip):
+    if type(trip) is not app.trip:
         return f"it must be a Trip of this app, not {class_of(trip)}"
-    found = cast("Trip", trip)
-    if (wrong := _wrong_facts(found, _TRIP)) is not None:
-        return wrong
-    wrong = _wrong_action(app, found) or _wrong_place(airspace, found)
-    return wrong and f"trip {found.name}: {wrong}"
+    try:
+        wrong = (
+            _wrong_name(trip)
+            or _wrong_action(app, trip)
+            or _wrong_place(airspace, trip)
+            or _wrong_item(trip)
+            or wrong_field(app.fields, Entity.TRIP, trip, app.evaluators)
+        )
+    except ANY_ERROR as error:  # what a hook has put there may be of any class
+        unless_by_a_person(error)
+        wrong = f"it cannot be read: {said(error)}"
+    return wrong and f"trip {trip.name if type(trip.name) is str else shown(trip.name)}: {wrong}"
 
 
-@_of_any_class
-def unsound_mission(app: App, mission: Mission[Any]) -> str | None:
-    """Return what is wrong with the mission's own attributes, or None."""
-    wrong = _wrong_facts(mission, _MISSION)
-    kind = app.trip
-    for trip in () if wrong else mission.completed_trips:
-        if type(trip) is not kind:
-            return f"completed_trips holds {class_of(trip)}"
-    return wrong
+def taken_in(mission: Mission[Any], trip: Trip, *, added: bool) -> str | None:
+    """Make a sound trip of a hook one of its mission, with a name of its own; return why that cannot be."""
+    keeper = keeper_of(mission)
+    assert keeper is not None
+    if keeper_of(trip) is not None:
+        return f"trip {trip.name} has been used already: make a new Trip each time"
+    if len(keeper.names) >= MOST_TRIPS:
+        return f"the mission has had {MOST_TRIPS:,} trips in this round, and no hook may add more"
+    name, number = trip.name, 1
+    while trip.name in keeper.names:
+        number += 1
+        put(trip, name=f"{name} {number}")
+    first: dict[str, object] = dict.fromkeys(("drone", "start_time", "end_time"))
+    put(trip, status=TripStatus.WAITING, attempt=1, reason="", added=added, **first)
+    keep(keeper, mission, (trip,))
+    return None
 
 
-_TRIP: Mapping[str, tuple[type, ...]] = {
-    **dict.fromkeys(("name", "action", "reason"), (str,)),
-    "status": (TripStatus,),
-    **dict.fromkeys(("attempt", "index"), (int,)),
-    "added": (bool,),
-    "item": (type(None), Item),
-    **dict.fromkeys(("start_time", "end_time"), (type(None), float, int)),
-}
-
-_MISSION: Mapping[str, tuple[type, ...]] = {
-    **dict.fromkeys(("name", "reason"), (str,)),
-    "completed_trips": (list,),
-    "status": (Status,),
-    **dict.fromkeys(("round", "attempts", "index", "last_result"), (int,)),
-    "promises": (dict,),
-    "deadline": (type(None), int, float),
-    "late": (bool,),
-}
-"""The attributes that the runtime relies on, and their types."""
-
-
-def _wrong_facts(of: object, facts: Mapping[str, tuple[type, ...]]) -> str | None:
-    for name, types in facts.items():
-        value = getattr(of, name)
-        if type(value) not in types:
-            return f"its {name} must be {types[-1].__name__}, not {class_of(value)}"
-        if isinstance(value, int) and abs(value) >= _MOST:
-            return f"its {name} must be a number, not {shown(value)}"
+def _wrong_name(trip: Trip) -> str | None:
+    if type(trip.name) is not str or not 0 < len(trip.name) <= LONGEST_NAME:
+        return f"its name must be a text of 1 to {LONGEST_NAME} characters, not {shown(trip.name)}"
+    if type(trip.index) is not int or abs(trip.index) >= _MOST:
+        return f"its index must be a number, not {shown(trip.index)}"
     return None
 
 
@@ -96,12 +79,12 @@ _MOST = 1 << 31  # the bound of counters, which are stored in 31 bits
 
 
 def _wrong_action(app: App, trip: Trip) -> str | None:
-    action = app.actions.get(trip.action)
+    action = app.actions.get(trip.action) if type(trip.action) is str else None
     if action is None:
         return f"there is no action {trip.action!r}"
     if not isinstance(trip.parameters, Mapping):
         return f"its parameters must be a dict, not {class_of(trip.parameters)}"
-    given = dict(trip.parameters) if trip.parameters else {}
+    given = dict(trip.parameters)
     for name, value in given.items():
         plain = given[name] = plain_of(value)
         if plain is None or plain != keepable(plain):
@@ -110,10 +93,9 @@ def _wrong_action(app: App, trip: Trip) -> str | None:
         read = parameters(action, {n if type(n) is str else shown(n): v for n, v in given.items()})
     except ValueError as error:
         return str(error)
-    if given:  # "50 mg", as in a missions file
-        trip.parameters = {
-            n: read[n] if type(value) is str else value for n, value in given.items()
-        }
+    # "50 mg" is read as in a missions file, and what is left out has its default
+    numbers = {name: value for name, value in given.items() if type(value) is not str}
+    put(trip, parameters=read_only({**read, **numbers}))
     return None
 
 
@@ -128,8 +110,7 @@ def _wrong_place(airspace: Airspace, trip: Trip) -> str | None:
         problem = airspace.problem(point)
         if problem is not None:
             return problem
-        if given != point:
-            setattr(trip, name, point)
+        put(trip, **{name: point})
     return None
 
 
@@ -141,3 +122,21 @@ def _point(given: object, height: float) -> Point | None:
         return None
     x, y, z = numbers if len(given) == 3 else (*numbers, height)
     return cast("Point", (x, y, z))
+
+
+def _wrong_item(trip: Trip) -> str | None:
+    item: object = trip.item
+    carries = trip.action in (PICK, RELEASE)
+    if carries is not (item is not None):
+        return f"{trip.action} {'needs an' if carries else 'takes no'} item"
+    if item is None:
+        return None
+    if type(item) is not Item:
+        return f"its item must be an Item, not {class_of(item)}"
+    mass = number_of(item.mass)
+    if type(item.name) is not str or not 0 < len(item.name) <= LONGEST_NAME:
+        return f"the name of its item must be a text, not {shown(item.name)}"
+    if mass is None or mass < 0.0:
+        return f"the mass of its item must be a number of kilograms, not {shown(item.mass)}"
+    put(trip, item=Item(name=item.name, mass=mass))
+    return None

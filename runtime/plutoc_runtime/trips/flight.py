@@ -70,7 +70,7 @@ class Flight(Future[Status]):
             "flight": self.id,
             "stops": (trip.target,) if source is None else (source, trip.target),
             "action": trip.action if action.hook is None else None,
-            "parameters": trip.parameters,
+            "parameters": {**trip.parameters},
             "item": None if item is None else item_data(item),
             "seconds": action.lasts(trip.parameters),
             "beside": action.repeat == "safe",

@@ -21,7 +21,7 @@ async def wait_for_time(
     run.meets(block)
     if state.goes_on:
         return status  # it was interrupted after its launch
-    trip = mission.current
+    trip = run.trip
     place = (block, trip.name, mission.round, trip.attempt)
     arrival = kernel.now
     if state.delay is not None and state.delay[0] == place:
@@ -65,7 +65,7 @@ def _begins(run: Run[Any]) -> float:
     kernel, mission, first_start = run.core.kernel, run.mission, run.state.first_start
     at: float | None = mission.at
     every: float | None = mission.every
-    if mission.completed_trips or mission.current.attempt > 1:
+    if mission.completed_trips or run.trip.attempt > 1:
         return 0.0
     if mission.round == 0 and at is not None and first_start is None:
         return kernel.hours.next(at, kernel.clock)

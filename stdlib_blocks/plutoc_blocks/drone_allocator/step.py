@@ -9,6 +9,7 @@ from types import coroutine
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import MissionFailed, nothing_to_fly
+from plutoc_runtime.domain.model import trips_of
 from plutoc_runtime.domain.status import FAILED, STANDBY, Status
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.time.kernel import EventKind
@@ -39,12 +40,13 @@ def allocate_drone(
     run.meets(block)
     if state.goes_on:
         return status  # it was interrupted after its launch
-    if not mission.trips:
+    trips = trips_of(mission)
+    if not trips:
         raise nothing_to_fly(mission.reason)
     if status is FAILED:
         core.transitions.put_back(mission)
         status = STANDBY
-    trip, drone, why = mission.trips[0], state.allocated, "allocated before"
+    trip, drone, why = trips[0], state.allocated, "allocated before"
     if drone is None:
         drone, why = state.carrier, "carries the mission's item"
     if drone is None:

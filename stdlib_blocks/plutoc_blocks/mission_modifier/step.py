@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import Cancelled
 from plutoc_runtime.flow.asking import ask
-from plutoc_runtime.flow.modification import context_of, open_trips, settle, undeclared
+from plutoc_runtime.flow.modification import context_of, settle, undeclared
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -22,11 +22,10 @@ async def modify_mission(
     emits: tuple[Status, ...] = (),
 ) -> Status:
     """Call the hook, and go on with the status that it returns."""
-    before = open_trips(run.mission)
     try:
-        returned = await ask(run, hook, run.mission, context_of(run))
+        returned = await ask(run, hook, run.mission, context_of(run), edits=True)
     except Cancelled as off:  # another branch was faster
         if off.returned is not None and (wrong := undeclared(hook, emits, off.returned)):
             run.core.log(wrong, run.mission.name)
         raise
-    return await settle(run, hook, status, emits, returned, before)
+    return await settle(run, hook, status, emits, returned)

@@ -187,7 +187,10 @@ def test_an_evaluator_does_not_change_the_trips_itself() -> None:
         mission.trips.append(apps.trip("B", 2.0))
         return Verdict()
 
-    assert "that is what `add` is for" in judged(adds).missions[0].reason
+    assert (
+        "an evaluator has trips added or flown again by its Verdict"
+        in judged(adds).missions[0].reason
+    )
 
 
 def test_an_added_place_without_a_height_gets_the_maps() -> None:

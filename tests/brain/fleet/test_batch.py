@@ -14,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.model import AfterTrip, Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet import batch
@@ -49,7 +50,7 @@ def crowd(
 
     def flow(run: Run[apps.Mission]) -> Coroutine[Any, Any, Status]:
         if run.mission.name.startswith("near"):
-            run.mission.deadline = 1e6 + run.mission.index
+            put(run.mission, deadline=1e6 + run.mission.index)
         return inner(run)
 
     missions = [

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Point
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
@@ -33,7 +34,7 @@ def order(
     inner = apps.flow(policy=earliest_deadline)
 
     def flow(run: Run[apps.Mission]) -> Coroutine[Any, Any, Status]:
-        run.mission.deadline = deadlines[run.mission.name]
+        put(run.mission, deadline=deadlines[run.mission.name])
         return inner(run)
 
     missions = [

@@ -175,7 +175,7 @@ def test_a_hook_that_spoils_a_promise_fails_its_own_mission(name: str, value: ob
     app = apps.app(apps.flow(prepare=spoil, fail_late=True))
     bad, good = apps.fly(app, *missions, on=apps.TWO).missions
     assert (bad.status, good.status) == (FAILED, Status.COMPLETED)
-    assert f"its {name} must be" in bad.reason
+    assert f"mission.{name} is set by the app alone" in bad.reason
 
 
 # After any end

@@ -231,7 +231,7 @@ def test_of_a_field_that_a_block_cannot_go_by_the_name_is_told() -> None:
         mission.current.priority = [[...]]
 
     (mission,) = apps.flown(apps.mission("odd", apps.trip("A", 3.0)), prepare=leaves).missions
-    assert "its priority must be a number" in mission.reason
+    assert "trip.priority must be a number, not [[Ellipsis]]" in mission.reason
 
 
 values = st.recursive(

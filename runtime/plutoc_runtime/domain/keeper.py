@@ -1,0 +1,230 @@
+"""What hooks may write, decided where they write it; names, statuses and counts are the runtime's.
+
+A mission and its trips have one keeper. It knows what the hooks that run now may write, and what was
+there before: what a hook has written is taken over as a whole, or not at all (flow/asking.py).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+
+from .plain import plain_of
+from .text import bounded, class_of, shown
+
+if TYPE_CHECKING:
+    from .fields import Field
+
+T = TypeVar("T")
+
+FieldsOf = Mapping[tuple[type, str], "Field"]
+"""The fields of an app's missions and trips, by class and name."""
+
+
+def put(of: Kept, **facts: object) -> None:
+    """Set attributes as the runtime does, whatever hooks may write."""
+    for name, value in facts.items():
+        object.__setattr__(of, name, value)
+
+
+def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a copy of values by name that hooks can only read."""
+    lists = {name: tuple(one) for name, one in values.items() if type(one) is list}
+    return MappingProxyType({**values, **lists})
+
+
+def hand_to(keeper: Keeper, of: Kept) -> None:
+    """Have a keeper say what hooks may write of this one."""
+    put(of, _keeper=keeper)
+
+
+def keep(keeper: Keeper, mission: Any, trips: Iterable[Any]) -> None:
+    """Have a keeper keep a mission, and trips of it."""
+    hand_to(keeper, mission)
+    put(mission, promises=read_only(mission.promises))
+    mission.trips.keep(keeper)
+    for trip in trips:
+        hand_to(keeper, trip)
+        put(trip, parameters=read_only(trip.parameters))
+        keeper.names.add(trip.name)
+
+
+def keeper_of(of: object) -> Keeper | None:
+    """Return who keeps a mission, a trip or a drone; None: nobody does yet."""
+    found: Keeper | None = getattr(of, "_keeper", None)
+    return found
+
+
+class Kept:
+    """A mission, a trip or a drone. Before somebody keeps it, anything may be written."""
+
+    __slots__ = ("_keeper",)
+
+    called: ClassVar[str]
+    """What it is to a person."""
+    edited: ClassVar[frozenset[str]] = frozenset()
+    """What a modifier may write, beside the fields of the app."""
+
+    if not TYPE_CHECKING:  # else a type checker takes any name for an attribute
+
+        def __setattr__(self, name: str, value: object) -> None:
+            keeper = getattr(self, "_keeper", None)
+            if keeper is not None and hasattr(type(self), name):
+                value = keeper.written(self, name, value)
+            object.__setattr__(self, name, value)
+
+        def __delattr__(self, name: str) -> None:
+            raise AttributeError(f"{self.called}.{name} cannot be deleted")
+
+    def closed(self) -> str:
+        """Return why even a modifier may not write it now; empty: it may."""
+        return ""
+
+
+class Keeper:
+    """What hooks may write of one mission and its trips."""
+
+    __slots__ = (
+        "_editors",
+        "_evaluators",
+        "_fields",
+        "_writers",
+        "before",
+        "changed",
+        "names",
+        "time",
+    )
+
+    def __init__(
+        self,
+        time: Callable[[], float] = float,
+        fields: FieldsOf | None = None,
+        evaluators: Iterable[str] = (),
+    ) -> None:
+        """`time` is the clock of the app; nothing is written before it is `opened`."""
+        self.time, self._fields, self._evaluators = time, fields or {}, frozenset(evaluators)
+        self._writers = self._editors = 0
+        self.names: set[str] = set()  # of all trips that the mission has had in this round
+        self.before: dict[tuple[Any, str], object] = {}
+        """What attributes were before hooks wrote them."""
+        self.changed = False  # whether a hook has ever changed the mission
+
+    @contextmanager
+    def opened(self, *, edits: bool = False) -> Iterator[None]:
+        """Let a hook write fields of the app, and if it `edits`, trips."""
+        self._writers += 1
+        self._editors += edits
+        try:
+            yield
+        finally:
+            self._writers -= 1
+            self._editors -= edits
+
+    def must_edit(self, what: str) -> None:
+        """Raise `AttributeError` unless a modifier of the mission runs."""
+        if not self._editors:
+            raise AttributeError(f"{what}: that is for a modifier, while it runs{_ELSE}")
+
+    def written(self, of: Kept, name: str, value: object) -> object:
+        """Return a value, as it is kept, that a hook writes; raise if it may not, or not that."""
+        what, field = f"{of.called}.{name}", self._fields.get((type(of), name))
+        if field is not None:
+            if not self._writers:
+                who = "a modifier, an evaluator or an action of its mission"
+                raise AttributeError(f"{what} cannot be set here: that is for {who}, while it runs")
+            if wanted := field.wanted(value, self._evaluators):
+                raise TypeError(f"{what} must be {wanted}, not {bounded(shown(value), 100)}")
+            value = plain_of(value)
+        elif name not in of.edited:
+            raise AttributeError(f"{what} is set by the app alone{_INSTEAD.get(name, '')}")
+        else:
+            self.must_edit(f"{what} cannot be set here")
+            if why := of.closed():
+                raise AttributeError(f"{what} cannot be set: {why}")
+        self.note(of, name)
+        return value
+
+    def note(self, of: Kept, *names: str) -> None:
+        """Remember attributes before a hook changes them."""
+        for name in names:
+            self.before.setdefault((of, name), getattr(of, name))
+
+    def undo(self) -> None:
+        """Put back all that hooks have written since it was taken over last."""
+        for (of, name), value in self.before.items():
+            put(of, **{name: value})
+        self.before.clear()
+
+
+_ELSE = "; an evaluator has trips added or flown again by its Verdict"
+_INSTEAD = {
+    "name": ": a trip keeps the name with which it was made",
+    "status": ": a modifier returns a status, and trip.reset() puts a trip back",
+    "attempt": ": it counts flights, and trip.reset() begins the next one",
+    "completed_trips": ": an evaluator has trips flown again by Verdict(redo=…)",
+}
+
+
+class Trips(list[T]):
+    """The trips that a mission has to do: a list that only its modifiers may change."""
+
+    __slots__ = ("_keeper", "kept")
+
+    def __init__(self, trips: Iterable[T] = ()) -> None:
+        super().__init__(trips)
+        self._keeper: Keeper | None = None
+        self.kept: list[T] = [*self]
+        """The trips for the runtime: without what a hook has changed that runs still."""
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copy it without its keeper."""
+        return Trips, ([*self],)
+
+    def keep(self, keeper: Keeper) -> None:
+        """From now on they can be changed by a modifier alone."""
+        self._keeper = keeper
+
+    def put(self, trips: Iterable[T]) -> None:
+        """Have these trips, as the runtime does."""
+        self.kept[:] = trips
+        self.undo()
+
+    def drop(self, trip: T) -> None:
+        """Take a trip away, as the runtime does."""
+        for trips in self, self.kept:
+            left = [one for one in list.__iter__(trips) if one is not trip]
+            list.__setitem__(trips, slice(None), left)
+
+    def undo(self) -> None:
+        """Put back what a hook has changed."""
+        list.__setitem__(self, slice(None), self.kept)
+
+
+def _guarded(name: str) -> Callable[..., Any]:
+    change = getattr(list, name)
+
+    def guarded(trips: Trips[Any], *given: Any, **named: Any) -> Any:
+        if (keeper := keeper_of(trips)) is not None:
+            keeper.must_edit("mission.trips cannot be changed here")
+        returned = change(trips, *given, **named)
+        if keeper is None:
+            trips.kept[:] = trips
+        return returned
+
+    return guarded
+
+
+for _name in (
+    *("append", "clear", "extend", "insert", "pop", "remove", "reverse", "sort"),
+    *("__delitem__", "__iadd__", "__imul__", "__setitem__"),
+):
+    setattr(Trips, _name, _guarded(_name))
+
+
+def list_of_trips(value: object) -> Iterable[Any]:
+    """Return what a hook sets as a mission's trips, if it is a list or a tuple of something."""
+    if not issubclass(type(value), (list, tuple)):
+        raise TypeError(f"mission.trips must be a list of trips, not {class_of(value)}")
+    return value  # type: ignore[return-value]
