@@ -44,7 +44,7 @@ def keep(keeper: Keeper, mission: Any, trips: Iterable[Any]) -> None:
     """Have a keeper keep a mission, and trips of it."""
     hand_to(keeper, mission)
     put(mission, promises=read_only(mission.promises))
-    mission.trips.keep(keeper)
+    mission.trips._keeper = keeper
     for trip in trips:
         hand_to(keeper, trip)
         put(trip, parameters=read_only(trip.parameters))
@@ -170,36 +170,37 @@ _INSTEAD = {
 class Trips(list[T]):
     """The trips that a mission has to do: a list that only its modifiers may change."""
 
-    __slots__ = ("_keeper", "kept")
+    __slots__ = ("_keeper", "_kept")
 
     def __init__(self, trips: Iterable[T] = ()) -> None:
         super().__init__(trips)
         self._keeper: Keeper | None = None
-        self.kept: list[T] = [*self]
+        self._kept: list[T] = [*self]
         """The trips for the runtime: without what a hook has changed that runs still."""
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Copy it without its keeper."""
         return Trips, ([*self],)
 
-    def keep(self, keeper: Keeper) -> None:
-        """From now on they can be changed by a modifier alone."""
-        self._keeper = keeper
 
-    def put(self, trips: Iterable[T]) -> None:
-        """Have these trips, as the runtime does."""
-        self.kept[:] = trips
-        self.undo()
+def trips_of(mission: Any) -> list[Any]:
+    """Return a mission's trips to do for the runtime, to be read: without what a hook is changing."""
+    kept: list[Any] = mission.trips._kept
+    return kept
 
-    def drop(self, trip: T) -> None:
-        """Take a trip away, as the runtime does."""
-        for trips in self, self.kept:
-            left = [one for one in list.__iter__(trips) if one is not trip]
-            list.__setitem__(trips, slice(None), left)
 
-    def undo(self) -> None:
-        """Put back what a hook has changed."""
-        list.__setitem__(self, slice(None), self.kept)
+def put_trips(mission: Any, trips: Iterable[Any]) -> None:
+    """Give a mission trips to do, as the runtime does, whatever a hook is changing."""
+    kept = trips_of(mission)
+    kept[:] = trips
+    list.__setitem__(mission.trips, slice(None), kept)
+
+
+def drop_trip(mission: Any, trip: object) -> None:
+    """Take a trip away, as the runtime does."""
+    for trips in mission.trips, trips_of(mission):
+        left = [one for one in list.__iter__(trips) if one is not trip]
+        list.__setitem__(trips, slice(None), left)
 
 
 def _guarded(name: str) -> Callable[..., Any]:
@@ -210,7 +211,7 @@ def _guarded(name: str) -> Callable[..., Any]:
             keeper.must_edit("mission.trips cannot be changed here")
         returned = change(trips, *given, **named)
         if keeper is None:
-            trips.kept[:] = trips
+            trips._kept[:] = trips
         return returned
 
     return guarded

@@ -6,14 +6,14 @@ Positions are (x, y, z) in metres in the map's frame, times are seconds since th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import dist
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
 from .errors import MissionFailed
-from .keeper import Kept, Trips, keeper_of, list_of_trips, put
+from .keeper import Kept, Trips, keeper_of, list_of_trips, put, trips_of
 from .motion import STRAIGHT, Motion, charging
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
 
@@ -257,22 +257,7 @@ class Mission(Kept, Generic[T]):
         return _current(self.trips, self.completed_trips)
 
 
-def trips_of(mission: Mission[T]) -> list[T]:
-    """Return a mission's trips to do for the runtime, to be read: without what a hook is changing."""
-    return cast("Trips[T]", mission.trips).kept
-
-
-def put_trips(mission: Mission[T], trips: Iterable[T]) -> None:
-    """Give a mission trips to do, as the runtime does."""
-    cast("Trips[T]", mission.trips).put(trips)
-
-
-def drop_trip(mission: Mission[T], trip: T) -> None:
-    """Take a trip away, as the runtime does."""
-    cast("Trips[T]", mission.trips).drop(trip)
-
-
-def current_of(mission: Mission[T]) -> T:
+def current_of(mission: Mission[Any]) -> Any:
     """Return the mission's trip that flies now or next, for the runtime."""
     return _current(trips_of(mission), mission.completed_trips)
 

@@ -7,7 +7,7 @@ from heapq import heappop, heappush, heapreplace
 from math import hypot, inf
 from typing import TYPE_CHECKING, Any
 
-from ..domain.model import trips_of
+from ..domain.keeper import trips_of
 from ..time.future import Future
 from .reach import MORE, Reach, chain_of, miss_of
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR, Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity
 from ..domain.guard import NOT_ITS_OWN
-from ..domain.keeper import Keeper, keeper_of
-from ..domain.model import trips_of
+from ..domain.keeper import Keeper, keeper_of, put_trips, trips_of
 from ..domain.status import TripStatus
 from ..domain.text import class_of
 from ..hooks.calls import Hook, call_hook, fault_of, hook_name
@@ -63,7 +62,7 @@ def kept_by(mission: Mission[Any]) -> Keeper:
 def undo(mission: Mission[Any]) -> None:
     """Put back what a hook has changed of a mission."""
     kept_by(mission).undo()
-    mission.trips.undo()  # type: ignore[attr-defined]
+    put_trips(mission, trips_of(mission)[:])
 
 
 def take_over(state: MissionState, hook: Hook) -> None:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput
-from ..domain.keeper import put
-from ..domain.model import drop_trip, put_trips, trips_of
+from ..domain.keeper import drop_trip, put, put_trips, trips_of
 from ..domain.status import DroneStatus, Status
 from ..hooks.plain_data import trip_of
 from ..time.kernel import mission_key

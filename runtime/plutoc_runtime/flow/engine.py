@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity
-from ..domain.keeper import Keeper, keep, keeper_of
-from ..domain.model import Mission, trips_of
+from ..domain.keeper import Keeper, keep, keeper_of, trips_of
+from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..domain.text import said
 from ..hooks.calls import trace_of

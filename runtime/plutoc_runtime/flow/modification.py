@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import HookFault
-from ..domain.model import trips_of
+from ..domain.keeper import trips_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import bounded, shown
 from ..hooks.calls import hook_name

@@ -12,8 +12,7 @@ from dataclasses import fields as dataclass_fields
 from typing import TYPE_CHECKING, Any
 
 from ..domain.fields import Entity
-from ..domain.keeper import put
-from ..domain.model import put_trips, trips_of
+from ..domain.keeper import put, put_trips, trips_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import said
 from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of

@@ -9,7 +9,7 @@ from types import coroutine
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import MissionFailed, nothing_to_fly
-from plutoc_runtime.domain.model import trips_of
+from plutoc_runtime.domain.keeper import trips_of
 from plutoc_runtime.domain.status import FAILED, STANDBY, Status
 from plutoc_runtime.domain.text import duration
 from plutoc_runtime.time.kernel import EventKind

@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.errors import nothing_to_fly
-from plutoc_runtime.domain.keeper import put
-from plutoc_runtime.domain.model import trips_of
+from plutoc_runtime.domain.keeper import put, trips_of
 from plutoc_runtime.domain.status import STANDBY, Status, TripStatus
 
 if TYPE_CHECKING:

@@ -159,7 +159,7 @@ def test_every_event_has_a_sentence_of_its_own() -> None:
     assert {"trip.launched", "drone.busy", "mission.held", "stopped"} <= kinds
     without = []
     for kind in kinds:
-        event = Facts(t=0.0, event=kind, todo=[{"name": "A"}], done=[])
+        event = Facts(t=0.0, event=kind, todo=[{"name": "A"}], put=[], gone=["A"])
         said = journal_sentence(event, 0.0)
         if said is not None and said.strip().startswith(f"0.0 s  {kind}"):
             without.append(kind)
