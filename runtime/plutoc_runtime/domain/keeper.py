@@ -48,7 +48,7 @@ def keep(keeper: Keeper, mission: Any, trips: Iterable[Any]) -> None:
     for trip in trips:
         hand_to(keeper, trip)
         put(trip, parameters=read_only(trip.parameters))
-        keeper.names.add(trip.name)
+        keeper.names.setdefault(trip.name, 1)
 
 
 def keeper_of(of: object) -> Keeper | None:
@@ -106,7 +106,8 @@ class Keeper:
         """`time` is the clock of the app; nothing is written before it is `opened`."""
         self.time, self._fields, self._evaluators = time, fields or {}, frozenset(evaluators)
         self._writers = self._editors = 0
-        self.names: set[str] = set()  # of all trips that the mission has had in this round
+        self.names: dict[str, int] = {}
+        """Of all trips that the mission has had in this round; with how many wanted each."""
         self.before: dict[tuple[Any, str], object] = {}
         """What attributes were before hooks wrote them."""
         self.changed = False  # whether a hook has ever changed the mission

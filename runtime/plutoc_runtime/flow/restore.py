@@ -136,7 +136,7 @@ class Restorer:
         keeper = self._engine.keep(mission, trips.values())
         gone = [one["name"] for one in record.get("gone", ()) if one.get("round") == mission.round]
         left = (*trips_of(mission), *mission.completed_trips)
-        keeper.names = {*gone, *(trip.name for trip in left)}
+        keeper.names = dict.fromkeys((*gone, *(trip.name for trip in left)), 1)
         keeper.changed = keeper.changed or bool(record.get("changed"))
         state = self._engine.new_state(mission)
         state.ended = bool(record.get("ended"))

@@ -57,10 +57,10 @@ def taken_in(mission: Mission[Any], trip: Trip, *, added: bool) -> str | None:
         return f"trip {trip.name} has been used already: make a new Trip each time"
     if len(keeper.names) >= MOST_TRIPS:
         return f"the mission has had {MOST_TRIPS:,} trips in this round, and no hook may add more"
-    name, number = trip.name, 1
+    name = trip.name
     while trip.name in keeper.names:
-        number += 1
-        put(trip, name=f"{name} {number}")
+        keeper.names[name] += 1
+        put(trip, name=f"{name} {keeper.names[name]}")
     first: dict[str, object] = dict.fromkeys(("drone", "start_time", "end_time"))
     put(trip, status=TripStatus.WAITING, attempt=1, reason="", added=added, **first)
     keep(keeper, mission, (trip,))

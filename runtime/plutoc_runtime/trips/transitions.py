@@ -101,7 +101,7 @@ class Transitions:
         put_trips(mission, trips)
         put(mission, round=mission.round + 1, completed_trips=(), status=STANDBY, reason="")
         if (keeper := keeper_of(mission)) is not None:
-            keeper.names = {trip.name for trip in trips}
+            keeper.names = dict.fromkeys((trip.name for trip in trips), 1)
         self._note("mission.repeated", mission, round=mission.round)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
