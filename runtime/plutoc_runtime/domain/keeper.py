@@ -6,11 +6,12 @@ there before: what a hook has written is taken over as a whole, or not at all (f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
 
+from .errors import MissionFailed
 from .plain import plain_of
 from .text import bounded, class_of, shown
 
@@ -188,6 +189,20 @@ def trips_of(mission: Any) -> list[Any]:
     """Return a mission's trips to do for the runtime, to be read: without what a hook is changing."""
     kept: list[Any] = mission.trips._kept
     return kept
+
+
+def current_of(mission: Any) -> Any:
+    """Return the mission's trip that flies now or next, for the runtime."""
+    return first_of(trips_of(mission), mission.completed_trips)
+
+
+def first_of(trips: Sequence[Any], completed: Sequence[Any]) -> Any:
+    """Return the first trip to do; when none is left, the one flown last."""
+    if trips:
+        return trips[0]
+    if not completed:
+        raise MissionFailed("no trip is left to fly")
+    return completed[-1]
 
 
 def put_trips(mission: Any, trips: Iterable[Any]) -> None:

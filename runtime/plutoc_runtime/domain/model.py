@@ -12,8 +12,7 @@ from enum import Enum
 from math import dist
 from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
 
-from .errors import MissionFailed
-from .keeper import Kept, Trips, keeper_of, list_of_trips, put, trips_of
+from .keeper import Kept, Trips, first_of, keeper_of, list_of_trips, put
 from .motion import STRAIGHT, Motion, charging
 from .status import UNEXECUTED, DroneStatus, Status, TripStatus
 
@@ -254,20 +253,8 @@ class Mission(Kept, Generic[T]):
     @property
     def current(self) -> T:
         """The trip that flies now, or flies next; when none is left, the one flown last."""
-        return _current(self.trips, self.completed_trips)
-
-
-def current_of(mission: Mission[Any]) -> Any:
-    """Return the mission's trip that flies now or next, for the runtime."""
-    return _current(trips_of(mission), mission.completed_trips)
-
-
-def _current(trips: Sequence[T], completed: Sequence[T]) -> T:
-    if trips:
-        return trips[0]
-    if not completed:
-        raise MissionFailed("no trip is left to fly")
-    return completed[-1]
+        current: T = first_of(self.trips, self.completed_trips)
+        return current
 
 
 M = TypeVar("M", bound=Mission[Any])

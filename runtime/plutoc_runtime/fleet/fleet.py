@@ -48,8 +48,7 @@ class Fleet:
         self._change: Future[None] | None = None
         """Set at the next change of any drone, if something waits for it."""
         self.unready: dict[Drone, str] = {}  # drones that are lost, or not ready to fly, and why
-        self.retired: set[Drone] = set()
-        """Drones that are not allocated until they are brought back."""
+        self.retired: set[Drone] = set()  # they are not allocated until they are brought back
         self.lost_before: dict[Drone, str] = {}
         """Drones that were lost in an earlier run, and not brought back since."""
         queue.served = self._fetch_what_is_low

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
-from ..domain.model import current_of
+from ..domain.keeper import current_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import LONGEST_LOG, bounded
 from ..time.kernel import mission_key

@@ -11,8 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.fields import Entity
-from ..domain.keeper import put, trips_of
-from ..domain.model import current_of
+from ..domain.keeper import current_of, put, trips_of
 from ..domain.status import RUNNING, STANDBY, UNEXECUTED, Status
 from ..fleet.orders import failure_of
 from ..hooks.plain_data import (

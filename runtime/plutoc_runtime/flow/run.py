@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..domain.model import Mission, current_of
+from ..domain.keeper import current_of
+from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
 from ..time.kernel import branch_key
 

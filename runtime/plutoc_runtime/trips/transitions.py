@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..domain.keeper import drop_trip, keeper_of, put, put_trips, trips_of
-from ..domain.model import current_of, put_back
+from ..domain.keeper import current_of, drop_trip, keeper_of, put, put_trips, trips_of
+from ..domain.model import put_back
 from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, TripStatus
 from ..domain.text import bounded, shown
 
