@@ -13,13 +13,12 @@ from ..domain.keeper import Keeper, keep, keeper_of, trips_of
 from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..domain.text import said
-from ..hooks.calls import trace_of
 from ..time.future import Future
 from ..time.kernel import Task, mission_key
 from .mission import Core, MissionState
 from .promises import Promises
 from .run import Run
-from .standing import as_crash, blame, blamed
+from .standing import as_crash, blame, blamed, traced
 
 if TYPE_CHECKING:
     from ..domain.model import Trip
@@ -150,7 +149,7 @@ class Engine:
         elif (keeper := keeper_of(state.mission)) is not None and keeper.changed:
             reason = f"by a bug of Pluto, or of a hook that has changed the mission: {said(error)}"
             status = FAILED
-            self._tell(HookFault(reason, trace_of(error)), state.mission)
+            self._tell(HookFault(reason, traced(error)), state.mission)
         else:
             crash = as_crash(error)
             blame(crash, self.core.app.flow)

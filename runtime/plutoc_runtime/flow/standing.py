@@ -174,6 +174,13 @@ def as_crash(error: BaseException) -> Exception:
     return RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
 
 
+def traced(error: BaseException) -> str:
+    """Return where an error arose, and what it says, for the log."""
+    from traceback import format_tb  # only where something has gone wrong
+
+    return "".join(format_tb(error.__traceback__)) + said(error)
+
+
 def blamed(error: BaseException, flow: Callable[..., Any]) -> str:
     """Return the declaration of the block in which an error arose; empty if it was in none.
 

@@ -257,3 +257,31 @@ def test_what_a_modifier_has_changed_when_it_is_called_off_counts() -> None:
     (mission,) = apps.flown(apps.mission("m", *trips), watch=apps.modified(write)).missions
     assert [one.target[:2] for one in mission.completed_trips] == [(3.0, 0.5), (2.0, 2.0)]
     assert mission.reason.endswith("it must be a Trip of this app, not str")
+
+
+@pytest.mark.parametrize("changes", [True, False])
+def test_an_error_of_ours_in_a_mission_that_hooks_have_changed_ends_that_mission_alone(
+    changes: bool,
+) -> None:
+    """Who is to blame cannot be told then; in one that no hook has changed it is a bug of ours."""
+
+    def prepare(mission: Any, context: Any) -> None:
+        if changes:
+            mission.current.target = (5, 5)
+
+    async def fails(run: Any, status: Any) -> Any:
+        raise KeyError(run.mission.name)
+
+    def fly() -> list[Any]:
+        missions = (apps.mission(name, apps.trip("A", 3.0)) for name in ("one", "two"))
+        tested = apps.app(apps.flow(prepare=prepare, watch=fails))
+        return apps.fly(tested, *missions, on=apps.TWO).missions  # type: ignore[return-value]
+
+    if not changes:
+        with pytest.raises(KeyError):
+            fly()
+        return
+    assert [mission.reason for mission in fly()] == [
+        f"by a bug of Pluto, or of a hook that has changed the mission: KeyError: {name!r}"
+        for name in ("one", "two")
+    ]
