@@ -35,6 +35,7 @@ CAMPAIGNS = (
     "python -m tests.forged.floods",
     "python -m tests.soundness --random 2000",
     "python -m tests.soundness --loops 5000 --fly 50",
+    "python -m tests.hooks --apps 5000",
     "python -m tests.mutations",
     "python -m tests.equivalence --graphs 10000",
     "python -m tests.trials.campaign --seeds 20",
