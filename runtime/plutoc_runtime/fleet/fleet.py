@@ -13,7 +13,7 @@ from ..domain.errors import FlightFailed
 from ..domain.keeper import put
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
-from ..domain.text import LONGEST_REASON, cut_off, printable
+from ..domain.text import cut_off, printable
 from ..time.future import Future
 from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
 from .reach import LOW, docked
@@ -217,7 +217,7 @@ class Fleet:
             self._lose(drone, self.lost_before[drone])
         elif home is not True:
             why = self._not_ready(drone, str(home or "")) if repaired else str(home or "")
-            reason = cut_off(printable(reason), LONGEST_REASON) or "it could not be brought home"
+            reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
             self._lose(drone, why or reason)
         else:
             self.unready.pop(drone, None)
@@ -252,7 +252,7 @@ class Fleet:
 
     def _not_ready(self, drone: Drone, why: str) -> str:
         """Note why a drone may not fly, if it says why, and return that."""
-        why = cut_off(printable(why), LONGEST_REASON)
+        why = cut_off(printable(why), LONGEST)
         if why and self._trace.live:
             self._trace.note("drone.not_ready", drone=drone.id, reason=why)
         return why
@@ -299,3 +299,4 @@ class Fleet:
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
+LONGEST = 500  # characters of the reason why a drone is lost

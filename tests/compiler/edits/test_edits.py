@@ -51,8 +51,8 @@ def nine(text: str) -> Iterator[tuple[str, str, str]]:
     yield edit("retarget an edge", ("  retry -> allocate when", "  retry -> wait when"))
     evaluator = "  evaluator find_blooms\n"
     yield edit("add a hook", (evaluator, f"{evaluator}  evaluator find_pests\n"))
-    judged = "  judge -> allocate when STANDBY"
-    yield edit("change a guard", (judged, f"{judged}, FAILED"))
+    tried = "  retry -> allocate when STANDBY"
+    yield edit("change a guard", (tried, f"{tried}, FAILED"))
     yield edit("add a comment at the top", ("pluto 1\n", "pluto 1\n# The field behind the barn.\n"))
 
 
