@@ -48,6 +48,12 @@ app waiting {
 SPEED, CRAZYFLIES = 5, 3
 PATIENCE = 900.0
 """Seconds of real time for one flight."""
+FAULTS: Sequence[tuple[str, float | bool, Sequence[str]]] = (
+    ("tumble", True, ("cf1", "cf2")),
+    ("level", 0.3, ("cf1", "cf2", "cf3")),
+    ("silent", True, ("cf1",)),
+)
+"""What befalls which Crazyflies once one was launched: a fault of each flight in turn."""
 _BUSY = "while True: pass"
 _ENDS = ("trip.completed", "trip.failed", "trip.interrupted")
 _UNDER_WAY = ("trip.launched", "drone.returning", "drone.recovering", "drone.busy")
@@ -91,6 +97,11 @@ def fly(number: int, *, load: int, crtp: bool) -> tuple[int, list[str]]:
             stack.callback(busy.kill)
         stack.callback(flight.end)
         flight.start()
+        if isinstance(flight, Crazyflies):
+            flight.until(lambda: "launched" in flight.told)
+            fault, value, drones = FAULTS[number % len(FAULTS)]
+            for drone in drones:
+                flight.let(drone, fault, value)
         flight.see_through(PATIENCE)
     with closing(Reader(flight.journal)) as reader:
         events = [event for row in reader.rows() for event in json.loads(row.text)]
