@@ -512,7 +512,7 @@ _WHOLE: dict[str, Callable[[Records, Fact], None]] = {
 }
 
 
-def replayed(read: Read, header: Event | None = None) -> Records:
+def replayed(read: Read, header: Mapping[str, Any] | None = None) -> Records:
     """Return the records of a journal: of its header or a snapshot, and all events since.
 
     Check afterwards whether `read` was damaged: then these are the records up to the damage.

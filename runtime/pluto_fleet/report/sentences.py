@@ -135,7 +135,7 @@ _SENTENCES: Mapping[str, Callable[[Event], str | None]] = {
     "drone.retired": lambda event: f"{event['drone']} is retired",
     "drone.brought_back": _brought_back,
     "drone.drained": lambda event: (
-        f"{event['drone']} came home with {percent(float(event['level']))} of its battery, less than its reserve"
+        f"{event['drone']} came home with {percent(float(str(event['level'])))} of its battery, less than its reserve"
     ),
     "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
