@@ -121,7 +121,11 @@ async def land(session: CrazyflieSession, speed: float) -> None:
     await _may_rise(session)
     state = await session.fresh()
     if state.steered:
-        seconds = speed_limits_of(session).seconds_down(max(0.0, state.position[2]), speed)
+        limits, height = speed_limits_of(session), max(0.0, state.position[2])
+        if session.doubts:  # the longer it flies, the farther it drifts
+            seconds = limits.seconds_down_blind(height)
+        else:
+            seconds = limits.seconds_down(height, speed)
         session.commanded = True
         await commander.land(session, seconds)
         await _down(session, lambda state: not state.steered, seconds + SLACK)

@@ -131,6 +131,8 @@ def more_cells(volts: float, cells: int, least: int) -> str:
 def uncertain(variance: float | None, within: float) -> str:
     if variance is None:
         return "it does not say how sure it is of its position"
+    if variance <= within**2:
+        return "it has not said for a second that it is sure where it is: let it stand still"
     return (
         f"it is not sure where it is: to {deviation(variance)} (a variance of {variance:.4f} m²),"
         f" and {number(within)} m for a second are needed, its option sure_within"

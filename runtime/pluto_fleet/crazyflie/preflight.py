@@ -49,6 +49,8 @@ async def problems(
         lacking += await _of_camera(options.camera)
     state = await session.until(_is_settled, _BETWEEN, well=False) or session.now()
     found = [*_of_state(state), *_of_battery(state, battery, options), *lacking]
+    if state.locked or state.crashed:
+        return found  # where it is will be known once it has been looked after
     patience = SETTLED_FOR + _SETTLING if found else _PATIENCE
     if not await _sure(session, options, began + patience):
         if options.starts_at_home:

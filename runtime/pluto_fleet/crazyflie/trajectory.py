@@ -113,6 +113,10 @@ class SpeedLimits:
         """Return the duration of a landing: its motors stop at its end, wherever it is then."""
         return self.seconds((0.0, 0.0, height), (0.0, 0.0, 0.0), min(speed, SINKS * self.limits[2]))
 
+    def seconds_down_blind(self, height: float) -> float:
+        """Return the duration of a landing of a drone that drifts: as short as it can follow."""
+        return self.seconds((0.0, 0.0, height), (0.0, 0.0, 0.0), self.limits[2])
+
     def too_slow_for(self, speed: float) -> Iterator[str]:
         """Yield why a drone cannot follow its maximum speed."""
         asked = (speed, speed, min(speed, _CLIMB))

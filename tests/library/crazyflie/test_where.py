@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+from math import dist
 
 import pytest
 
+from pluto_fleet.crazyflie import messages
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.drones.errors import PositionLost
 from pluto_fleet.drones.protocol import POSITION_LOST
-from tests.kit.unthreaded import passes
+from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
 
@@ -49,6 +51,31 @@ async def test_one_that_loses_its_place_in_the_air_arrives_nowhere_and_does_noth
     await up.hold()  # as well as it can
     await up.land(FAST)
     assert not one.flies and [event.kind for event in one.events] == [POSITION_LOST]
+
+
+async def test_one_that_has_lost_its_place_lands_in_half_the_time(one: Hangar) -> None:
+    """It drifts ever farther; firmware took 8.7 s from here, and drifted 1.9 m."""
+    cf = await one.connected()
+    await cf.takeoff(1.5, 0.5)
+    await passes(15.0)
+    await one.let("fixes", False)
+    await one.hears(POSITION_LOST)
+    began, (x, y, _) = the_air().time(), one.position
+    await cf.hold()
+    await cf.land(0.5)
+    assert the_air().time() - began < 6.0  # two of them until it tells that it has landed
+    assert dist(one.position[:2], (x, y)) < 0.9
+    assert not one.flies and not one.drone.supervisor.locked
+
+
+async def test_after_an_emergency_stop_it_does_not_say_that_it_does_not_know_its_place(
+    one: Hangar, up: Crazyflie
+) -> None:
+    await up.emergency_stop()
+    await one.let("unsure")
+    await passes(2.0)
+    assert await up.preflight() == ["it has locked its motors: switch it off and on"]
+    assert "0.00 m" not in messages.uncertain(0.0, 0.07)
 
 
 @drone(options={"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2})
