@@ -26,8 +26,8 @@ BASIC = ("name", "polygon", "action", "spacing", "height", "parameters")
 SPACING = values.Quantity(Type.LENGTH, 0.05, 10_000.0)
 """The side of the square around each place."""
 
-MOST_IN_ALL = 100_000
-"""The most trips that the areas of one file make."""
+MOST_IN_ALL, MOST_AREAS = 100_000, 10_000
+"""The most trips that the areas of one file make, and the most areas of one file."""
 
 
 def named(table: Table, number: int, names: dict[str, Table]) -> str:
@@ -55,7 +55,8 @@ def read_places(table: Table, airspace: Airspace, before: Point | None) -> Seque
     if not has("areas"):
         table.problem(errors.no_shapely())
         return ()
-    if corners is None:
+    document = table.document
+    if corners is None or document.swept > MOST_IN_ALL:  # of what is too much, one has told
         return ()
     from . import sweep as geometry  # shapely takes long to import
 
@@ -67,16 +68,18 @@ def read_places(table: Table, airspace: Airspace, before: Point | None) -> Seque
     try:
         found = geometry.sweep(corners, spacing, airspace, before and before[:2])
     except geometry.TooManyPlaces:
+        document.swept += geometry.MOST
         table.problem(errors.too_many_places(spacing, geometry.MOST), "spacing")
         return ()
     if not found.places:
         table.problem(errors.nothing_permitted(), "polygon")
-    if sum(made.trips for made in table.document.areas) + len(found.places) > MOST_IN_ALL:
-        table.problem(errors.too_many_in_all(MOST_IN_ALL), "spacing")
+    document.swept += max(len(found.places), MOST_IN_ALL // MOST_AREAS)
+    if document.swept > MOST_IN_ALL:
+        table.problem(errors.too_many_in_all(MOST_IN_ALL, MOST_AREAS), "spacing")
         return ()
     places = [(x, y, z) for x, y in found.places]
-    table.document.is_made = True
-    table.document.areas.append(
+    document.is_made = True
+    document.areas.append(
         MadeOfArea(
             who=table.who,
             trips=len(places),

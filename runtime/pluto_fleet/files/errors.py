@@ -12,16 +12,26 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
 
 
+_NAMED = 10
+"""Of more drones than these it is said how many they are; of what is too much to list, so many are named."""
+_MOST_LISTED, _LONGEST_HINT = 100, 100
+"""Words that are listed, or compared for a hint, and characters of one: more would take long."""
+
+
 def listed(words: Iterable[str]) -> str:
     """Join words for a message; say so if there are none."""
-    return ", ".join(words) or "none"
+    found = [*words]
+    more = [f"… and {len(found) - _NAMED} more"] if len(found) > _MOST_LISTED else []
+    return ", ".join([*(found[:_NAMED] if more else found), *more]) or "none"
 
 
 def near(word: str, words: Iterable[str]) -> str:
     """Return `; did you mean "x"?` if one of the words is near, else nothing."""
     from difflib import get_close_matches
 
-    found = get_close_matches(word, list(words), n=1, cutoff=0.6)
+    known = [one for one in words if len(one) <= _LONGEST_HINT]
+    is_little = len(word) <= _LONGEST_HINT and len(known) <= _MOST_LISTED
+    found = get_close_matches(word, known, n=1, cutoff=0.6) if is_little else []
     return f"; did you mean {quoted(found[0])}?" if found else ""
 
 
@@ -121,8 +131,11 @@ def too_many_places(spacing: float, most: int) -> str:
     return f"spacing {number(spacing)} m makes more than {most:,} trips of this area: widen it"
 
 
-def too_many_in_all(most: int) -> str:
-    return f"with this area the file makes more than {most:,} trips: widen the spacing"
+def too_many_in_all(most: int, areas: int) -> str:
+    return (
+        f"with this area the file makes more than {most:,} trips, or has more than {areas:,} areas:"
+        " widen the spacing"
+    )
 
 
 def nothing_permitted() -> str:
@@ -202,6 +215,14 @@ def too_many_rows(most: int) -> str:
     return f"has more than {most:,} rows"
 
 
+def too_much(what: str, most: int, of: str) -> str:
+    return f"{what}: all lists of a file make at most {most:,} {of}"
+
+
+def too_many_columns(most: int) -> str:
+    return f"has more than {most:,} columns"
+
+
 # Fleet
 
 
@@ -240,10 +261,6 @@ def no_fleet_file() -> str:
         "real drones are named in a fleet file: give it with --fleet;"
         " the command drones --save F.toml writes one of those that the radio hears"
     )
-
-
-_NAMED = 10
-"""Of more drones than these it is said how many they are."""
 
 
 def no_uri(drones: Sequence[tuple[str, int | None]]) -> str:

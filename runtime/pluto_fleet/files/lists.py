@@ -14,16 +14,20 @@ from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from . import errors
-from .filled import columns_of, filled
-from .reading import Table, text_of
+from .filled import columns_of, filled, weight_of
+from .reading import MOST_SHOWN, Table, text_of
 
 if TYPE_CHECKING:
     from .toml import TomlPath
 
-MOST_ROWS = 10_000
-"""The most missions that one list makes."""
+MOST_ROWS, MOST_COLUMNS, MOST_READ = 10_000, 1_000, 8 << 20
+"""Of all lists of a file: the most missions that they make, and characters that are read; and columns of each."""
+MOST_PARTS, MOST_CHARACTERS = 1_000_000, 10_000_000
+"""What all lists of a file make of its texts: so many values and tables, of so many characters."""
 
+_LONGEST_VALUE = csv.field_size_limit()  # in characters
 _SAID = {
+    f"field larger than field limit ({_LONGEST_VALUE})": f"a value is longer than {_LONGEST_VALUE:,} characters",
     "unexpected end of data": "a quoted value begins there, and no quote ends it",
     "',' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
     "';' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
@@ -40,18 +44,58 @@ class _Unusable(ValueError):
     """What is wrong with a list; the message continues after its name."""
 
 
+class _TooMuch(_Unusable):
+    """The lists of one file make too much: no more of them is read."""
+
+
+class _Made:
+    """What the lists of one file have made so far, counted before it is made."""
+
+    def __init__(self) -> None:
+        self.read = self.rows = self.parts = self.characters = 0
+
+    def count_text(self, text: str) -> None:
+        """Count the text of a list."""
+        self.read += len(text)
+        if self.read > MOST_READ:
+            raise _TooMuch(errors.too_much("is too long", MOST_READ, "characters"))
+
+    def count_row(self) -> None:
+        """Count a row of a list."""
+        self.rows += 1
+        if self.rows > MOST_ROWS:
+            raise _TooMuch(errors.too_much("has too many rows", MOST_ROWS, "missions"))
+
+    def count(self, template: object, rows: Sequence[Row]) -> None:
+        """Count what becomes of a template with these rows."""
+        weight = weight_of(template)
+        self.parts += weight.parts * len(rows)
+        self.characters += weight.characters * len(rows)
+        for column, times in weight.columns.items():
+            self.characters += times * sum(len(row[column]) for _, row in rows)
+        if self.parts > MOST_PARTS:
+            raise _TooMuch(errors.too_much("makes too much", MOST_PARTS, "values"))
+        if self.characters > MOST_CHARACTERS:
+            raise _TooMuch(errors.too_much("makes too much", MOST_CHARACTERS, "characters"))
+
+
 def each_row(top: Table) -> Iterator[Table]:
     """Yield the missions' tables; of one with `each` a table for each row of its list."""
+    made: _Made | None = _Made()
     for index, table in enumerate(top.tables("mission", "mission")):
-        if "each" in table.data:
+        if "each" not in table.data:
+            yield table
+        elif made is not None:
             known = table.valid_name("name")
             table.who = f"mission {index + 1 if known is None else quoted(known)}"
-            yield from _of_rows(table)
-        else:
-            yield table
+            try:
+                yield from _of_rows(table, made)
+            except _TooMuch as wrong:
+                table.problem(f"each {quoted(str(table.data['each']))} {wrong}", "each")
+                made = None  # of no further list anything is read
 
 
-def _of_rows(table: Table) -> Iterator[Table]:
+def _of_rows(table: Table, made: _Made) -> Iterator[Table]:
     template = {key: value for key, value in table.data.items() if key != "each"}
     table.document.is_made = True
     list_ = table.read("each", _beside)
@@ -61,7 +105,9 @@ def _of_rows(table: Table) -> Iterator[Table]:
         table.problem(errors.no_folder(list_), "each")
         return
     try:
-        rows, odd = _rows(table.document.folder / list_)
+        rows, odd = _rows(table.document.folder / list_, made)
+    except _TooMuch:
+        raise
     except _Unusable as wrong:
         odd, rows = [f"{wrong}"], []
     for wrong_row in odd:
@@ -72,6 +118,7 @@ def _of_rows(table: Table) -> Iterator[Table]:
         if len(rows) > 1 and "name" in template and not [*columns_of(template["name"])]:
             table.problem(errors.same_for_all(template["name"], [*rows[0][1]]), "name")
             return
+        made.count(template, rows)
         for number, row in rows:
             data = {key: filled(value, row) for key, value in template.items()}
             yield Table(table.document, data, table.place, row=f"{list_}, row {number}")
@@ -92,6 +139,8 @@ def _are_known(table: Table, template: Mapping[str, object], columns: Sequence[s
     """Return whether a list has all columns that a template names; what it has not is reported."""
     before = len(table.document.problems)
     for path, column in columns_of(dict(template)):
+        if len(table.document.problems) > before + MOST_SHOWN:
+            break
         if column is None:
             table.problem(errors.brace_alone(_key(path)), *path)
         elif column not in columns:
@@ -106,12 +155,13 @@ def _key(path: TomlPath) -> str:
 # The file
 
 
-def _rows(path: Path) -> tuple[list[Row], list[str]]:
+def _rows(path: Path, made: _Made) -> tuple[list[Row], list[str]]:
     """Return the rows of a list that have values, at least one, and what is wrong with others.
 
     Raises `_Unusable` if it cannot be read as a whole.
     """
     text = _text(path)
+    made.count_text(text)
     if not text.strip():
         raise _Unusable("is empty: its first line names the columns")
     lines = csv.reader(StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
@@ -137,7 +187,8 @@ def _rows(path: Path) -> tuple[list[Row], list[str]]:
                 odd.append(errors.other_width(number, len(stripped), len(columns)))
             rows.append((number, dict(zip(columns, stripped, strict=False))))
             if len(rows) > MOST_ROWS:
-                raise _Unusable(errors.too_many_rows(MOST_ROWS))
+                raise _TooMuch(errors.too_many_rows(MOST_ROWS))
+            made.count_row()
     except csv.Error as error:
         said = _SAID.get(str(error), str(error))
         raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None
@@ -169,15 +220,21 @@ def _first_odd(error: UnicodeDecodeError) -> str:
 
 def _delimiter(text: str) -> str:
     """Return what separates the columns: what splits the first line into more of them."""
-    first = next(line for line in text.splitlines() if line.strip())
+    first = next(line for line in text.splitlines() if line.strip())[:_LONGEST_VALUE]
     counts = {mark: len(next(csv.reader([first], delimiter=mark), ())) for mark in (",", ";")}
     return ";" if counts[";"] > counts[","] else ","
 
 
 def _columns(names: Sequence[str]) -> list[str]:
+    if len(names) > MOST_COLUMNS:
+        raise _Unusable(errors.too_many_columns(MOST_COLUMNS))
     for place, name in enumerate(names, 1):
         if not name:
             raise _Unusable(_nameless(place))
+        if len(name) > values.LONGEST_NAME:
+            raise _Unusable(
+                f"has a column {quoted(name)}: its name is longer than {values.LONGEST_NAME} characters"
+            )
         if name in names[: place - 1]:
             raise _Unusable(f"has two columns {quoted(name)}: names must differ")
         if "\t" in name:

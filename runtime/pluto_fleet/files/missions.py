@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from .landmarks import Landmarks
 
 
+MOST_OF_LISTS = 1_000
+"""After so many problems no further row of a list is read."""
+
 ELSEWHERE = {
     Entity.MISSION: ("safe_time", "repeat", "evaluator", "at", "every"),
     Entity.TRIP: ("delay", "priority", "gap"),
@@ -224,7 +227,11 @@ def read_missions(
     top.only(("mission",), "a missions file")
     names: dict[str, Table] = {}
     tables = [*each_row(top)]
-    missions = [_mission(table, index, app, airspace, names) for index, table in enumerate(tables)]
+    missions: list[Mission[Any]] = []
+    for index, table in enumerate(tables):
+        if table.row and len(document.problems) > MOST_OF_LISTS:
+            break  # the same is wrong in row after row
+        missions.append(_mission(table, index, app, airspace, names))
     if document.data.get("mission", []) == []:
         top.problem(errors.none_given("mission"))
     for place, said in misplaced(missions, known) if document.problems == [] else ():

@@ -106,6 +106,8 @@ class Document:
         self._reported: set[tuple[TomlPath, str]] = set()
         self.areas: list[MadeOfArea] = []
         """What its areas have become."""
+        self.swept = 0
+        """How many trips its areas have made; a small one counts for more, as it takes its time."""
         self.is_made = False
         """Whether missions, or trips, were made of lists or areas in it."""
         self.text = ""

@@ -158,7 +158,9 @@ def test_the_areas_of_a_file_make_only_so_many_trips(
 ) -> None:
     monkeypatch.setattr(areas, "MOST_IN_ALL", 50)
     told = said(tmp_path, mission(area(), area('name = "B"' + FIELD)))
-    assert told.endswith("with this area the file makes more than 50 trips: widen the spacing")
+    assert told.endswith(
+        "with this area the file makes more than 50 trips, or has more than 10,000 areas: widen the spacing"
+    )
 
 
 def test_without_shapely_it_is_said_what_to_install(

@@ -7,7 +7,6 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files import lists
 from pluto_fleet.files.missions import load_missions, missions_of
 from pluto_fleet.files.reading import parsed
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -223,13 +222,41 @@ def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> 
     ]
 
 
-def test_a_list_makes_only_so_many_missions(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+ALL = "all lists of a file make at most"
+TWICE = BEDS + BEDS.replace("Bed", "Old bed")
+MANY = LIST + "".join(f"{n},1,1\n" for n in range(100, 10_098))
+MUCH = BEDS.replace("Bed {nr}", "{nr}" * 8_000)
+
+
+@pytest.mark.parametrize(
+    ("text", "rows", "sentence"),
+    [
+        (BEDS, MANY + "9,1,1\n", 'each "beds.csv" has more than 10,000 rows'),
+        (TWICE, MANY, f"has too many rows: {ALL} 10,000 missions"),
+        (BEDS * 50, LIST + ",\n" * 250_000, f"is too long: {ALL} 8,388,608 characters"),
+        (MUCH, LIST + f"{'9' * 400},1,1\n" * 500, f"makes too much: {ALL} 10,000,000 characters"),
+        (f"{BEDS}x = [{'1,' * 100}]\n", MANY, f"makes too much: {ALL} 1,000,000 values"),
+        (BEDS, ",".join(map("c{}".format, range(1_001))) + "\n1\n", "has more than 1,000 columns"),
+        (BEDS, "n" * 200_000 + "\n1\n", "cannot be read in row 1: a value is longer than 131,072"),
+        (BEDS, "n" * 201 + "\n1\n", "is longer than 200 characters"),
+    ],
+)  # fmt: skip
+def test_lists_make_only_so_much_and_it_is_counted_before(
+    tmp_path: Path, text: str, rows: str, sentence: str
 ) -> None:
-    monkeypatch.setattr(lists, "MOST_ROWS", 2)
-    assert len(load(tmp_path)) == 2
-    [told] = said(tmp_path, rows=LIST + "8,1,1\n")
-    assert told.endswith('each "beds.csv" has more than 2 rows')
+    """In sum: of none after it anything is read."""
+    told = [one for one in said(tmp_path, text, rows) if "another mission" not in one]
+    assert len(told) == 1 and sentence in told[0]
+
+
+def test_of_wrong_rows_and_columns_only_so_many_are_looked_at(tmp_path: Path) -> None:
+    """A list of 10,000 rows may have as many mistakes, and each is told with its like."""
+    told = said(tmp_path, rows=MANY.replace(",1\n", ",x\n"))
+    assert (len(told), told[-1]) == (51, "… and 951 more problems")
+    columns = ",".join(map("c{}".format, range(1_000)))
+    names = "".join(map("{{u{}}}".format, range(8_000)))
+    told = said(tmp_path, BEDS.replace("{nr}", names), f"{columns}\n{columns}\n")
+    assert len(told) < 60 and "c9, … and 990 more" in told[0]
 
 
 def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> None:
