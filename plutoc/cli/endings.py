@@ -5,9 +5,10 @@ That is done by `kill`, by a CI job that is cancelled, by a terminal that is clo
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 
 from plutoc.foreign_code import ENDING, Terminated
@@ -22,6 +23,7 @@ __all__ = [
     "REFUSED",
     "USAGE",
     "UsageError",
+    "end_at_once_when_told",
     "tidy_when_told_to_end",
 ]
 
@@ -48,6 +50,23 @@ def tidy_when_told_to_end() -> Iterator[None]:
         for one in ENDING:
             if signal.getsignal(one) == _terminate:
                 signal.signal(one, signal.SIG_DFL)
+
+
+def end_at_once_when_told(name: str) -> None:
+    """End the program where it is at a signal to end: for a command whose threads cannot be ended.
+
+    One that the caller has ignored stays so, as with `nohup`.
+    """
+
+    def leave(number: int, _: FrameType | None) -> None:
+        what = "interrupted" if number == signal.SIGINT else "terminated"
+        with suppress(OSError):
+            os.write(2, f"{name}: {what}\n".encode())
+        os._exit(128 + number)
+
+    for one in (*ENDING, signal.SIGINT):
+        if signal.getsignal(one) != signal.SIG_IGN:
+            signal.signal(one, leave)
 
 
 def end_if_told() -> None:

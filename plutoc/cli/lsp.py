@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from plutoc.cli.endings import CLEAN, UsageError
+from plutoc.cli.endings import CLEAN, UsageError, end_at_once_when_told
 from plutoc.cli.options import Options
 
 _EXTRA = ("pygls", "lsprotocol", "cattrs")
@@ -23,5 +23,6 @@ def lsp(_: Options) -> int:
         raise UsageError("an editor starts this, and speaks to it by standard input and output")
     reads, writes = sys.stdin.buffer, os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(2, sys.stdout.fileno())  # what a block of another package prints is no message
+    end_at_once_when_told("plutoc")  # one thread waits for the editor, and hears no signal
     serve(reads, writes)
     return CLEAN

@@ -63,7 +63,7 @@ def tip_checksum(seq: object, epoch: object) -> int:
     return crc32(f"tip {seq} {epoch} ".encode())
 
 
-LARGEST_TEXT = 256 * 1024 * 1024
+LARGEST_TEXT = 128 * 1024 * 1024
 """Bytes of one text, so that no file has its reader take more memory than there is."""
 
 LATEST_WALL, MOST = 10**13, 2**53

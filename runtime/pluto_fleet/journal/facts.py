@@ -241,8 +241,23 @@ _MEASURED: Mapping[str, Any] = {
 """What a measurement says beside that, of a command that has taken `seconds`."""
 
 
+LONGEST_TEXT = 100_000
+"""Characters of a name, a reason, or a line."""
+
+
 def _tests(facts: Mapping[str, Any]) -> list[tuple[str, bool, Test]]:
-    return [(name.rstrip("?"), name[-1] != "?", fits(hint)) for name, hint in facts.items()]
+    return [
+        (
+            name.rstrip("?"),
+            name[-1] != "?",
+            _is_short if hint is str and name != "missions?" else fits(hint),
+        )
+        for name, hint in facts.items()
+    ]
+
+
+def _is_short(value: object) -> bool:
+    return isinstance(value, str) and len(value) <= LONGEST_TEXT
 
 
 _TESTS = {kind: _tests(facts) for kind, facts in _FACTS.items()}
@@ -310,7 +325,8 @@ def _is_value(value: object) -> bool:
 
 
 def _unfit(kind: str, name: str, value: object) -> str:
-    told = printable(bounded(repr(value)[: 2 * _LONGEST], _LONGEST))
+    part = value[:_LONGEST] if isinstance(value, (str, list)) else value
+    told = printable(bounded(repr(part), _LONGEST))
     return f"{printable(bounded(kind, _LONGEST))} has {told} as {name}"
 
 
