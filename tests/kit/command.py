@@ -18,7 +18,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Thread
-from typing import IO, NamedTuple, Self
+from typing import IO, Any, NamedTuple, Self
 
 import pytest
 
@@ -179,3 +179,12 @@ class Process:
         while (line := self._lines.get(timeout=LONG_ENOUGH)) is not None:
             said += line
         return code, said
+
+
+def hearing(number: signal.Signals, how: signal.Handlers, *words: object, **more: Any) -> Process:
+    """Start a Python program for which its caller has a signal ignored, as `nohup` has, or not."""
+    script = (
+        "import os, signal, sys; signal.signal(int(sys.argv[1]), signal.Handlers(int(sys.argv[2])));"
+        " os.execv(sys.executable, [sys.executable, *sys.argv[3:]])"
+    )
+    return Process("-c", script, int(number), int(how), *words, **more)

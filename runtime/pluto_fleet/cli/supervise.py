@@ -67,7 +67,7 @@ def supervise(what: Supervised) -> int:
             if code == BAD_INPUT and watch.refused:
                 return code
             if code in (*ENDS, *STOPS) and (watch.asked or what.over(code)):
-                return code
+                return watch.asked if code in STOPS and watch.asked else code
             done = what.finished()
             if done > finished or time.monotonic() - began > LONG_LIFE:
                 crashes = 0
