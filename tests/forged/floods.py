@@ -2,9 +2,8 @@
 
     python -m tests.forged.floods
 
-A station of its own process flies; beside it lie journals and recordings that were written to do harm, and everything that
-can be asked of them is asked; strangers hold connections, send halves, depths and lengths. Meanwhile its own
-page reads and commands, and a Stop is taken at the end. Printed are memory and the slowest answer to its page.
+Beside its journal lie others that were written to do harm, and all is asked of them; strangers hold connections, and
+send halves, depths and lengths. Meanwhile its own page reads, and at the end a Stop is taken.
 """
 
 from __future__ import annotations
@@ -16,6 +15,7 @@ import socket
 import sys
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -72,7 +72,7 @@ def _flood(station: Station, seconds: float) -> Figures:
     journal = station.journals()[0]
     ids = _forge(journal.parent)
     before, over = _peak(station.pid), threading.Event()
-    floods = [*(_idle, _halves, _bodies), *[_asks(ids, figures)] * 2]
+    floods = [*(_idle, _bodies), *[_asks(ids, figures)] * 2]
     threads = [threading.Thread(target=one, args=(station.port, over)) for one in floods]
     for thread in threads:
         thread.start()
@@ -153,46 +153,28 @@ def _asks(ids: list[str], figures: Figures) -> Callable[[int, threading.Event], 
 
 
 def _idle(port: int, over: threading.Event) -> None:
-    lines: list[socket.socket] = []
+    """Hold connections that say nothing."""
+    lines = deque[socket.socket](maxlen=IDLE)
     while not over.wait(0.01):
         with suppress(OSError):
             lines.append(socket.create_connection(("127.0.0.1", port), 1))
-        if len(lines) > IDLE:
-            lines.pop(0).close()
-    for line in lines:
-        line.close()
-
-
-def _halves(port: int, over: threading.Event) -> None:
-    """Begin requests, and never end them."""
-    lines: list[socket.socket] = []
-    while not over.wait(0.05):
-        with suppress(OSError):
-            line = socket.create_connection(("127.0.0.1", port), 1)
-            line.sendall(
-                b"POST /api/start HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 999999\r\n"
-            )
-            lines.append(line)
-        if len(lines) > 100:
-            lines.pop(0).close()
-    for line in lines:
-        line.close()
 
 
 def _bodies(port: int, over: threading.Event) -> None:
-    """Send bodies that are too deep, too long, or no JSON."""
-    bodies = cycle([DEEP[:100_000].encode(), b"x" * 2_000_000, b'{"id": 1e999}', b"\xff" * 1000])
+    """Send what is too deep, too long, or no JSON, and requests that never end."""
+    bodies = cycle([DEEP[:100_000].encode(), b"x" * 2_000_000, b'{"id": 1e999}', None])
+    lines = deque[http.client.HTTPConnection](maxlen=100)
     while not over.wait(0.02):
-        line = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
+        body, line = next(bodies), http.client.HTTPConnection("127.0.0.1", port, timeout=30)
+        lines.append(line)
+        kind = {"X-Pluto": "1", "Content-Type": "application/json"}
         with suppress(OSError, http.client.HTTPException):
-            line.request(
-                "POST",
-                "/api/pause",
-                next(bodies),
-                {"X-Pluto": "1", "Content-Type": "application/json"},
-            )
-            line.getresponse().read()
-        line.close()
+            if body is None:
+                line.putrequest("POST", "/api/start")
+                line.send(b"Content-Length: 999999\r\n")
+            else:
+                line.request("POST", "/api/pause", body, kind)
+                line.getresponse().read()
 
 
 def main() -> int:

@@ -19,50 +19,44 @@ HELLO = (
     '{"jsonrpc": "2.0", "id": 1, "method": "initialize",'
     ' "params": {"processId": null, "rootUri": null, "capabilities": {}}}'
 )
-COMMANDS = {
-    "lsp": (("lsp",), "Content-Length"),
-    "watch": (("watch", "crop.pluto"), "Ctrl-C ends"),
-    "edit": (("edit", "--no-open", "crop.pluto"), "Ctrl-C ends"),
+LASTS = {
+    "lsp": ["lsp"],
+    "watch": ["watch", "crop.pluto"],
+    "edit": ["edit", "--no-open", "crop.pluto"],
 }
+CODES = {HUP: 129, INT: 130, TERM: 143}
 
 
-def begun(process: Process, command: str) -> None:
-    """Wait until it has begun."""
+def begun(command: str, number: signal.Signals, how: signal.Handlers) -> Process:
+    process = hearing(number, how, "-m", "plutoc", *LASTS[command])
     if command == "lsp":
         assert process.process.stdin is not None
         process.process.stdin.write(f"Content-Length: {len(HELLO)}\r\n\r\n{HELLO}")
         process.process.stdin.flush()
-    process.until(COMMANDS[command][1])
+    process.until("Content-Length" if command == "lsp" else "Ctrl-C ends")
+    return process
 
 
 @pytest.mark.parametrize(
-    ("command", "number", "code"),
-    [
-        ("lsp", TERM, 143),
-        *(
-            pytest.param(command, number, code, marks=pytest.mark.long)
-            for command, number, code in [
-                *(("lsp", HUP, 129), ("lsp", INT, 130), ("watch", HUP, 129), ("watch", INT, 130)),
-                *(("watch", TERM, 143), ("edit", HUP, 129), ("edit", INT, 0), ("edit", TERM, 143)),
-            ]
-        ),
-    ],
+    "number", [TERM, *(pytest.param(n, marks=pytest.mark.long) for n in (HUP, INT))]
 )
-def test_a_signal_ends_it(app: Path, command: str, number: signal.Signals, code: int) -> None:
-    words = COMMANDS[command][0]
-    with hearing(number, signal.SIG_DFL, "-m", "plutoc", *words) as process:
-        begun(process, command)
-        assert process.ended(number)[0] == code
+@pytest.mark.parametrize(
+    "command", ["lsp", *(pytest.param(one, marks=pytest.mark.long) for one in ("watch", "edit"))]
+)
+def test_a_signal_ends_it(app: Path, command: str, number: signal.Signals) -> None:
+    with begun(command, number, signal.SIG_DFL) as process:
+        assert process.ended(number)[0] == (
+            0 if (command, number) == ("edit", INT) else CODES[number]
+        )
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize(("number", "then", "code"), [(HUP, TERM, 143), (INT, TERM, 143)])
+@pytest.mark.parametrize("number", [HUP, INT])
+@pytest.mark.parametrize("command", LASTS)
 def test_one_that_its_caller_ignores_is_ignored(
-    app: Path, command: str, number: signal.Signals, then: signal.Signals, code: int
+    app: Path, command: str, number: signal.Signals
 ) -> None:
     """As with `nohup`, or in the background of a script."""
-    with hearing(number, signal.SIG_IGN, "-m", "plutoc", *COMMANDS[command][0]) as process:
-        begun(process, command)
+    with begun(command, number, signal.SIG_IGN) as process:
         process.send(number)
-        assert process.ended(then)[0] == code
+        assert process.ended(TERM)[0] == 143

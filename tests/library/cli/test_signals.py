@@ -10,7 +10,7 @@ import pytest
 
 from tests.kill.trial import end_gateway
 from tests.kit.apps import EXAMPLES, compiled_file
-from tests.kit.command import Process, hearing
+from tests.kit.command import hearing
 
 pytestmark = [pytest.mark.long, pytest.mark.process]
 HUP, INT, TERM = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
@@ -39,34 +39,25 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return compiled_file(FILES / "app.pluto", tmp_path_factory.mktemp("package")) / "src"
 
 
-def started(here: Path, command: str, number: signal.Signals, how: signal.Handlers) -> Process:
-    words, begun, _ = COMMANDS[command]
-    process = hearing(number, how, "-u", "-m", APP, *words, cwd=here)
-    process.until(begun)
-    return process
-
-
-@pytest.fixture
-def here(tmp_path: Path, package: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.syspath_prepend(str(package))
-    return tmp_path
-
-
 @pytest.mark.parametrize("number", [HUP, INT, TERM])
 @pytest.mark.parametrize("command", COMMANDS)
-def test_a_signal_ends_it(here: Path, command: str, number: signal.Signals) -> None:
-    with started(here, command, number, signal.SIG_DFL) as process:
-        assert process.ended(number)[0] == COMMANDS[command][2][number]
-    end_gateway(here / "J")
-
-
-@pytest.mark.parametrize("number", [HUP, INT])
-@pytest.mark.parametrize("command", COMMANDS)
-def test_one_that_its_caller_ignores_is_ignored(
-    here: Path, command: str, number: signal.Signals
+@pytest.mark.parametrize("how", [signal.SIG_DFL, signal.SIG_IGN])
+def test_a_signal_ends_it_that_is_not_ignored(
+    package: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    command: str,
+    number: signal.Signals,
+    how: signal.Handlers,
 ) -> None:
-    """As with `nohup`, or in the background of a script."""
-    with started(here, command, number, signal.SIG_IGN) as process:
+    """Ignored it is with `nohup`, or in the background of a script."""
+    monkeypatch.syspath_prepend(str(package))
+    words, begun, codes = COMMANDS[command]
+    last = TERM if how is signal.SIG_IGN else number
+    if number is TERM and how is signal.SIG_IGN:
+        last = INT
+    with hearing(number, how, "-u", "-m", APP, *words, cwd=tmp_path) as process:
+        process.until(begun)
         process.send(number)
-        assert process.ended(TERM)[0] == COMMANDS[command][2][TERM]
-    end_gateway(here / "J")
+        assert process.ended(None if last is number else last)[0] == codes[last]
+    end_gateway(tmp_path / "J")
