@@ -168,7 +168,7 @@ class Living:
         self._brain = Mortal(self.kernel)
         records = Records()
         for event in self.memory.read().events:
-            records.take(event)
+            records.read(event)
         fleet = with_joined(self.app, self.fleet, records.joined)
         disk, link = _AtOnce(self.memory), self.gateway.link(self._epoch)
         life = RecordedFlight(

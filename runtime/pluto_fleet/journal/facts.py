@@ -173,8 +173,11 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "mission.changed": {
         **_MISSION,
         "fields": dict[str, Any],
-        "todo": list[TripFacts],
         "done": list[TripFacts],
+        "todo?": list[TripFacts],
+        "at?": int,
+        "gone?": list[str],
+        "put?": list[TripFacts],
     },
     "mission.replanned": {**_MISSION, "todo": list[TripFacts]},
     "mission.extended": {

@@ -28,7 +28,7 @@ Record = dict[str, Any]
 
 Fact = Mapping[str, Any]
 
-BROKEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError)
+BROKEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, StopIteration)
 """What an event raises that is not as this version knows it."""
 
 REMEMBERED = 200
