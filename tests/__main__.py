@@ -41,6 +41,7 @@ CAMPAIGNS = (
     "python -m tests.trials.campaign --seeds 20",
     "python -m tests.trials.strangers --apps 200",
     "python -m tests.deadlines --plans 1000",
+    "python -m tests.hours --each 200 --real",
     "python -m tests.sizing --plans 100",
     "python -m tests.kill --brain 500 --gateway 100",
     "python -m tests.flights_crazyflie.campaign",

@@ -187,3 +187,42 @@ def test_an_error_of_ours_is_no_traceback(capsys: pytest.CaptureFixture[str]) ->
         "tried: internal error: KeyError: 'ours'; please report it"
         " (PLUTO_DEBUG=1 shows where it happened)\n"
     )
+
+
+@pytest.mark.parametrize("alone", [True, False])
+@pytest.mark.parametrize(
+    ("when", "start", "seconds"),
+    [
+        ([], "", 3_660.0 + 30.0),
+        (
+            ["--date", "2027-03-28", "--zone", "Europe/Rome"],
+            "2027-03-28 01:59:30+01:00",
+            90.0,
+        ),
+    ],
+)
+def test_a_simulation_begins_on_a_date_in_a_zone(
+    alone: bool,
+    when: list[str],
+    start: str,
+    seconds: float,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """It sets out at 03:01, with the library and without it."""
+    tested = apps.app(apps.flow(clock=True))
+    given: Any = tested.given
+    plan, trace = tmp_path / "m.toml", tmp_path / "trace.jsonl"
+    trip = 'action = "take_photo"\ntarget = [3.0, 1.5]\n'
+    plan.write_text(f'[[mission]]\nat = "03:01"\n[[mission.trip]]\n{trip}')
+    words = ["simulate", str(plan), "--start", "01:59:30", "--trace", str(trace), *when]
+    for further in ([], ["--json"]):
+        if alone:
+            assert command.alone("tested", lambda: given, [*words, *further]) == 0
+        else:
+            assert with_library(tested, [*words, *further]) == 0
+    out = capsys.readouterr().out
+    assert json.loads(out.splitlines()[-1]).get("start", "") == start
+    assert (f"starts at {start}" == out.splitlines()[0]) == bool(start)
+    events = map(json.loads, trace.read_text().splitlines())
+    assert [one["t"] for one in events if one["event"] == "trip.launched"] == [seconds]

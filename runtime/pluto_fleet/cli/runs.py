@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from datetime import timedelta
 from math import ceil, floor
 from pathlib import Path
 from statistics import mean, median
@@ -164,9 +165,12 @@ def _broken(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[
     shares = ",".join(f"{what}={share:.12g}" for what, share in options.fail.items())
     fail = f" --fail {shares}" if shares else ""
     until = f" --until {options.until:.12g}" if options.until else ""
+    start = None if options.start is None else timedelta(seconds=options.start)
+    begins = {"start": start, "date": options.date, "zone": options.zone}
+    when = "".join(f" --{name} {value}" for name, value in begins.items() if value is not None)
     yield (
         f"See it again: {app.name} simulate {in_shell(options.missions)}{fleet} --seed {runs[0].seed}"
-        f"{fail}{until} --trace trace.jsonl"
+        f"{fail}{until}{when} --trace trace.jsonl"
     )
     yield "This is a mistake of ours, or of a block's author: please report it, with that file."
 

@@ -12,7 +12,7 @@ CLOCK = Block(
 
     The delay counts from the mission's arrival here, once for each attempt at the trip. A mission
     with `at` begins at that time of day; one with `every` begins each further round at a multiple
-    of it after its first start. Source: thesis 4.2; `at` and `every` are ours.""",
+    of it after its first start; hours are those of a zone. Source: thesis 4.2; `at` and `every` are ours.""",
     step=wait_for_time,
     transitions=same(Status.UNEXECUTED, Status.STANDBY),
     needs=(

@@ -45,10 +45,12 @@ def test_a_run_that_does_what_no_run_may_do_is_exit_70(
     assert f"See it again: {again}" in out
     spaced = missions.with_name("what's to fly.toml")
     spaced.write_text(missions.read_text())
-    _, out, _ = command("simulate", spaced, "--runs", 1, "--until", "2 h")
+    when = ["--start", "7:45:00", "--date", "2027-03-28", "--zone", "UTC"]
+    _, out, _ = command("simulate", spaced, "--runs", 1, "--until", "2 h", *when)
     (again,) = (line for line in out.splitlines() if line.startswith("See it again: "))
     words = split(again.removeprefix("See it again: "))
-    assert words[2:] == [str(spaced), "--seed", "0", "--until", "7200", "--trace", "trace.jsonl"]
+    flags = ["--seed", "0", "--until", "7200", *when, "--trace", "trace.jsonl"]
+    assert words[2:] == [str(spaced), *flags]
 
 
 @pytest.mark.long
