@@ -9,10 +9,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
 from tempfile import mkdtemp
+from typing import NamedTuple
 from zoneinfo import ZoneInfo
 
 from tests.kit import apps
@@ -38,79 +38,41 @@ LATE = 3.0
 """Seconds after its hour by which a mission must have set out, on a machine that is busy."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class RealCase:
-    """One flight: when it is started by the clocks of a zone, what it is promised, and when that comes."""
+class RealCase(NamedTuple):
+    """One flight: when it is started by the clocks of a zone, what is promised, and when that happens, in UTC."""
 
     zone: str
     start: str
     mission: str
     expected: Mapping[str, str]
-    """By the kind of event, when it is to happen: in UTC."""
     moves: float = 0.0
     """By how many seconds the clock is moved five seconds after the start."""
     kill: bool = False
     """Whether it is killed then, and resumed."""
 
 
-ROME, SOON = "Europe/Rome", "2027-03-28 01:59:40"
+ROME, SPRING, AUTUMN = "Europe/Rome", "2027-03-28 01:59:40", "2027-10-31 02:29:40"
+BOTH = 'at = "12:30"\ndeadline = "12:20"'
+SOON = 'at = "03:00:15"\ndeadline = "03:00:10"'
+DUE = 'deadline = "03:45:05"\nat = "03:45:30"'
+FROM = 'window = ["{}", "13:00"]'.format
+LORD_HOWE, CHATHAM = "Australia/Lord_Howe", "Pacific/Chatham"
 CASES = (
+    RealCase(ROME, SPRING, 'at = "03:00:05"', {"launched": "01:00:05"}),
+    RealCase(ROME, SPRING, 'at = "02:30"', {"launched": "01:00:00"}),
+    RealCase(ROME, AUTUMN, 'at = "02:30"', {"launched": "00:30:00"}),
+    RealCase(ROME, SPRING, FROM("03:00:05"), {"launched": "01:00:05"}),
+    RealCase(CHATHAM, "2027-09-26 02:44:40", DUE, {"late": "14:00:05", "launched": "14:00:30"}),
+    RealCase(LORD_HOWE, "2027-10-03 01:59:40", 'at = "02:30:05"', {"launched": "15:30:05"}),
+    # the clock is set forward, or the computer sleeps: before its hour, and over it; it is set back; a kill
     RealCase(
-        zone=ROME, start=SOON, mission='at = "03:00:05"', expected={"launched": "01:00:05"}
-    ),  # clocks are put forward
-    RealCase(zone=ROME, start=SOON, mission='at = "02:30"', expected={"launched": "01:00:00"}),
+        "Asia/Kathmandu", "2027-05-01 08:00", 'at = "08:10:25"', {"launched": "02:25:25"}, 600.0
+    ),
+    RealCase(ROME, "2027-03-13 12:00", BOTH, {"late": "11:40:05", "launched": "11:40:05"}, 2_400.0),
     RealCase(
-        zone=ROME,
-        start="2027-10-31 02:29:40",
-        mission='at = "02:30"',
-        expected={"launched": "00:30:00"},
+        "America/St_Johns", "2027-03-13 12:00", FROM("12:00:10"), {"launched": "15:30:10"}, -12.0
     ),
-    RealCase(
-        zone=ROME,
-        start=SOON,
-        mission='window = ["03:00:05", "03:30"]',
-        expected={"launched": "01:00:05"},
-    ),
-    RealCase(
-        zone="Pacific/Chatham",
-        start="2027-09-26 02:44:40",
-        mission='deadline = "03:45:05"\nat = "03:45:30"',
-        expected={"late": "14:00:05", "launched": "14:00:30"},
-    ),
-    RealCase(
-        zone="Australia/Lord_Howe",
-        start="2027-10-03 01:59:40",
-        mission='at = "02:30:05"',
-        expected={"launched": "15:30:05"},
-    ),
-    RealCase(  # the clock is set forward, or the computer sleeps for ten minutes
-        zone="Asia/Kathmandu",
-        start="2027-05-01 08:00:00",
-        mission='at = "08:10:25"',
-        expected={"launched": "02:25:25"},
-        moves=600.0,
-    ),
-    RealCase(  # the clock is set back
-        zone="America/St_Johns",
-        start="2027-03-13 12:00:00",
-        mission='window = ["12:00:10", "13:00"]',
-        expected={"launched": "15:30:10"},
-        moves=-12.0,
-    ),
-    RealCase(  # it sleeps over its hour
-        zone="America/Sao_Paulo",
-        start="2027-03-13 12:00:00",
-        mission='at = "12:30"\ndeadline = "12:20"',
-        expected={"late": "15:40:05", "launched": "15:40:05"},
-        moves=2_400.0,
-    ),
-    RealCase(
-        zone=ROME,
-        start=SOON,
-        mission='at = "03:00:15"\ndeadline = "03:00:10"',
-        expected={"late": "01:00:10", "launched": "01:00:15"},
-        kill=True,
-    ),
+    RealCase(ROME, SPRING, SOON, {"late": "01:00:10", "launched": "01:00:15"}, kill=True),
 )
 
 

@@ -75,7 +75,7 @@ class MissionState:
     last_action_end: float | None = None  # when its previous action in this round was done
     calls: int = 0  # how often its hooks were called since its last launch
     delay: tuple[Delay, float, float] | None = None
-    """The delay that it waits for, when that is over, and when its round begins."""
+    """The delay that it waits for, when that is over, and when its round begins by the clock, or 0."""
     waited: set[Delay] | None = None  # every delay that is over
     first_start: float | None = None  # when its first trip passed a clock
     ended: bool = False
@@ -85,6 +85,14 @@ class MissionState:
     def suspended(self) -> bool:
         """Whether it was taken out of its graph."""
         return self.task is None and not self.ended
+
+    @property
+    def held_until(self) -> float | None:
+        """Until when it is delayed, in the app's own time."""
+        if self.delay is None:
+            return None
+        _, over, begins = self.delay
+        return max(over, begins - self.core.kernel.drift) if begins else over
 
     def end(self, reason: str) -> None:
         """End it as FAILED, wherever it is in its graph; only the first reason counts."""

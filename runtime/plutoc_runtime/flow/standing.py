@@ -82,7 +82,6 @@ def _trip(app: App, trip: Trip) -> Data:
 
 def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
     """Return where a mission is in its graph, which drone it has, and until when it is delayed."""
-    drift = state.core.kernel.drift
     flight, drone = state.in_flight, state.allocated or state.carrier
     if state.allocated is None and flight is not None:
         drone = flight.flier
@@ -92,8 +91,8 @@ def whereabouts_of(state: MissionState, flow: Callable[..., Any]) -> Data:
         "drone": drone and drone.id,
         "flies": flight is not None,
         "allocated": state.allocated is not None,
-        "until": state.delay and max(state.delay[1], state.delay[2] - drift),
-        "opens": moment_of(state.mission, "opens", drift),
+        "until": state.held_until,
+        "opens": moment_of(state.mission, "opens", state.core.kernel.drift),
         "deadline": state.mission.deadline,
     }
 

@@ -31,14 +31,14 @@ async def wait_for_time(
         over = arrival if waited else arrival + (delay or 0.0)
         begins = _begins(run)
 
+    state.delay = (place, over, begins)
+
     def until() -> float:
-        nonlocal begins
         if begins and abs(begins - kernel.clock) > DAY:  # or the clock was wrong by days
-            begins = _begins(run)
-        return max(over, begins - kernel.drift)
+            state.delay = (place, over, _begins(run))
+        return state.held_until or 0.0
 
     if until() > arrival:
-        state.delay = (place, over, begins)
         if run.core.trace.live:
             run.core.trace.note(
                 "trip.delayed",

@@ -104,9 +104,10 @@ def test_a_clock_that_moves_does_not_move_an_hour(
     missions = [
         apps.mission("at", apps.trip("1", 3.0), at=1_000.0),
         apps.mission("due", apps.trip("1", 3.0), at=2 * HOUR, promises={"deadline": "00:16:40"}),
+        apps.mission("delay", apps.trip("1", 3.0, delay=200.0)),
         apps.mission("opens", apps.trip("1", 3.0), promises={"opens": "00:16:40"}),
     ]
-    homes = [(0.5 + x, 0.5, 0.0) for x in range(3)]
+    homes = [(0.5 + x, 0.5, 0.0) for x in range(4)]
     living = Living(enterable(clock=True), *missions, on=apps.fleet(*homes))
     if crashes:
         living.crash(50.0)
@@ -114,6 +115,7 @@ def test_a_clock_that_moves_does_not_move_an_hour(
     living.run(until=3 * DAY)
     came = {str(one["mission"]): float(str(one["t"])) for one in living.named("trip.launched")}
     promised = launched if drift < DAY else 100.0
+    assert came["delay"] == 200.0
     assert came["at"] == pytest.approx(launched, abs=5.0)
     assert [came["opens"], *living.times("mission.late")] == pytest.approx([promised] * 2, abs=5.0)
 
