@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections.abc import Mapping
+from contextlib import suppress
 from datetime import UTC, date, datetime, time, timedelta, tzinfo
 from math import ceil, floor, isfinite
 from typing import Any
@@ -27,10 +28,9 @@ def zone_of(name: str) -> tzinfo | None:
     try:
         return ZoneInfo(name)
     except (KeyError, ValueError, OSError):
-        pass
-    if not available_timezones():
-        raise ValueError("cannot be looked up: this computer knows no zones; pip install tzdata")
-    raise ValueError('is no zone of the IANA database: write it like "Europe/Rome"')
+        if not available_timezones():
+            raise ValueError("is not known here, nor any other: pip install tzdata") from None
+        raise ValueError('is no zone of the IANA database: write it like "Europe/Rome"') from None
 
 
 def day_of(text: str) -> date:
@@ -113,10 +113,8 @@ class Hours:
             return since  # it is shorter than any number can say
         count = ceil(round(count, 9))
         if every % DAY == 0.0:
-            try:
+            with suppress(*_BEYOND):
                 return self._same_hour(first, every, max(count - 1, 1), since)
-            except _BEYOND:
-                pass
         return first + count * every
 
     def _same_hour(self, first: float, every: float, count: int, since: float) -> float:

@@ -30,7 +30,6 @@ async def wait_for_time(
         waited = state.waited is not None and place in state.waited
         over = arrival if waited else arrival + (delay or 0.0)
         begins = _begins(run)
-
     state.delay = (place, over, begins)
 
     def until() -> float:
