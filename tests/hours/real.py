@@ -76,6 +76,12 @@ CASES = (
 )
 
 
+def library() -> Path | None:
+    """Return what `faketime` puts in the place of a process's clock; None: it is not installed."""
+    paths = [Path(one, "libfaketime.so.1") for one in LIBRARIES]
+    return next(filter(Path.exists, paths), None)
+
+
 def flown(number: int) -> list[str]:
     """Fly a case; return in what it differs from what is expected."""
     case, folder = CASES[number], Path(mkdtemp(prefix="hours-"))
@@ -95,11 +101,10 @@ def _flown(case: RealCase, folder: Path) -> list[str]:
     start = datetime.fromisoformat(case.start).replace(tzinfo=ZoneInfo(case.zone))
     ahead = start.timestamp() - time.time()
     clock.write_text(f"{ahead:+.3f}", "utf-8")
-    (library,) = [path for one in LIBRARIES if (path := Path(one, "libfaketime.so.1")).exists()]
     environment = {
         **os.environ,
         "TZ": case.zone,
-        "LD_PRELOAD": str(library),
+        "LD_PRELOAD": str(library()),
         "FAKETIME_TIMESTAMP_FILE": str(clock),
         "FAKETIME_NO_CACHE": "1",
         "FAKETIME_DONT_FAKE_MONOTONIC": "1",
