@@ -15,9 +15,12 @@ from pluto_fleet.flight.lives import reopen
 from pluto_fleet.flight.mission_status import records_in
 from pluto_fleet.report.report import report_of, waiting_lines
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.station.between_flights import FleetHistory
+from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.results.flights import ResultsOfFlights
 from pluto_fleet.station.results.tables import cells, csv_text, geojson
 from tests.library.station.history.test_past import FARM, past_of
+from tests.library.station.plan.drawing import FLEET
 
 FLIGHT = "forged"
 
@@ -31,6 +34,8 @@ def readers(folder: Path) -> Iterator[tuple[str, Callable[[], object]]]:
     yield "calibrate", lambda: calibrate([str(journal)])
     yield "report of a flight", lambda: _report(journal)
     yield "resume", lambda: reopen(FARM, journal).store.close()
+    config = StationConfig(folder=folder, fleet=FLEET, faults={}, sim=True)
+    yield "station", lambda: FleetHistory(FARM, config).read()
     yield "flights", lambda: json.dumps([past.flights(), past.hours()], allow_nan=False)
     yield "replay", lambda: _replay(past)
     yield "report", lambda: json.dumps(past.report(FLIGHT), allow_nan=False)

@@ -18,7 +18,7 @@ from ..gateway.process import NOTE
 from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect, speed_in
 from ..journal import errors
-from ..journal.header import Header, check
+from ..journal.header import Header, check_whole
 from ..journal.place import commands_note, gateway_folder
 from ..journal.store import Store
 from ..process import respawn
@@ -41,9 +41,6 @@ if TYPE_CHECKING:
     from ..process.realtime import RealTime
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
-
-_NEEDED = {"missions", "fleet", "sim", "seed", "faults", "app_hash"}
-"""What a journal's header says, without which no flight goes on."""
 
 GATEWAY_DEATHS = 5
 """How many gateways may die in a row without progress in between."""
@@ -115,9 +112,7 @@ def reopen(app: App, journal: Path) -> Resumable:
     store = Store.open(journal)
     try:
         header: Header = store.header
-        check(journal, header, app)
-        if lacking := sorted(_NEEDED - header.keys()):
-            raise errors.header_lacks(journal, ", ".join(lacking))
+        check_whole(journal, header, app)
         fleet = fleet_in(app, journal, header)
         app = moving(app, fleet.motion)
         known = recovered(store)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
+from ..shared.alone.faults import FAULTS
 from . import errors
 
 if TYPE_CHECKING:
@@ -56,6 +57,24 @@ def check(path: Path, header: Header, app: App) -> None:
     """Raise a `JournalError` if this app cannot resume a journal with this header."""
     if header.get("app") != app.name:
         raise errors.of_another_app(path, str(header.get("app")), app.name)
+
+
+def check_whole(path: Path, header: Header, app: App) -> None:
+    """Raise a `JournalError` also if it does not say all that is needed to go on."""
+    check(path, header, app)
+    if lacking := sorted(_NEEDED - header.keys()):
+        raise errors.header_lacks(path, ", ".join(lacking))
+    if (
+        not header["faults"].keys() <= set(FAULTS)
+        or not 0 < (header.get("crtp_sim") or 1) <= MOST_DRONES
+    ):
+        raise errors.strange(path, "its first row says how drones are simulated as nobody can")
+
+
+_NEEDED = {"missions", "fleet", "sim", "seed", "faults", "app_hash"}
+
+MOST_DRONES = 1_000
+"""The most simulated drones that a header may ask for."""
 
 
 def fingerprint(app: App) -> str:

@@ -17,10 +17,11 @@ from ..flight.offline import record_loss, record_return, returned
 from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place
 from ..journal.fold import Records
-from ..journal.header import Header, check
+from ..journal.header import Header, check_whole
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.store import Store
+from ..process.untrusted import parsed
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
@@ -197,7 +198,7 @@ class FleetHistory:
     def _take(self, journal: Path) -> None:
         with closing(Store.open(journal)) as store:
             header: Header = store.header
-            check(journal, header, self._app)
+            check_whole(journal, header, self._app)
             if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
                 return
             flown = fleet_in(self._app, journal, header)
@@ -216,10 +217,10 @@ class FleetHistory:
 
     def _kept(self) -> Records:
         records = Records()
-        with suppress(OSError, ValueError, TypeError, AttributeError):
-            kept = json.loads(self._file.read_text(encoding="utf-8"))
+        with suppress(OSError, ValueError, TypeError, LookupError):
+            kept = parsed(self._file.read_text(encoding="utf-8"))
             if kept["kind"] == self._kind:
-                records.take({"t": 0.0, "event": "journal.begun", **kept["drones"]})
+                records.read({"t": 0.0, "event": "journal.begun", **kept["drones"]})
         return records
 
     def leave(self, journal: Path, records: Records) -> None:

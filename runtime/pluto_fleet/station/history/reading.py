@@ -56,7 +56,8 @@ class JournalText:
             except ValueError as error:
                 self.damaged = f"{self.path}: {errors.unfit(row.seq, error)}"
                 return
-            yield Instant(row.wall, row.epoch, events)
+            if events:
+                yield Instant(row.wall, row.epoch, events)
 
     def _others(self) -> Iterator[Row]:
         try:
