@@ -70,7 +70,7 @@ class Waits:
         """Look now and then, as long as the flight lasts."""
         life = self._life
         while True:
-            if life.is_set_out and not life.control.stopped.is_set:
+            if life.is_set_out and not life.records.stopped:  # then all come down
                 self.look()
             await life.kernel.sleep(EVERY * max(1.0, len(life.records.missions) / MISSIONS_A_LOOK))
 

@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.flight.waits import LONG, Waits
+from pluto_fleet.jobs.reports import Down
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import AfterTrip
@@ -113,6 +114,15 @@ def test_a_drone_that_landed_as_it_was_told_to_is_not_told_of_though_it_is_to_fl
     living.at(16.0, lambda: living.life.told_to.update(cf1="fly"))
     assert living.run() == ["COMPLETED"] * 2
     assert not [line for line in told(living) if "nobody asked" in line]
+
+
+def test_after_a_stop_nothing_waits_as_all_come_home() -> None:
+    """Its brain is told no more where they are."""
+    living = watched(mission("a", 18.0))
+    living.at(30.0, lambda: living.life.control.stop(Down.HOME))
+    living.kernel.run(living.kernel.spawn(living.kernel.sleep(45.0), FLEET, "time passes"))
+    assert not living.life.control.stopped.is_set
+    assert told(living) == []
 
 
 def test_a_drone_that_does_a_long_action_does_not_wait() -> None:
