@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..journal.errors import Damaged
+from ..journal.facts import DRAINED, Event
 from ..journal.facts import check as check_facts
 from ..journal.fold import Record, Records, taken
 from ..journal.header import check
@@ -88,13 +89,14 @@ def aside(record: Record) -> tuple[Status, str] | None:
     return None
 
 
-def count_flights(journal: Path) -> tuple[int, int, float]:
+def count_flights(journal: Path) -> tuple[int, int, float, list[Event]]:
     """Count the flights and those that failed; return how many seconds the missions took, too.
 
-    That is from when the drones were connected, as in a simulation; 0: none has ended.
+    With it come the events of broken reserves. The seconds are from when the drones were connected, as in a simulation; 0: none has ended.
     """
     launched = failed = 0
     began, ended = None, 0.0
+    drained = list[Event]()
     with closing(Reader(journal)) as reader:
         for row in reader.rows():
             with suppress(ValueError):
@@ -103,8 +105,11 @@ def count_flights(journal: Path) -> tuple[int, int, float]:
                     kind = event["event"]
                     launched += kind == "trip.launched"
                     failed += kind == "trip.failed"
+                    if kind == DRAINED:
+                        drained.append(event)
                     if began is None and kind == "brain.began":
                         began = event["t"]
                     if kind == "mission.ended":
                         ended = event["t"]
-    return launched, failed, max(ended - (began or 0.0), 0.0) if ended else 0.0
+    seconds = max(ended - (began or 0.0), 0.0) if ended else 0.0
+    return launched, failed, seconds, drained

@@ -148,6 +148,8 @@ _DRONE = {"drone": str, "at?": Point | None, "battery?": float | None, "reason?"
 
 BEGUN = "journal.begun"
 """The event of the first row."""
+DRAINED = "drone.drained"
+"""The event of a drone that has come home with less than its reserve."""
 
 _FACTS: Mapping[str, Mapping[str, Any]] = {
     BEGUN: {
@@ -221,7 +223,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
         ),
         _DRONE,
     ),
-    "drone.drained": {"drone": str, "level": float},
+    DRAINED: {"drone": str, "level": float},
     "drone.not_ready": {"drone": str, "reason": str},
     "drone.brought_back": {**_DRONE, "lost?": bool},
     "drone.joined": {"drone": str, "entry": dict[str, Any]},

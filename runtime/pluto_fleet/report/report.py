@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..flight.mission_status import ANSWERS, aside, count_flights, in_order, waiting
 from ..jobs.flown import ACTS_BESIDE
+from ..journal.facts import DRAINED
 from ..process.text import in_shell
 from ..shared.alone.simulate import outcome_data, trips_data
 from ..shared.domain.fields import FieldType
@@ -20,12 +21,14 @@ from ..shared.domain.text import (
     percent,
     printable,
 )
+from .sentences import sentence_of
 
 if TYPE_CHECKING:
     from ..app import App
     from ..flight.outcome import SimulationResult
     from ..journal.fold import Record, Records
     from ..shared.domain.model import Drone, Mission
+    from ..shared.domain.trace import Event
 
 
 class MissionRow(NamedTuple):
@@ -52,6 +55,7 @@ def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
     yield ""
     if outcome.given_up:
         yield f"given up: {printable(outcome.given_up)}"
+    yield from broken_reserves(outcome.events)
     yield last_line(outcome)
     yield (
         f"flown with traffic: drones keep {number(apart)} m apart from each other"
@@ -122,6 +126,13 @@ def simulation_data(name: str, seed: int, outcome: SimulationResult) -> dict[str
         if event["event"] == ACTS_BESIDE
     ]
     return {**outcome_data(name, seed, outcome), **({"beside": beside} if beside else {})}
+
+
+def broken_reserves(events: Iterable[Event]) -> Iterator[str]:
+    """Yield a line for each time that a drone came home with less than its reserve."""
+    for event in events:
+        if event["event"] == DRAINED:
+            yield printable(sentence_of(event) or "")
 
 
 def last_line(outcome: SimulationResult) -> str:
@@ -210,11 +221,12 @@ def report_of(
     """Return the exit code of a flight that has a journal, and the lines of its report."""
     rows = [_recorded_row(name, record) for name, record in in_order(records)]
     statuses = [row.status for row in rows]
-    flights, failed, ended = count_flights(journal)
+    flights, failed, ended, drained = count_flights(journal)
     lines = [*mission_table(app, rows), ""]
     if drones:
         lines += [*drone_table(drones, {}), ""]
     late = sum(row.late for row in rows)
+    lines += broken_reserves(drained)
     lines.append(in_one_line(statuses, ended or records.time, flights, failed, late=late))
     return code_of(statuses), lines
 

@@ -224,6 +224,7 @@ def see_through(
 def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
     """Return the object that `simulate --json` prints."""
     missions, drones = outcome.standing["missions"], outcome.standing["drones"]
+    drained = {one["drone"]: None for one in outcome.events if one["event"] == "drone.drained"}
     return {
         "app": name,
         "seed": seed,
@@ -252,6 +253,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
             for drone, stands in drones.items()
         ],
         "log": outcome.log,
+        **({"drained": list(drained)} if drained else {}),
         **({"crashed_drones": outcome.crashed} if outcome.crashed else {}),
         **({"given_up": outcome.given_up} if outcome.given_up else {}),
     }

@@ -141,6 +141,8 @@ class Fleet:
     def _settle_here(self, drone: Drone) -> bool:
         """Make a healthy drone FREE, CHARGING or, if retired, OFFLINE; return False: it must go home for that."""
         reserve, level, retired = drone.category.reserve, drone.battery_level, drone in self.retired
+        if self._is_docked(drone) and drone.status in _UNDER_WAY and level < reserve - 0.005:
+            self._trace.note("drone.drained", drone=drone.id, level=level)
         if level > reserve and not retired:
             self._become(drone, _FREE)
         elif not self._is_docked(drone):
@@ -148,8 +150,6 @@ class Fleet:
         elif retired:
             self._become(drone, DroneStatus.OFFLINE)
         else:
-            if level < reserve - 0.005:  # less than that is chance
-                self._trace.note("drone.drained", drone=drone.id, level=level)
             self._become(drone, DroneStatus.CHARGING)
             self._free_after(drone.charging(reserve) + 0.001, drone)
         return True
@@ -298,5 +298,6 @@ class Fleet:
 
 
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
+_UNDER_WAY = (DroneStatus.RETURNING, _RECOVERING)  # and not one that has stood there before
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
 LONGEST = 500  # characters of the reason why a drone is lost

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 
 import pytest
 
 from pluto_fleet.app import App
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.report.report import report, simulation_data
 from pluto_fleet.report.sentences import sentence_of
 from pluto_fleet.shared.domain.actions import Parameter
 from pluto_fleet.shared.domain.app import moving
@@ -17,8 +20,10 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.reach import problems, reckoned
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context
+from pluto_fleet.shared.time.told import Stuck
 from tests.batteries import Judged, judged
 from tests.kit import apps
+from tests.kit.living import Living
 
 SCOUT = Category(name="scout", payload=0.01, flight_time=240.0, reserve=0.2)
 
@@ -103,3 +108,39 @@ def test_a_reserve_that_was_broken_is_told() -> None:
 def test_nothing_falls_with_actions_that_take_long(number: int) -> None:
     """More by `python -m tests.batteries`."""
     assert judged(number) == Judged("kept")
+
+
+def varied() -> tuple[App, FleetFile]:
+    """Return an app and its fleet, whose drones are slower or faster than they are reckoned with."""
+    on = replace(apps.fleet(), motion=replace(CRAZYFLIE, spread=0.3))
+    enters = apps.changed(app(looking(100.0, 100.0)), resumes=("allocate",))
+    return moving(enters, on.motion), on
+
+
+def until_drained(*crashes: float, retired: float | None = None) -> Living:
+    """Fly three such trips; the app may crash, and its drone be retired meanwhile."""
+    slow, on = varied()
+    trips = [apps.trip(name, 6.0, 3.0, action="look") for name in "ABC"]
+    living = Living(slow, apps.mission("m", *trips), on=on)
+    if retired is not None:
+        living.at(retired, lambda: living.life.control.retire("cf1"))
+    for when in crashes:
+        living.crash(when)
+    with suppress(Stuck):  # what a retired drone had to do is done by none
+        living.run()
+    return living
+
+
+def test_a_broken_reserve_is_told_once_also_of_a_retired_drone_and_when_the_app_resumes() -> None:
+    """It still charges then, below its reserve, and has come home long ago."""
+    (home,) = until_drained().times("drone.drained")
+    assert until_drained(home + 3.0, home + 8.0).times("drone.drained") == [home]
+    assert until_drained(retired=home - 30.0).times("drone.drained") == [home]
+
+
+def test_a_broken_reserve_stands_in_the_report_and_in_the_data_of_a_simulation() -> None:
+    slow, on = varied()
+    trips = [apps.trip(name, 6.0, 3.0, action="look") for name in "ABC"]
+    flown = apps.fly(slow, apps.mission("m", *trips), on=on)
+    assert any("less than its reserve" in line for line in report(slow, flown, 0.0))
+    assert simulation_data("tested", 0, flown)["drained"] == ["cf1"]
