@@ -14,6 +14,19 @@ from plutoc_runtime.domain.text import printable
 
 _NAME_OF_OBJECT = re.compile(rb"[0-9a-f]{40,64}")
 
+_HARMLESS = (
+    *("core.fsmonitor=false", f"core.hooksPath={os.devnull}", "core.sshCommand=false"),
+    *("core.gitProxy=", "core.alternateRefsCommand=", "core.askPass=", "credential.helper="),
+    *("diff.external=", "protocol.allow=never"),
+)
+"""Settings over those of a repository."""
+_OFFLINE = {
+    "GIT_NO_LAZY_FETCH": "1",
+    "GIT_ALLOW_PROTOCOL": "none",  # over what the repository allows, and by older versions of Git, too
+    "GIT_TERMINAL_PROMPT": "0",
+    "GIT_OPTIONAL_LOCKS": "0",
+}
+
 
 def read_at(revision: str, file: Path) -> Source:
     """Read a file as it was at a revision; raise `UsageError` where there is nothing to read."""
@@ -72,10 +85,14 @@ def _done(*words: str) -> bytes:
 
 
 def _git(*words: str) -> subprocess.CompletedProcess[bytes]:
-    """Run Git without a shell; paths are paths, and no patterns."""
-    environment = {**os.environ, "GIT_LITERAL_PATHSPECS": "1"}
+    """Run Git without a shell; paths are paths, and no patterns.
+
+    The repository may be a stranger's: nothing in its configuration runs a command or fetches anything.
+    """
+    settings = (word for one in _HARMLESS for word in ("-c", one))
+    environment = {**os.environ, **_OFFLINE, "GIT_LITERAL_PATHSPECS": "1"}
     return subprocess.run(
-        ["git", *words],
+        ["git", "--no-pager", *settings, *words],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         env=environment,

@@ -18,7 +18,7 @@ from plutoc.editor.sample_plan import sample_plan
 from plutoc.emit.errors import place_of
 from plutoc.emit.write import CannotWrite, compare, write
 from plutoc.project.package import FLEET, MISSIONS, called, with_own_code
-from plutoc_runtime.domain.text import duration, printable
+from plutoc_runtime.domain.text import duration, printable, quoted
 
 LONGEST = 60.0
 """Seconds of real time that a simulation may take."""
@@ -69,8 +69,12 @@ def _plan_beside(app: Snapshot, missions: str | None) -> Path | None:
     if Path(missions).name != missions or not missions.endswith(".toml"):
         raise Refused("missions must be a file beside the source, such as missions.toml")
     found = app.path.with_name(missions)
-    if not found.is_file():
-        raise Refused(f"there is no {printable(missions)} beside the source")
+    try:
+        is_there = found.is_file()
+    except OSError:  # no name of a file, such as one of 5,000 characters
+        is_there = False
+    if not is_there:
+        raise Refused(f"there is no {quoted(missions)} beside the source")
     return found
 
 

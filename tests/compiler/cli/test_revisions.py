@@ -39,6 +39,32 @@ def retries(*words: str | Path) -> tuple[int, int]:
     return change["before"], change["after"]
 
 
+def test_nothing_in_a_strangers_repository_is_run(repository: Path) -> None:
+    """Of a partial clone whose content is missing nothing is fetched; no hook, monitor or helper is called."""
+    blob = git("rev-parse", "HEAD:field/crop.pluto").strip()
+    (repository / ".git/objects" / blob[:2] / blob[2:]).unlink()
+    hacked = f"touch {repository}/hacked; false"
+    for setting in (
+        *("core.repositoryFormatVersion=1", "extensions.partialClone=o", "remote.o.promisor=true"),
+        *("remote.o.url=" + str(repository), "protocol.allow=always", "protocol.file.allow=always"),
+        *(f"{key}={hacked}" for key in ("remote.o.uploadpack", "core.fsmonitor", "core.pager")),
+        *(f"{key}={hacked}" for key in ("core.sshCommand", "diff.external", "core.askPass")),
+    ):
+        git("config", *setting.split("=", 1))
+    for url in (
+        repository,
+        f"file://{repository}",
+        "ssh://host/x",
+        f"ext::sh -c touch% {repository}/hacked",
+    ):
+        (repository / ".git/config").write_text(
+            (repository / ".git/config").read_text().replace(f"url = {repository}", f"url = {url}")
+        )
+        done = plutoc("diff", "HEAD", "field/crop.pluto")
+        assert done.code == 2 and "git cat-file has failed" in done.err
+        assert not (repository / "hacked").exists(), url
+
+
 def test_all_that_git_takes_for_a_revision_is_one(
     repository: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
