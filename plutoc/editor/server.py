@@ -9,29 +9,33 @@ import asyncio
 import signal
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext, suppress
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 import uvicorn
 from starlette.applications import Starlette
-from starlette.requests import Request
+from starlette.requests import HTTPConnection, Request
 from starlette.responses import RedirectResponse, Response
 from starlette.routing import Route, WebSocketRoute
 from starlette.websockets import WebSocket, WebSocketDisconnect
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from plutoc.editor.guard import Guard, headers, is_ours, is_own_page, knows
 from plutoc.editor.session import Client, Session
 from plutoc.editor.static import PAGE, pages
 from plutoc.foreign_code import ENDING, Terminated
 from plutoc.source import LARGEST
+from plutoc_runtime.connections import take_in
 
 if TYPE_CHECKING:
     import socket
+
+    from uvicorn.protocols.http.h11_impl import RequestResponseCycle
 
 _LARGEST_HEAD = 16 * 1024
 _LARGEST_MESSAGE = 8 * LARGEST
 """A text of the largest size, each character escaped as JSON may."""
 MOST_CLIENTS = 32
-_CONNECTIONS = 256
 _NO_TOKEN, _TOO_MANY, _GOING, _SLOW = 4401, 4429, 1012, 4408
 _GONE = (WebSocketDisconnect, RuntimeError, OSError)
 """What sending to a connection that has ended raises."""
@@ -81,6 +85,11 @@ class Web:
             return Response(status_code=304, headers=kept)
         return Response(found.content, 200, kept, found.type)
 
+    def knows(self, request: HTTPConnection) -> bool:
+        """Return whether a request has the token."""
+        token = request.cookies.get(self._guard.cookie, "") or _bearer(_headers(request))
+        return knows(self._guard, token)
+
     def _is_ours(self, request: Request | WebSocket) -> bool:
         server = request.scope.get("server")
         return is_ours(self._guard, _headers(request), str(server[0]) if server else "")
@@ -90,8 +99,7 @@ class Web:
         if not (self._is_ours(socket) and is_own_page(found)):
             await socket.close(1008)  # the server answers 403, which is all that a page is told
             return
-        token = socket.cookies.get(self._guard.cookie, "") or _bearer(found)
-        if not knows(self._guard, token):
+        if not self.knows(socket):
             await socket.accept()
             await socket.close(_NO_TOKEN, "open the address that was printed at the start")
             return
@@ -129,7 +137,7 @@ async def _send(client: Client, socket: WebSocket) -> None:
         await socket.close(_SLOW, "this page was too far behind: load it again")
 
 
-def _headers(request: Request | WebSocket) -> Mapping[str, str]:
+def _headers(request: HTTPConnection) -> Mapping[str, str]:
     """Return the headers; one that is there twice is joined, which makes it wrong."""
     found: dict[str, str] = {}
     for name, value in request.headers.items():
@@ -202,11 +210,54 @@ async def _serve(
             task.result()
 
 
+class _Limited(H11Protocol):
+    """An HTTP connection that is closed when idle for too long, or when others need its place."""
+
+    def __init__(self, knows: Callable[[HTTPConnection], bool], *given: Any, **named: Any) -> None:
+        super().__init__(*given, **named)
+        self._knows = knows
+
+    # uvicorn itself narrows the type of asyncio's argument
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Register the connection, and make room for it."""
+        self.began = self.loop.time()
+        others = [each for each in self.connections if isinstance(each, _Limited)]
+        super().connection_made(transport)
+        take_in(self, others)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is one still: it was not closed, nor became a WebSocket."""
+        return self in self.connections
+
+    @property
+    def request(self) -> object:
+        """Its latest request; None: it has sent none."""
+        return self.cycle
+
+    @property
+    def is_idle(self) -> bool:
+        """Whether no request is being handled."""
+        cycle: RequestResponseCycle | None = self.cycle
+        return cycle is None or cycle.response_complete
+
+    @property
+    def has_token(self) -> bool:
+        """Whether its latest request had the token."""
+        scope: Any = self.scope
+        return scope is not None and self._knows(HTTPConnection(scope))
+
+    def let_go(self) -> None:
+        """Close it at once."""
+        self.connections.discard(self)
+        self.transport.abort()
+
+
 def _server(web: Web) -> uvicorn.Server:
     """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         web.application,
-        http="h11",
+        http=partial(_Limited, web.knows),  # type: ignore[arg-type]
         ws="websockets-sansio",
         lifespan="off",
         workers=1,
@@ -215,7 +266,6 @@ def _server(web: Web) -> uvicorn.Server:
         access_log=False,
         proxy_headers=False,
         server_header=False,
-        limit_concurrency=_CONNECTIONS,
         ws_max_size=_LARGEST_MESSAGE,
         ws_per_message_deflate=False,
         h11_max_incomplete_event_size=_LARGEST_HEAD,

@@ -29,6 +29,7 @@ NAMES = (
     "é🚁",
     "\ud800",
     "a" * 200,
+    "a" * 5_000,
 )
 KEYS = ("from", "to", "insert", "source", "target", "when", "do", "", "watch")
 FACTS = (
@@ -102,3 +103,24 @@ async def test_what_is_no_object_of_plain_data_is_refused(tmp_path: Path, text: 
     await page.session.hear(page.client, text)
     await page.next()
     assert (await page.next())["error"]
+
+
+@pytest.mark.parametrize(
+    "missions",
+    [
+        *(f"{name}.toml" for name in NAMES if name),
+        "é" * 200 + ".toml",
+        ".toml",
+        "/",
+        "..",
+        3,
+        [],
+        {},
+    ],
+)
+async def test_missions_that_are_no_file_beside_the_source_are_a_sentence(
+    tmp_path: Path, missions: object
+) -> None:
+    answer = await Page(Session(app_in(tmp_path, HOOKED))).ask("run", missions=missions)
+    assert len(answer["error"]) < 200
+    assert "missions must be" in answer["error"] or "beside the source" in answer["error"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import re
 import signal
@@ -15,6 +16,7 @@ from websockets.sync.client import connect
 from websockets.typing import Origin
 
 from plutoc.editor import static
+from plutoc_runtime.connections import CONNECTIONS
 from tests.kit.command import Process, plutoc
 from tests.kit.station import until
 
@@ -217,6 +219,31 @@ def test_what_cannot_be_saved_is_not_given_up_at_the_first_ctrl_c(tmp_path: Path
         code, said = process.ended(signal.SIGTERM)
     assert code == 143
     assert "not saved: farm.pluto is read-only" in said
+
+
+async def test_connections_without_the_token_shut_nobody_out(tmp_path: Path) -> None:
+    """Idle ones make room, and those who guess; the page's own connection stays."""
+    async with served(app_in(tmp_path)) as editor, editor.connect() as socket:
+        await heard(socket, push="hello")
+        head = f"GET / HTTP/1.1\r\nHost: {editor.host}\r\nCookie: {editor.guard.cookie}="
+        own = await asyncio.open_connection("127.0.0.1", editor.guard.port)
+        strangers = []
+        for number in range(CONNECTIONS + 20):
+            strangers.append(await asyncio.open_connection("127.0.0.1", editor.guard.port))
+            strangers[-1][1].write(f"{head}x\r\n\r\n".encode() * (number % 2))
+            if not number:
+                own[1].write(f"{head}{editor.guard.token}\r\n\r\n".encode())
+                assert b"200 OK" in await own[0].readline()
+        assert (await editor.get("/"))[0] == 200
+        async with editor.connect() as another:
+            await heard(another, push="hello")
+        await socket.send('{"id": 7, "op": "tidy"}')
+        await heard(socket, id=7)
+        own[1].write(f"{head}{editor.guard.token}\r\n\r\n".encode())
+        while b"200 OK" not in (line := await own[0].readline()):
+            assert line, "the connection with the token was closed"
+        for _, writer in (*strangers, own):
+            writer.close()
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,6 @@
 """Serving an `Api` with uvicorn in the station's own loop, and limiting its connections.
 
-An idle connection makes room for others: else a client that opens many and sends nothing could lock out the one
-that sends a Stop.
+An idle connection makes room for others: else a client that opens many could lock out the one that sends a Stop.
 """
 
 from __future__ import annotations
@@ -21,6 +20,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
+from ...shared.connections import take_in
 from . import refusals
 from .guard import Guard, bearer, role_by
 from .http import Closed, Reply, Request
@@ -43,12 +43,6 @@ BODY_WITHIN, BYTES_A_SECOND = 10.0, 512 * 1024
 _FIELDS = 16
 _LONGEST_REASON = 120
 """The longest reason in a close frame, in bytes."""
-CONNECTIONS = 256
-"""The most HTTP connections; WebSockets have limits of their own."""
-_LOOK_EVERY = 10.0
-"""The interval of checks of a connection, and so the time-out of a request's head, in seconds."""
-_LOOKS = 6
-"""The number of checks after which a request is given up whose answer is not read."""
 
 _GONE = (ClientDisconnect, WebSocketDisconnect, RuntimeError, OSError)
 """The exceptions of a closed connection."""
@@ -116,11 +110,7 @@ def _server(application: ASGIApp, guard: Guard) -> uvicorn.Server:
 
 
 class LimitedConnection(H11Protocol):
-    """An HTTP connection that is closed when idle for too long, or when others need its place.
-
-    A place is kept for those who have a token: where there are too many connections, those are closed
-    first that have shown none, even while they are answered.
-    """
+    """An HTTP connection that is closed when idle for too long, or when others need its place."""
 
     def __init__(self, guard: Guard, *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -129,14 +119,20 @@ class LimitedConnection(H11Protocol):
     # uvicorn itself narrows the type of asyncio's argument
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         """Register the connection, and make room for it."""
-        self._began = asyncio.get_running_loop().time()
+        self.began = self.loop.time()
         others = [each for each in self.connections if isinstance(each, LimitedConnection)]
         super().connection_made(transport)
-        if len(others) >= CONNECTIONS:
-            least = min(others, key=_claim)
-            if least.is_idle or not least.has_token:
-                least.let_go()
-        self._look_later(None, True, 0)
+        take_in(self, others)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it is one still: it was not closed, nor became a WebSocket."""
+        return self in self.connections
+
+    @property
+    def request(self) -> object:
+        """Its latest request; None: it has sent none."""
+        return self.cycle
 
     @property
     def is_idle(self) -> bool:
@@ -156,26 +152,6 @@ class LimitedConnection(H11Protocol):
         """Close it at once."""
         self.connections.discard(self)
         self.transport.abort()
-
-    def _look_later(self, cycle: object, idle: bool, looks: int) -> None:
-        loop = asyncio.get_running_loop()
-        loop.call_later(_LOOK_EVERY, self._look, cycle, idle, looks)
-
-    def _look(self, cycle: object, idle: bool, looks: int) -> None:
-        """Close it if nothing has happened since the last check."""
-        if self not in self.connections:  # closed, or upgraded to a WebSocket
-            return
-        unchanged = self.cycle is cycle and self.is_idle is idle
-        looks = looks + 1 if unchanged else 0
-        if looks >= (1 if self.is_idle else _LOOKS):
-            self.let_go()
-        else:
-            self._look_later(self.cycle, self.is_idle, looks)
-
-
-def _claim(connection: LimitedConnection) -> tuple[bool, bool, float]:
-    """Return how good a connection's claim to its place is."""
-    return connection.has_token, not connection.is_idle, connection._began
 
 
 @contextmanager
