@@ -56,13 +56,14 @@ class Brain:
     ) -> None:
         """`fleet` has the `drones` (`id`, `category`, `home`), and perhaps `after_trip`, `max_airborne`.
 
-        `motion` is how they move; `began` is when the app has started, in seconds since 1970, `zone` says
-        which hour that is, and `drift` is as `tell` takes it.
+        `motion` is how they move, `charges_at_home` whether they are charged there; `began` is when the app has
+        started, in seconds since 1970, `zone` says which hour that is, and `drift` is as `tell` takes it.
         With `recorded` in it, the events say all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
-        app = moving(app, Motion(**fleet.get("motion", {})))
+        charges = fleet.get("charges_at_home", True)
+        app = moving(app, Motion(**fleet.get("motion", {})), charges=charges)
         self._app, recorded = app, fleet.get("recorded", False)
         of_day = Hours(fleet.get("began", 0.0), fleet.get("zone", "UTC"))
         self._kernel = kernel = ToldTime(hooks, of_day)

@@ -157,14 +157,19 @@ def _checked(app: App, options: Any) -> int:
             print(printable(assumed))
         trips = counted(sum(len(mission.trips) for mission in missions), "trip")
         drones = counted(len(fleet.drones), "drone")
-        print(f"{counted(len(missions), 'mission')} with {trips}: a fleet of {drones} can fly them")
+        there = counted(len(missions), "mission")
+        end = (
+            "" if fleet.charges_at_home else ", as long as its batteries last: nothing charges them"
+        )
+        print(f"{there} with {trips}: a fleet of {drones} can fly them{end}")
         return 0
     seed, faults, until = options.seed, Faults(**options.fail), options.until
     outcome = simulate(app, missions, fleet, seed=seed, faults=faults, until=until, on_event=None)
-    return _told(app.name, outcome, options, Hours(fleet.began, fleet.zone).start)
+    start = Hours(fleet.began, fleet.zone).start
+    return _told(app.name, outcome, options, start, fleet.charges_at_home)
 
 
-def _told(name: str, outcome: Outcome, options: Any, start: str) -> int:
+def _told(name: str, outcome: Outcome, options: Any, start: str, charges: bool) -> int:
     from .alone.simulate import outcome_data
     from .domain.trace import dumped
 
@@ -179,12 +184,12 @@ def _told(name: str, outcome: Outcome, options: Any, start: str) -> int:
     else:
         if start:
             print(f"starts at {start}")
-        print("\n".join(map(printable, _report(outcome))))
+        print("\n".join(map(printable, _report(outcome, charges))))
     statuses = {mission["status"] for mission in outcome.standing["missions"].values()}
     return 1 if outcome.given_up or Status.FAILED.value in statuses else 0
 
 
-def _report(outcome: Outcome) -> Iterator[str]:
+def _report(outcome: Outcome, charges: bool) -> Iterator[str]:
     missions, drones = outcome.standing["missions"], outcome.standing["drones"]
     yield from outcome.log
     for name, mission in missions.items():
@@ -197,7 +202,8 @@ def _report(outcome: Outcome) -> Iterator[str]:
     flights = counted(outcome.count("trip.launched"), "flight")
     drones = f"{counted(len(drones), 'drone')}, {outcome.crashed} crashed"
     yield f"{done} in {duration(outcome.duration)} ({flights}; {drones})"
-    yield f"flown with {_WORLD}; with pluto-fleet they keep apart"
+    at_home = "charged at home" if charges else "charged nowhere"
+    yield f"flown with {_WORLD} and {at_home}; with pluto-fleet they keep apart"
 
 
 def add_beginning(parser: ArgumentParser, default: str) -> None:

@@ -150,7 +150,7 @@ def _lines(
         yield "refused, or not done:"
         yield from filter(None, map(line_of, failed))
         yield ""
-    yield from report(plan.app, outcome, plan.fleet.apart)
+    yield from report(plan.app, outcome, plan.fleet)
     yield f"{counted(len(commands), 'command')}; nothing has flown"
 
 

@@ -12,7 +12,7 @@ from ..files.crtp_fleet import fleet_from, missing_categories
 from ..files.fleet import FleetFile, fleet_of, shared_by_air, too_fast
 from ..files.missions import missions_of
 from ..files.missions_text import missions_text
-from ..files.plan_check import endless, look_alikes, problems
+from ..files.plan_check import endless, look_alikes, problems, uncharged
 from ..files.plan_waits import waits
 from ..files.promise_check import impossible
 from ..files.reading import parsed, read, shortened, text_of
@@ -157,6 +157,8 @@ def check(app: App, options: Options) -> int:
         *shared_by_air(plan.fleet),
         *idle_actions(app, plan.fleet),
     ]
+    if scarce := uncharged(plan.missions, plan.app, plan.fleet):
+        doubts.append(scarce)
     for sentence in doubts:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
     hours = _hours(plan.fleet, options) if _says_when(options) else None
@@ -177,11 +179,16 @@ def check(app: App, options: Options) -> int:
         output.line(f"… and {more} more wait")
     if options.write is not None:
         _write(options.write, plan.missions_text)
+    last = (
+        ""
+        if plan.fleet.charges_at_home
+        else ", as long as its batteries last: nothing charges them"
+    )
     trips = sum(len(mission.trips) for mission in plan.missions)
     missions, drones = len(plan.missions), len(plan.fleet.drones)
     output.line(
         f"{counted(missions, 'mission')} with {counted(trips, 'trip')}: "
-        f"a fleet of {counted(drones, 'drone')} can fly them"
+        f"a fleet of {counted(drones, 'drone')} can fly them{last}"
     )
     return 0
 

@@ -82,7 +82,7 @@ def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> i
             output.line(dumped({**simulation_data(app.name, options.seed, outcome), **when}))
         else:
             output.line()
-            for line in report(app, outcome, plan.fleet.apart):
+            for line in report(app, outcome, plan.fleet):
                 output.line(line)
         output.flush()
     return exit_code(outcome)

@@ -55,12 +55,13 @@ class Behaviour:
     apart: float = APART
     max_airborne: int | None = None
     silence: float = SILENCE
+    charges_at_home: bool = True
     navigation: str = CRAZYFLIE
     localization: str = OWN
 
 
 _BEHAVIOUR = (
-    *("after_trip", "apart", "max_airborne", "silence"),
+    *("after_trip", "apart", "max_airborne", "silence", "charges_at_home"),
     *("navigation", "localization"),
 )
 
@@ -72,11 +73,13 @@ def read_behaviour(top: Table) -> Behaviour:
         return Behaviour()
     table.only(_BEHAVIOUR, "[fleet]")
     apart = table.read("apart", BETWEEN)
+    charges = table.read("charges_at_home", values.boolean)
     return Behaviour(
         after_trip=table.read("after_trip", values.after_trip) or AfterTrip.NEXT,
         apart=APART if apart is None else apart,
         max_airborne=table.read("max_airborne", values.count),
         silence=table.read("silence", QUIET) or SILENCE,
+        charges_at_home=charges is not False,
         navigation=table.read("navigation", values.name) or CRAZYFLIE,
         localization=table.read("localization", values.name) or OWN,
     )
@@ -250,6 +253,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         apart=behaviour.apart,
         max_airborne=behaviour.max_airborne,
         silence=behaviour.silence,
+        charges_at_home=behaviour.charges_at_home,
         motion=motion,
         navigation=behaviour.navigation,
         options=options,

@@ -38,6 +38,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "apart": float(fleet.apart),
         "max_airborne": fleet.max_airborne,
         "silence": None if fleet.silence == SILENCE else fleet.silence,
+        "charges_at_home": None if fleet.charges_at_home else False,
         "navigation": None if fleet.navigation == CRAZYFLIE else fleet.navigation,
         "localization": None if fleet.localization == OWN else fleet.localization,
     }
@@ -69,6 +70,7 @@ def _drone(drone: DroneEntry) -> dict[str, Any]:
             "uri": drone.uri,
             "navigation": drone.navigation,
             "options": drone.options or None,
+            "parameters": dict(drone.parameters) or None,
         }
     )
 

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import dist
+from math import dist, inf
 from typing import TYPE_CHECKING, Any
 from unicodedata import normalize
 
 from ..shared.domain.fields import Entity, FieldType, put_plain
+from ..shared.domain.model import AfterTrip
 from ..shared.domain.own_fields import OwnField
-from ..shared.domain.text import quoted
+from ..shared.domain.text import duration, quoted
 from ..shared.domain.values import shown
-from ..shared.fleet.reach import Lacks, Miss, chain_of, miss_of
+from ..shared.fleet.reach import Lacks, Miss, chain_of, flight_seconds, miss_of, stops_of
 
 if TYPE_CHECKING:
     from ..app import App
@@ -90,6 +91,48 @@ def unflyable(
                 reason = _cannot(_nearest(misses, asked))
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
     return found
+
+
+def uncharged(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> str | None:
+    """Return a sentence if no drone is charged at home, and their batteries are likely too few for all."""
+    if fleet.charges_at_home:
+        return None
+    kinds = {category.name: category for category in app.categories}
+    drones = [(kinds[drone.category], drone.home) for drone in fleet.drones]
+    has = sum((1 - kind.reserve) * kind.endurance for kind, _ in drones)
+    takes, here = 0.0, None
+    for mission in missions:
+        rest: Sequence[Trip] = mission.trips
+        while rest:
+            chain = chain_of(rest)
+            rest = rest[len(chain) :]
+            takes += min(_seconds(app, fleet, kind, home, here, chain) for kind, home in drones)
+            if fleet.after_trip is not AfterTrip.HOME:
+                here = (*chain[-1].target[:2], 0.0)
+    if takes <= has:
+        return None
+    return (
+        f"nothing charges the drones at home, and their batteries last for {duration(has)} in the air: all"
+        f" trips, in the order of the file, take about {duration(takes)}; simulate says which missions fail"
+    )
+
+
+def _seconds(
+    app: App,
+    fleet: FleetFile,
+    kind: Category,
+    home: Point,
+    here: Point | None,
+    chain: Sequence[Trip],
+) -> float:
+    """Return how long a chain of trips takes from here; None: from home and back. Infinite: it cannot be."""
+    if miss_of(app, fleet.airspace, kind, home, chain) is not None:
+        return inf
+    stops = stops_of(app, kind, fleet.airspace.cruise_height, chain)
+    points = [point for point, _ in stops]
+    x, y, _ = home if here is None else points[-1]
+    actions = sum(seconds for _, seconds in stops)
+    return flight_seconds(kind, fleet.airspace, here or home, [*points, (x, y, 0.0)], actions)
 
 
 def endless(missions: Sequence[Mission[Any]], app: App) -> list[str]:

@@ -63,7 +63,7 @@ class RecordedBrain:
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
         self.recorder = Recorder(kernel, sink, records)
         self.clock = {} if clock is None else clock.data
-        data = {**fleet_data(fleet), "recorded": True, **self.clock}
+        data = {**fleet_data(fleet), "charges_at_home": True, "recorded": True, **self.clock}
         self.hours = Hours(data["began"], data["zone"])
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.told_to: dict[str, str] = {}

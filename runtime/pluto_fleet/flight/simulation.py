@@ -54,7 +54,7 @@ class Simulation:
 
         `stands`: where each drone stands at first; None: in its dock, fully charged.
         """
-        app = moving(app, fleet.motion)
+        app = moving(app, fleet.motion, charges=fleet.charges_at_home)
         self._app, self._fleet, self._kernel = app, fleet, kernel
         self._drones = simulated(app, fleet)
         world = World(seed, fleet.airspace, fleet.world)

@@ -25,6 +25,7 @@ from .sentences import sentence_of
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..files.fleet import FleetFile
     from ..flight.outcome import SimulationResult
     from ..journal.fold import Record, Records
     from ..shared.domain.model import Drone, Mission
@@ -47,7 +48,7 @@ class MissionRow(NamedTuple):
     """Whether its deadline has passed before its end."""
 
 
-def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
+def report(app: App, outcome: SimulationResult, fleet: FleetFile) -> Iterator[str]:
     """Yield the lines of the report; the last one says in which world it was flown."""
     yield from mission_table(app, map(row_of, outcome.missions))
     yield ""
@@ -57,11 +58,13 @@ def report(app: App, outcome: SimulationResult, apart: float) -> Iterator[str]:
         yield f"given up: {printable(outcome.given_up)}"
     yield from broken_reserves(outcome.events)
     yield last_line(outcome)
-    yield (
-        f"flown with traffic: drones keep {number(apart)} m apart from each other"
-        if apart
+    traffic = (
+        f"flown with traffic: drones keep {number(fleet.apart)} m apart from each other"
+        if fleet.apart
         else "flown without traffic: with apart = 0 drones pass through each other"
     )
+    charged = "at home they are charged" if fleet.charges_at_home else "nothing charges them"
+    yield f"{traffic}; {charged}"
 
 
 def row_of(mission: Mission[Any]) -> MissionRow:

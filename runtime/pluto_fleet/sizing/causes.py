@@ -123,9 +123,10 @@ class Causes:
             text = f"more drones: {len(more.drones)} would do, or fewer (--max says how many are tried)"
             yield Cause("drones", text)
         quick = replace(question, app=swapping(question.app, AT_ONCE))
-        if self._holds(quick, fleet):
+        if self._holds(quick, replace(fleet, charges_at_home=True)):
+            why = "" if fleet.charges_at_home else "nothing charges them at home, and "
             text = (
-                f"drones wait for their batteries: if these were full at once, {drones} would do, or"
+                f"{why}drones wait for their batteries: if these were full at once, {drones} would do, or"
                 " fewer (--swap says how long it takes to swap one)"
             )
             yield Cause("charging", text)

@@ -67,7 +67,7 @@ class Question:
         outcome = simulate(
             self.app,
             [fresh(mission) for mission in self.missions],
-            fleet,
+            replace(fleet, charges_at_home=True) if self.swapped else fleet,
             seed=seed,
             faults=self.faults,
             until=self.by,

@@ -87,7 +87,8 @@ def simulate(
     Without such a time it is given up if missions fly again and again without success. `prepare` is called
     before anything begins, and returns what runs the world until a time.
     """
-    app, bound, events = moving(app, fleet.motion), Bound(missions), list[Event]()
+    app = moving(app, fleet.motion, charges=fleet.charges_at_home)
+    bound, events = Bound(missions), list[Event]()
 
     def listen(event: Event) -> None:
         events.append(event)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import asdict, dataclass, field, replace
+from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from .status import Status
@@ -57,9 +58,12 @@ def library_for(seam: int) -> str:
     return f"==0.{seam}.*"
 
 
-def moving(app: A, motion: Motion) -> A:
-    """Return an app whose drones move so."""
-    return replace(app, categories=tuple(replace(one, motion=motion) for one in app.categories))
+def moving(app: A, motion: Motion, *, charges: bool = True) -> A:
+    """Return an app whose drones move so; without `charges`, what they have is never charged."""
+    kinds = [replace(one, motion=motion) for one in app.categories]
+    if not charges:
+        kinds = [replace(one, charge_time=inf) for one in kinds]
+    return replace(app, categories=tuple(kinds))
 
 
 def about(app: App) -> dict[str, Any]:

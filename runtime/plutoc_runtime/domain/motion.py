@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import dist, sqrt
+from math import dist, inf, sqrt
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -159,6 +159,8 @@ def charged(level: float, seconds: float, full: float, taper: float) -> float:
 
 def charging(level: float, target: float, full: float, taper: float) -> float:
     """Return the seconds that it takes to charge from one level to another."""
+    if full == inf:
+        return inf if target > level else 0.0
     if not taper:
         return (target - level) * full
     return _progress(target, full, taper) - _progress(level, full, taper)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import FlightFailed
@@ -149,6 +150,8 @@ class Fleet:
             return False
         elif retired:
             self._become(drone, DroneStatus.OFFLINE)
+        elif drone.category.charge_time == inf:
+            self._become(drone, _FREE)  # the queue puts it aside
         else:
             self._become(drone, DroneStatus.CHARGING)
             self._free_after(drone.charging(reserve) + 0.001, drone)

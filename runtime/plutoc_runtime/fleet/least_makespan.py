@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 MOST = 100
 """Of more requests those that came first are planned, so that no choice takes long."""
 PASSES = 4  # how often each route is improved at one serving, at most
+_ENDLESS = 1e9  # seconds that a charge is counted with that never comes
 _PLANNED = 0.85  # of what is left in a battery: the way home is not planned
 _Until = dict[Drone, tuple[float, Point]]  # when a drone is to have flown, and where it is then
 
@@ -76,7 +77,7 @@ class _Route:
         drone, kind, self.waits, self.place = self.drone, self.drone.category, waits, place
         left = (drone.battery_level - kind.reserve) * kind.endurance * _PLANNED
         self.lasts = left - (waits if drone.status is DroneStatus.BUSY else 0.0)
-        self.slower = kind.charge_time / kind.endurance
+        self.slower = min(kind.charge_time, _ENDLESS) / kind.endurance
         self.seconds = self.flown(self.stops)
 
     def flown(self, stops: Sequence[_Stop]) -> float:

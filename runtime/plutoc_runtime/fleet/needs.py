@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.keeper import trips_of
 from ..time.future import Future
-from .reach import MORE, Reach, chain_of, miss_of
+from .reach import MORE, Reach, chain_of, docked, miss_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Mission, Point
@@ -60,9 +60,11 @@ class Request(Future["Drone"]):
         return max(0.0, upright + level if z <= 0.0 else level)
 
     def never(self, drone: Drone) -> str | None:
-        """Return why a drone cannot fly the trip even with a full battery; None: it can."""
+        """Return why a drone cannot fly the trip even with all that its battery will have; None: it can."""
         if self.ever(drone):
-            return None
+            final = drone.category.charge_time == inf and drone.telemetry.landed
+            final = final and docked(drone.location, drone.home)
+            return UNCHARGED if final and not self.able(drone) else None
         app, airspace, chain = self.reach.app, self.reach.airspace, chain_of(self.trips)
         miss = miss_of(app, airspace, drone.category, drone.home, chain)
         return miss and miss.reason
@@ -120,3 +122,6 @@ class Needs:
         for one in found:
             heappush(self._heap, one)
         return [request for *_, request in found]
+
+
+UNCHARGED = "what is left in its battery is too little, and nothing charges it at home"

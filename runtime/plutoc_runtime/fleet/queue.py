@@ -203,8 +203,9 @@ class Queue:
         return place
 
     def _refuse_what_cannot_be(self) -> None:
-        """Refuse requests that no drone can serve: new ones, and all after the loss of a drone."""
-        asked = tuple(self.waiters()) if self._one_is_lost else self._fresh
+        """Refuse requests that no drone can serve: new ones, and all after a loss, or where none is charged."""
+        again = self._one_is_lost or self._reach.app.categories[0].charge_time == inf
+        asked = tuple(self.waiters()) if again else self._fresh
         self._one_is_lost = False
         for request in asked:
             if not request.is_set and (why := self._never(request)) is not None:

@@ -150,6 +150,7 @@ def fleet_data(fleet: FleetData) -> Data:
         "drones": drones,
         "after_trip": fleet.after_trip.value,
         "max_airborne": fleet.max_airborne,
+        "charges_at_home": fleet.charges_at_home,
         "motion": asdict(fleet.motion),
         "began": fleet.began,
         "zone": fleet.zone,

@@ -15,6 +15,7 @@ from pluto_fleet.report.report import exit_code
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
 from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.fleet.least_makespan import least_makespan
 from pluto_fleet.shared.fleet.needs import Request
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
@@ -325,3 +326,24 @@ def test_few_are_looked_at_however_many_wait(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setattr(Request, "at_least", counted)
     assert apps.flown(*plan(150), categories=(WEAK,), on=apps.fleet(*FIVE)).completed
     assert asked < 20 * 300
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.5])
+@pytest.mark.parametrize("after", AfterTrip)
+@pytest.mark.parametrize("policy", [nearest, first, least_makespan])
+def test_where_nothing_is_charged_each_mission_flies_or_says_that(
+    policy: Policy, after: AfterTrip, apart: float
+) -> None:
+    """No level rises, in either world, and nobody waits for one that will."""
+    on = replace(apps.fleet(*FIVE[:2], after=after, apart=apart), charges_at_home=False)
+    flown = apps.flown(*plan(40), policy=policy, attempts=3, categories=(WEAK,), on=on)
+    failed = [one for one in flown.missions if one.status is Status.FAILED]
+    assert not flown.given_up and failed and any(one.completed_trips for one in flown.missions)
+    assert all("nothing charges it at home" in one.reason for one in failed)
+    levels: dict[object, list[Any]] = {}
+    for event in flown.events:
+        if "battery" in event:
+            levels.setdefault(event["drone"], []).append(event["battery"])
+    assert len(levels) == 2 and all(a >= b for told in levels.values() for a, b in pairwise(told))
+    charged = replace(on, charges_at_home=True)
+    assert apps.flown(*plan(40), policy=policy, categories=(WEAK,), on=charged).completed

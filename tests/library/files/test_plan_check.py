@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.files.plan_check import endless, look_alikes, problems
+from pluto_fleet.files.plan_check import endless, look_alikes, problems, uncharged
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Item, Point
 from pluto_fleet.shared.fleet.reach import chain_of, miss_of
 from tests.kit import apps
 from tests.library.files.an_app import APP, FieldMission, FieldTrip
@@ -174,3 +175,20 @@ def test_names_that_differ_are_left_alone() -> None:
     """Also the same one twice, which is refused where it must be."""
     missions = [apps.mission(name, apps.trip("A", 3.0)) for name in ("a1", "al", "b", "\u00e9")]
     assert not list(look_alikes([*missions, missions[0]]))
+
+
+@pytest.mark.parametrize("after", AfterTrip)
+@pytest.mark.parametrize(
+    ("count", "charges", "scarce"), [(3, False, False), (40, False, True), (40, True, False)]
+)
+def test_more_than_the_batteries_hold_is_warned_of_where_nothing_charges_them(
+    count: int, charges: bool, scarce: bool, after: AfterTrip
+) -> None:
+    """As far as that can be told without flying: by the order of the file."""
+    on = replace(
+        fleet((SCOUT, HOME), (SCOUT, (2.0, 1.0, 0.0))), charges_at_home=charges, after_trip=after
+    )
+    asked = [apps.mission(f"m{n}", apps.trip("A", 2.0 + 6 * (n % 2))) for n in range(count)]
+    said = uncharged(asked, APP, on)
+    assert (said is not None) == scarce
+    assert said is None or said.startswith("nothing charges the drones at home")
