@@ -60,9 +60,8 @@ def load_fleet(path: Path, app: App) -> FleetData:
     _table(top, who, f"map:any? fleet:any? motion:any? drone:any? world:any? {_REAL}")
     keys = " ".join(f"{key}:{key}?" for key in values.MOTION)
     airspace = _airspace(top.get("map", {}), f"{who}: map")
-    schema = (
-        f"apart:any? after_trip:after_trip? max_airborne:count? charges_at_home:boolean? {_REAL}"
-    )
+    schema = f"apart:any? after_trip:after_trip? max_airborne:count? silence:any? {_REAL}"
+    schema += " charges_at_home:boolean?"
     return FleetData(
         airspace=airspace,
         **_table(top.get("fleet", {}), f"{who}: fleet", schema),
