@@ -14,10 +14,10 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_843, 69, 250
+MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_870, 69, 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 9_733
-LONGEST_FILE = 305
+MOST_LINES_OF_ANY = 9_760
+LONGEST_FILE = 306
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}
