@@ -282,11 +282,15 @@ _MARKED: Mapping[str, Test] = {
 def events_of(text: str) -> list[Event]:
     """Return the events of a row; raise `ValueError` if it has none."""
     events = parsed(text)
-    if not isinstance(events, list) or not all(
-        isinstance(event, dict) and type(event.get("event")) is str for event in events
-    ):
-        raise ValueError("it is no list of events")
+    if not isinstance(events, list):
+        raise ValueError(_NO_EVENTS)
+    for event in events:
+        if type(event) is not dict or type(event.get("event")) is not str:
+            raise ValueError(_NO_EVENTS)
     return events
+
+
+_NO_EVENTS = "it is no list of events"
 
 
 def header_of(text: str) -> Event:
@@ -314,9 +318,10 @@ def check(event: Mapping[str, Any]) -> None:
 
 def _hold(event: Mapping[str, Any], tests: Any) -> None:
     for name, needed, test in tests:
-        if name in event:
-            if not test(event[name]):
-                raise ValueError(_unfit(event["event"], name, event[name]))
+        value = event.get(name, _MISSING)
+        if value is not _MISSING:
+            if not test(value):
+                raise ValueError(_unfit(event["event"], name, value))
         elif needed:
             raise ValueError(f"{printable(bounded(event['event'], _LONGEST))} lacks {name}")
 
@@ -327,6 +332,9 @@ def _is_value(value: object) -> bool:
         marked = all(test(value[key]) for key, test in _MARKED.items() if key in value)
         return marked and all(map(_is_value, value.values()))
     return not isinstance(value, list) or all(map(_is_value, value))
+
+
+_MISSING = object()
 
 
 def _unfit(kind: str, name: str, value: object) -> str:
