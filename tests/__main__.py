@@ -52,6 +52,7 @@ CAMPAIGNS = (
     "python -m tests.calibrating --cases 100",
     "python -m tests.prediction",
     "python -m tests.prediction.phases",
+    "python -m tests.prediction.heights",
     "python -m tests.pages",
     "python -m tests.planted",
 )
