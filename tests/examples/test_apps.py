@@ -141,7 +141,7 @@ def test_a_tighter_limit_calls_drones_back() -> None:
     flown = replace(example(name), app=app).fly(0).outcome
     assert "trip A is called back after 20 s" in flown.log
     first = flown.missions[0]
-    assert (first.status.value, first.completed_trips, first.attempts) == ("FAILED", [], 3)
+    assert (first.status.value, first.completed_trips, first.attempts) == ("FAILED", (), 3)
 
 
 def _names(value: object) -> list[str]:

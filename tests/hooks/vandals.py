@@ -15,34 +15,22 @@ from plutoc.graph.model import Graph, Hook
 
 DEEPEST, FLIGHTS = 5, 6
 """Steps from an argument to what is written; flights after which an evaluator asks for no more."""
-VALUES = (
+PLACES = (1.0, 2.0, 1.2), (2, 3), [4.0, 4.0], (1e9, 0.0), (float("nan"), 1.0)
+NUMBERS = -5, 0, 3, 10**30, 2.5, float("nan"), float("inf"), True
+VALUES: tuple[object, ...] = (
+    *PLACES,
+    *NUMBERS,
     None,
-    -5,
-    0,
-    3,
-    10**30,
-    2.5,
-    float("nan"),
-    float("inf"),
-    True,
     "",
     "zzz",
     "1",
+    "long" * 999,
     b"x",
     {},
     [],
     int,
 )
-VALUES = (
-    *VALUES,
-    (1.0, 2.0, 1.2),
-    (2, 3),
-    [4.0, 4.0],
-    (1e9, 0.0),
-    (float("nan"), 1.0),
-    "long" * 999,
-)
-VALUES = (*VALUES, *Status, *TripStatus, *DroneStatus)
+STATUSES = (*Status, *TripStatus, *DroneStatus)
 GIVES: Mapping[str | None, object] = {"int": 3, "float": 2.5, "text": "seen"}
 
 
@@ -123,7 +111,7 @@ class Vandals:
         self._called += 1
         chance = Random(f"{self._seed}/{self._called}")
         for _ in range(chance.choice((0, 1, 1, 2, 5)) if self._is_bad(of) else 0):
-            with suppress(Exception if chance.random() < 0.8 else ()):
+            with suppress(*[Exception] * (chance.random() < 0.8)):
                 self._write(chance, given)
 
     def _write(self, chance: Random, given: tuple[object, ...]) -> None:
@@ -151,7 +139,7 @@ class Vandals:
     def _value(self, chance: Random, given: tuple[object, ...]) -> object:
         drawn = chance.random()
         if drawn < 0.6:
-            return chance.choice(VALUES)
+            return chance.choice((*VALUES, *STATUSES))
         return self._new(chance) if drawn < 0.8 else _somewhere(chance, given)
 
     def _new(self, chance: Random) -> Any:

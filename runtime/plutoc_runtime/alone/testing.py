@@ -16,7 +16,7 @@ from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
 from ..domain.keeper import Keeper, Kept, hand_to, put
 from ..domain.model import Drone, Mission, Point, ResultStore, Trip, put_back
-from ..domain.status import RUNNING, Status
+from ..domain.status import RUNNING, Status, TripStatus
 from ..domain.trace import Trace
 from ..hooks.calls import call_hook, hook_name
 from ..hooks.context import Context, LiveDrone, can_wait, results_for
@@ -214,6 +214,8 @@ class AppKit(Generic[M, T, Given]):
     def launch(self, mission: M, drone: Drone | None = None) -> None:
         """Have a drone leave for the mission's next trip; one that flew before is put back."""
         trip, flier = mission.trips[0], drone or self.drone()
+        if trip.status is TripStatus.EXECUTING:
+            raise ValueError(f"trip {trip.name} is in flight: it can be reset when it has ended")
         put_back(trip)
         put(trip, drone=flier)
         self._transitions.launch(mission, trip, flier)

@@ -63,9 +63,9 @@ class Kept:
 
     __slots__ = ("_keeper",)
 
-    called: ClassVar[str]
+    _called: ClassVar[str]
     """What it is to a person."""
-    edited: ClassVar[frozenset[str]] = frozenset()
+    _edited: ClassVar[frozenset[str]] = frozenset()
     """What a modifier may write, beside the fields of the app."""
 
     if not TYPE_CHECKING:  # else a type checker takes any name for an attribute
@@ -77,9 +77,9 @@ class Kept:
             object.__setattr__(self, name, value)
 
         def __delattr__(self, name: str) -> None:
-            raise AttributeError(f"{self.called}.{name} cannot be deleted")
+            raise AttributeError(f"{self._called}.{name} cannot be deleted")
 
-    def closed(self) -> str:
+    def _closed(self) -> str:
         """Return why even a modifier may not write it now; empty: it may."""
         return ""
 
@@ -131,7 +131,7 @@ class Keeper:
 
     def written(self, of: Kept, name: str, value: object) -> object:
         """Return a value, as it is kept, that a hook writes; raise if it may not, or not that."""
-        what, field = f"{of.called}.{name}", self._fields.get((type(of), name))
+        what, field = f"{of._called}.{name}", self._fields.get((type(of), name))
         if field is not None:
             if not self._writers:
                 who = "a modifier, an evaluator or an action of its mission"
@@ -139,11 +139,11 @@ class Keeper:
             if wanted := field.wanted(value, self._evaluators):
                 raise TypeError(f"{what} must be {wanted}, not {bounded(shown(value), 100)}")
             value = plain_of(value)
-        elif name not in of.edited:
+        elif name not in of._edited:
             raise AttributeError(f"{what} is set by the app alone{_INSTEAD.get(name, '')}")
         else:
             self.must_edit(f"{what} cannot be set here")
-            if why := of.closed():
+            if why := of._closed():
                 raise AttributeError(f"{what} cannot be set: {why}")
         self.note(of, name)
         return value

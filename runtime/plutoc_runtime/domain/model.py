@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
 from math import dist
-from typing import TYPE_CHECKING, Any, ClassVar, Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeVar
 
 from .keeper import Kept, Trips, first_of, keeper_of, list_of_trips, put
 from .motion import STRAIGHT, Motion, charging
@@ -101,7 +101,7 @@ class Telemetry(Protocol):
 class Drone(Kept):
     """A drone of the fleet. The system chooses one: no user addresses it."""
 
-    called: ClassVar[str] = "drone"
+    _called = "drone"
     id: str
     category: Category
     home: Point
@@ -136,10 +136,8 @@ class Drone(Kept):
 class Trip(Kept):
     """A drone's flight to a target that ends with an action."""
 
-    called: ClassVar[str] = "trip"
-    edited: ClassVar[frozenset[str]] = frozenset(
-        {"action", "item", "parameters", "source", "target"}
-    )
+    _called = "trip"
+    _edited = frozenset({"action", "item", "parameters", "source", "target"})
     name: str
     action: str
     target: Point
@@ -182,7 +180,7 @@ class Trip(Kept):
         """Whether it is over, well or not."""
         return self.status in (TripStatus.COMPLETED, TripStatus.FAILED)
 
-    def closed(self) -> str:
+    def _closed(self) -> str:
         """Return why even a modifier may not write it now; empty: it may."""
         match self.status:
             case TripStatus.EXECUTING:
@@ -193,7 +191,7 @@ class Trip(Kept):
 
     def reset(self) -> None:
         """Put it back: it is WAITING again and counts as one more attempt."""
-        if why := self.closed():
+        if why := self._closed():
             raise ValueError(f"it cannot be reset: {why}")
         if (keeper := keeper_of(self)) is not None:
             keeper.must_edit("trip.reset() cannot be called here")
@@ -217,7 +215,7 @@ NO_RESULT = -1  # the number of a result that there is not
 class Mission(Kept, Generic[T]):
     """A list of trips, flown one after the other. Missions run side by side."""
 
-    called: ClassVar[str] = "mission"
+    _called = "mission"
     name: str
     trips: list[T]
     """Still to do, in order; the first is the one that flies now, or flies next. Modifiers may change it."""

@@ -42,7 +42,8 @@ class Transitions:
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Launch a trip."""
-        put(trip, status=_EXECUTING, start_time=self._kernel.now, end_time=None, reason="")
+        put(trip, status=_EXECUTING, drone=drone, reason="")  # a hook may have put it first since
+        put(trip, start_time=self._kernel.now, end_time=None)
         put(mission, status=RUNNING, reason="", attempts=mission.attempts + 1)
         put(drone, trips=drone.trips + 1)
         if self._trace.live:
