@@ -36,6 +36,11 @@ def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
     return MappingProxyType({**values, **lists})
 
 
+def plain_again(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the same as plain data."""
+    return {name: list(one) if type(one) is tuple else one for name, one in values.items()}
+
+
 def hand_to(keeper: Keeper, of: Kept) -> None:
     """Have a keeper say what hooks may write of this one."""
     put(of, _keeper=keeper)

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
 from ..domain.fields import time_of_day
-from ..domain.keeper import put, read_only
+from ..domain.keeper import plain_again, put, read_only
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
 from ..time.future import Future
@@ -47,7 +47,9 @@ class Promises:
         promises = kept_from(mission.promises, kernel.hours, kernel.now, kernel.drift)
         put(mission, promises=read_only(promises))
         if self._core.trace.live:
-            self._core.trace.note("mission.promised", mission=mission.name, **mission.promises)
+            self._core.trace.note(
+                "mission.promised", mission=mission.name, **plain_again(mission.promises)
+            )
         self.watch(mission)
 
     def watch(self, mission: Mission[Any]) -> None:

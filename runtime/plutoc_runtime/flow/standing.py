@@ -12,7 +12,7 @@ from dataclasses import fields as dataclass_fields
 from typing import TYPE_CHECKING, Any
 
 from ..domain.fields import Entity
-from ..domain.keeper import put, put_trips, trips_of
+from ..domain.keeper import plain_again, put, put_trips, trips_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import said
 from ..hooks.plain_data import fields_of, item_data, known_fields, trip_data, trip_of
@@ -60,7 +60,11 @@ def standing_of(app: App, state: MissionState) -> Data:
         "carries": item_data(state.carries),
         "interrupted": state.interrupted,
         "ended": state.ended,
-        **({"promises": {**mission.promises}, "late": mission.late} if mission.promises else {}),
+        **(
+            {"promises": plain_again(mission.promises), "late": mission.late}
+            if mission.promises
+            else {}
+        ),
     }
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.keeper import put
+from ..domain.keeper import plain_again, put
 from ..domain.model import Item, Photo
 from ..domain.plain import MOST_BITS, plain_of
 from ..domain.status import TripStatus
@@ -81,7 +81,7 @@ def mission_data(app: App, mission: Mission[Any]) -> Data:
         "index": mission.index,
         "fields": fields_of(app, Entity.MISSION, mission),
         "trips": [trip_data(app, trip) for trip in mission.trips],
-        **({"promises": {**mission.promises}} if mission.promises else {}),
+        **({"promises": plain_again(mission.promises)} if mission.promises else {}),
     }
 
 
