@@ -39,6 +39,7 @@ class TripFacts(TypedDict):
     reason: NotRequired[str]
     start_time: NotRequired[float | None]
     end_time: NotRequired[float | None]
+    round: NotRequired[int]
 
 
 class PhotoFacts(TypedDict):
@@ -122,6 +123,7 @@ class RecordFacts(TypedDict):
     promises: PromiseFacts
     late: bool
     replanned: bool
+    changed: bool
 
 
 class SnapshotFacts(TypedDict):
@@ -176,10 +178,9 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
         **_MISSION,
         "fields": dict[str, Any],
         "done": list[TripFacts],
-        "todo?": list[TripFacts],
-        "at?": int,
-        "gone?": list[str],
-        "put?": list[TripFacts],
+        "at": int,
+        "gone": list[str],
+        "put": list[TripFacts],
     },
     "mission.replanned": {**_MISSION, "todo": list[TripFacts]},
     "mission.extended": {
