@@ -69,7 +69,7 @@ def _flown(
     """Fly an app; return how the good mission ended."""
     vandals, events = Vandals(number, package.graph, active), list[Event]()
     given = package.app(vandals.module, patient=True)
-    category = replace(given.categories[0], speed=2.0, flight_time=1e7)
+    category = replace(given.categories[0], speed=2.0, flight_time=1e7, actions=None)
     app = described(replace(given, categories=(category, *given.categories[1:])))
     vandals.trip = _trips_of(app, Random(f"{number}/new"))
     missions = _missions_of(app, _trips_of(app, Random(f"{number}/trips")), Random(number))
