@@ -283,7 +283,7 @@ _MARKED: Mapping[str, Test] = {
 def events_of(text: str) -> list[Event]:
     """Return the events of a row; raise `ValueError` if it has none."""
     events = parsed(text)
-    if not isinstance(events, list):
+    if type(events) is not list:
         raise ValueError(_NO_EVENTS)
     for event in events:
         if type(event) is not dict or type(event.get("event")) is not str:
