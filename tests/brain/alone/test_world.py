@@ -6,7 +6,7 @@ from collections import Counter
 from statistics import mean, pstdev
 
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from pluto_fleet.shared.alone.world import World, invented
@@ -69,11 +69,14 @@ def test_a_photo_sees_exactly_its_footprint(x: float, y: float, z: float, seed: 
     world = World(seed, MAP)
     photo = world.photo((x, y, z), 1.5)
     left, bottom = photo.position[0] - photo.width / 2, photo.position[1] - photo.height / 2
+    right, top = left + photo.width, bottom + photo.height
+    for feature in world.features:  # sums of floats do not say what lies exactly on an edge
+        assume(min(abs(feature.at[0] - left), abs(feature.at[0] - right)) > 1e-9)
+        assume(min(abs(feature.at[1] - bottom), abs(feature.at[1] - top)) > 1e-9)
     expected = sorted(
         feature.kind
         for feature in world.features
-        if left <= feature.at[0] <= left + photo.width
-        and bottom <= feature.at[1] <= bottom + photo.height
+        if left <= feature.at[0] <= right and bottom <= feature.at[1] <= top
     )
     assert list(photo.sees) == expected
 
