@@ -142,5 +142,5 @@ def test_a_broken_reserve_stands_in_the_report_and_in_the_data_of_a_simulation()
     slow, on = varied()
     trips = [apps.trip(name, 6.0, 3.0, action="look") for name in "ABC"]
     flown = apps.fly(slow, apps.mission("m", *trips), on=on)
-    assert any("less than its reserve" in line for line in report(slow, flown, 0.0))
+    assert any("less than its reserve" in line for line in report(slow, flown, on))
     assert simulation_data("tested", 0, flown)["drained"] == ["cf1"]

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.domain.model import Item
+from pluto_fleet.shared.domain.model import AfterTrip, Item
 from pluto_fleet.shared.domain.status import Status, TripStatus
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.flow.own_action import OwnAction
@@ -228,7 +228,7 @@ def test_changes_are_recorded_as_changes() -> None:
             if mission.attempts < most:
                 mission.trips.insert(0, apps.trip("more", 2.0))
 
-        outcome = modified(write, on=apps.fleet(after=apps.AfterTrip.STAY), until=1e6)
+        outcome = modified(write, on=apps.fleet(after=AfterTrip.STAY), until=1e6)
         assert outcome.completed
         assert len(apps.events(outcome, "mission.changed")) == most
         sizes.append(len(json.dumps(apps.events(outcome, "mission.changed"))))

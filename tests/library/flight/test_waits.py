@@ -46,7 +46,7 @@ def watched(*missions: Any, homes: int = 1, after: AfterTrip = AfterTrip.HOME) -
 
 def mission(name: str, *xs: float, delay: float | None = None, **more: Any) -> Any:
     """Return a mission with a trip to each of these places."""
-    trips = [
+    trips: list[Any] = [
         APP.trip(
             name=f"{i}", action=more.pop("action", "take_photo"), target=(x, 0.5, 1.2), index=i
         )
