@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import product
 from typing import Any
 
+from plutoc_runtime.domain.keeper import put_trips
 from plutoc_runtime.domain.status import Status
 from plutoc_runtime.flow.run import Run
 
@@ -20,6 +21,6 @@ def spread_trips(run: Run[Any], status: Status, *, spacing: float, side: int) ->
             target = (x + (column - middle) * spacing, y + (row - middle) * spacing, z)
             name = f"{trip.name}.{row + 1}.{column + 1}"
             spread.append(replace(trip, name=name, target=target, index=len(spread)))
-    run.mission.trips[:] = spread
+    put_trips(run.mission, spread)
     run.core.log(f"{len(spread)} places to survey", run.mission.name)
     return status
