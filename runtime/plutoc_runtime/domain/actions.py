@@ -41,9 +41,11 @@ class Action:
 
     def lasts(self, parameters: Mapping[str, Plain]) -> float:
         """Return how many seconds plans reckon with on a trip with these parameters."""
+        if not isinstance(self.takes, str):
+            return self.seconds
         default = next((one.default for one in self.parameters if one.name == self.takes), None)
-        given = parameters.get(self.takes, default) if isinstance(self.takes, str) else None
-        return max(0.0, given) if isinstance(given, (int, float)) else self.seconds
+        given = parameters.get(self.takes, default)
+        return max(0.0, given) if isinstance(given, (int, float)) else RECKONED
 
     def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:
         """Call its hook; only an action of the app's own has one (flow/own_action.py)."""

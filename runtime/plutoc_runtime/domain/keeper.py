@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from .errors import MissionFailed
 from .plain import plain_of
@@ -24,10 +24,13 @@ FieldsOf = Mapping[tuple[type, str], "Field"]
 """The fields of an app's missions and trips, by class and name."""
 
 
+_set = object.__setattr__
+
+
 def put(of: Kept, **facts: object) -> None:
     """Set attributes as the runtime does, whatever hooks may write."""
     for name, value in facts.items():
-        object.__setattr__(of, name, value)
+        _set(of, name, value)
 
 
 def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -68,18 +71,24 @@ class Kept:
 
     __slots__ = ("_keeper",)
 
+    _keeper: Keeper | None
     _called: ClassVar[str]
     """What it is to a person."""
     _edited: ClassVar[frozenset[str]] = frozenset()
     """What a modifier may write, beside the fields of the app."""
 
+    def __new__(cls, *_: object, **__: object) -> Self:
+        """Make one that nobody keeps."""
+        made = object.__new__(cls)
+        _set(made, "_keeper", None)
+        return made
+
     if not TYPE_CHECKING:  # else a type checker takes any name for an attribute
 
         def __setattr__(self, name: str, value: object) -> None:
-            keeper = getattr(self, "_keeper", None)
-            if keeper is not None and hasattr(type(self), name):
-                value = keeper.written(self, name, value)
-            object.__setattr__(self, name, value)
+            if self._keeper is not None and hasattr(type(self), name):
+                value = self._keeper.written(self, name, value)
+            _set(self, name, value)
 
         def __delattr__(self, name: str) -> None:
             raise AttributeError(f"{self._called}.{name} cannot be deleted")
@@ -220,8 +229,8 @@ def put_trips(mission: Any, trips: Iterable[Any]) -> None:
 def drop_trip(mission: Any, trip: object) -> None:
     """Take a trip away, as the runtime does."""
     for trips in mission.trips, trips_of(mission):
-        left = [one for one in list.__iter__(trips) if one is not trip]
-        list.__setitem__(trips, slice(None), left)
+        if trip in trips:  # trips are equal only to themselves
+            list.remove(trips, trip)
 
 
 def _guarded(name: str) -> Callable[..., Any]:
