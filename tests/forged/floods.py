@@ -154,16 +154,18 @@ def _asks(ids: list[str], figures: Figures) -> Callable[[int, threading.Event], 
 
 def _idle(port: int, over: threading.Event) -> None:
     """Hold connections that say nothing."""
-    lines = deque[socket.socket](maxlen=IDLE)
+    lines = deque[socket.socket]()
     while not over.wait(0.01):
         with suppress(OSError):
             lines.append(socket.create_connection(("127.0.0.1", port), 1))
+        _close(lines, all_but=IDLE)
+    _close(lines)
 
 
 def _bodies(port: int, over: threading.Event) -> None:
     """Send what is too deep, too long, or no JSON, and requests that never end."""
     bodies = cycle([DEEP[:100_000].encode(), b"x" * 2_000_000, b'{"id": 1e999}', None])
-    lines = deque[http.client.HTTPConnection](maxlen=100)
+    lines = deque[http.client.HTTPConnection]()
     while not over.wait(0.02):
         body, line = next(bodies), http.client.HTTPConnection("127.0.0.1", port, timeout=30)
         lines.append(line)
@@ -175,6 +177,16 @@ def _bodies(port: int, over: threading.Event) -> None:
             else:
                 line.request("POST", "/api/pause", body, kind)
                 line.getresponse().read()
+        _close(lines, all_but=100)
+    _close(lines)
+
+
+def _close(
+    lines: deque[socket.socket] | deque[http.client.HTTPConnection], all_but: int = 0
+) -> None:
+    """Close the oldest of these connections."""
+    while len(lines) > all_but:
+        lines.popleft().close()
 
 
 def main() -> int:

@@ -16,7 +16,7 @@ NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
 MOST_LINES, MOST_FILES, MOST_OWN_LINES = 7_890, 69, 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 9_780
+MOST_LINES_OF_ANY = 9_790
 LONGEST_FILE = 306
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
