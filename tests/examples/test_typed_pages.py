@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.cli import main
-from tests.examples.typed import Reader, is_shown, only_read, steps
+from tests.examples.typed import Reader, is_ended, is_shown, only_read, steps
 from tests.paths import ROOT
 
 TUTORIAL = [ROOT / "docs/tutorial/README.md", ROOT / "docs/tutorial/exercise.md"]
@@ -34,7 +34,7 @@ def test_what_a_page_has_one_type_shows_what_it_shows(
     assert len(found) >= 5
     for step in found:
         code, came = reader.type(step)
-        if update and step.shown and "^C" not in step.shown:
+        if update and step.shown and not is_ended(step.shown):
             text = text.replace(f"$ {step.command}\n{step.shown}\n", f"$ {step.command}\n{came}\n")
         elif step.shown:
             assert is_shown(step.shown, came), f"{step.command}: this came:\n{came}"

@@ -130,9 +130,14 @@ class Reader:
         return child.returncode, "".join(came).rstrip("\n")
 
 
+def is_ended(shown: str) -> bool:
+    """Return whether a page has its reader end the command, so that what comes is not all of it."""
+    return not {_PRESSED, _KILLED}.isdisjoint(shown.split("\n"))
+
+
 def is_shown(shown: str, came: str) -> bool:
     """Return whether a page shows what came; where a command was ended, times are what they are."""
-    ended = not {_PRESSED, _KILLED}.isdisjoint(shown.split("\n"))
+    ended = is_ended(shown)
     wanted = [line for line in _plain(shown, ended) if line not in (_PRESSED, _KILLED)]
     return wanted == _plain(came, ended)
 
