@@ -20,7 +20,7 @@ from random import Random
 from tempfile import mkdtemp
 from typing import Any
 
-from pluto_fleet.flight.waits import LONG
+from pluto_fleet.files.plan_waits import LONG
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.report.sentences import line_of
 from tests.flights_crazyflie.flight import Flight as Crazyflies

@@ -257,6 +257,7 @@ def _server(web: Web) -> uvicorn.Server:
     """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         web.application,
+        # it makes a protocol, and uvicorn's hints know but the class itself
         http=partial(_Limited, web.knows),  # type: ignore[arg-type]
         ws="websockets-sansio",
         lifespan="off",

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from traceback import format_exc
+from typing import Any
 
 from pluto_fleet.calibration.command import main as calibrate
 from pluto_fleet.cli import main
@@ -72,11 +73,11 @@ def _report(journal: Path) -> None:
     list(waiting_lines(FARM, journal, records))
 
 
-def _replay(past: object) -> None:
+def _replay(past: Any) -> None:
     start: float | None = 0.0
     parts = 0
     while start is not None and parts < 30:
-        part = past.replay(FLIGHT, start)  # type: ignore[attr-defined]
+        part = past.replay(FLIGHT, start)
         json.dumps(part, allow_nan=False)
         assert part["next"] is None or part["next"] > start
         start, parts = part["next"], parts + 1

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from ..shared.time.hours import Hours
 
 LONG = 10.0
-"""Seconds of a wait that is worth a line."""
+"""Seconds of a wait that is worth a line: in a flight it is told then, or at once if it is known to take longer."""
 
 
 def waits(missions: Sequence[Mission[Any]], hours: Hours) -> Iterator[str]:

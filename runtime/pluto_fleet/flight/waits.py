@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from math import dist
 from typing import TYPE_CHECKING, Any
 
+from ..files.plan_waits import LONG
 from ..shared.domain.motion import charging
 from ..shared.domain.status import DroneStatus
 from ..shared.domain.text import duration, percent, place
@@ -19,9 +20,6 @@ if TYPE_CHECKING:
     from ..journal.fold import Record
     from ..shared.domain.model import Point
     from .recorded_flight import RecordedFlight
-
-LONG = 10.0
-"""Seconds of a flight after which a wait is told; at once, if it is known to take longer."""
 
 EVERY = 1.0
 """Seconds of a flight between two looks."""

@@ -50,6 +50,7 @@ class Links:
         """Take it from the driver: nothing is reached."""
         raise ConnectionAbortedError(where)
 
+    # cflib asks for it by this name
     def PrrtSocket(self, *_: object, **__: object) -> Links:  # noqa: N802
         return self
 
@@ -85,6 +86,7 @@ class Links:
                 continue
             except ConnectionAbortedError as reached:
                 return " ".join(map(str, reached.args[0]))
+            # what a parser of others raises stands in the table
             except Exception as error:  # noqa: BLE001
                 return _words(error)
         return "no driver"

@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight.waits import LONG, Waits
+from pluto_fleet.files.plan_waits import LONG
+from pluto_fleet.flight.waits import Waits
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import Failure

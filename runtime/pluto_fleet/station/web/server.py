@@ -90,6 +90,7 @@ def _server(application: ASGIApp, guard: Guard) -> uvicorn.Server:
     """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         application,
+        # it makes a protocol, and uvicorn's hints know but the class itself
         http=partial(LimitedConnection, guard),  # type: ignore[arg-type]
         ws=WebSocketsSansIOProtocol,
         lifespan="off",
