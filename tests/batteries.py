@@ -59,7 +59,8 @@ class Judged:
 def judged(number: int) -> Judged:
     """Compile an app by chance, check it and fly it."""
     chance = Random(f"batteries/{number}")
-    flight_time, reserve = chance.choice((120, 240, 420)), chance.choice((10, 20, 30))
+    flight_time = chance.choice((120, 240, 420))
+    reserve = chance.choice((10, 20, 30))
     span = round(chance.uniform(0.02, 1.0) * flight_time, 1)
     default = round(span * chance.choice((1.0, chance.uniform(0.1, 1.0))), 1)
     takes = chance.choice(("", f" takes {span} s", " takes span"))

@@ -45,7 +45,8 @@ app waiting {
   [watch, retry] -> end otherwise
 }
 """
-SPEED, CRAZYFLIES = 5, 3
+SPEED = 5
+CRAZYFLIES = 3
 PATIENCE = 900.0
 """Seconds of real time for one flight."""
 FAULTS: Sequence[tuple[str, float | bool, Sequence[str]]] = (
@@ -131,7 +132,9 @@ def _missions_unsaid(events: Sequence[Event], long: float) -> Iterator[str]:
     since: dict[str, float] = {}
     told: set[str] = set()
     for event in events:
-        kind, t, name = event["event"], event["t"], str(event.get("mission", ""))
+        kind = event["event"]
+        t = event["t"]
+        name = str(event.get("mission", ""))
         if kind == "mission.waits":
             told.update([name] if name else event["missions"])
         elif kind in ("mission.promised", "mission.created", "trip.delayed", *_ENDS):
@@ -148,7 +151,9 @@ def _drones_unsaid(events: Sequence[Event], long: float) -> Iterator[str]:
     since: dict[str, float] = {}
     told: set[str] = set()
     for event in events:
-        kind, t, id = event["event"], event["t"], str(event.get("drone", ""))
+        kind = event["event"]
+        t = event["t"]
+        id = str(event.get("drone", ""))
         if kind in ("drone.waits", "drone.landed"):
             told.add(id)
         elif kind == "drone.flew" and id in since:

@@ -212,7 +212,8 @@ def test_a_simulation_begins_on_a_date_in_a_zone(
     """It sets out at 03:01, with the library and without it."""
     tested = apps.app(apps.flow(clock=True))
     given: Any = tested.given
-    plan, trace = tmp_path / "m.toml", tmp_path / "trace.jsonl"
+    plan = tmp_path / "m.toml"
+    trace = tmp_path / "trace.jsonl"
     trip = 'action = "take_photo"\ntarget = [3.0, 1.5]\n'
     plan.write_text(f'[[mission]]\nat = "03:01"\n[[mission.trip]]\n{trip}')
     words = ["simulate", str(plan), "--start", "01:59:30", "--trace", str(trace), *when]

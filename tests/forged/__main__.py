@@ -67,7 +67,8 @@ def _journal(random: Random, folder: Path) -> list[str]:
 
 def _snapshot(random: Random, folder: Path) -> list[str]:
     """A snapshot of all rows but the last, with a part that is another."""
-    journal, records = kept(folder, FLIGHT), Records()
+    journal = kept(folder, FLIGHT)
+    records = Records()
     rows = list(_rows())
     for row in rows[:-1]:
         for event in json.loads(row):

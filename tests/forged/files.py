@@ -82,7 +82,8 @@ def write_journal(path: Path, rows: Sequence[str], random: Random | None = None)
     with closing(sqlite3.connect(path, isolation_level=None)) as database:
         database.execute("DELETE FROM journal")
         for seq, text in enumerate(rows):
-            epoch, wall = 1, 1_700_000_000_000 + seq
+            epoch = 1
+            wall = 1_700_000_000_000 + seq
             values: list[Any] = [epoch, wall]
             if random is not None and random.random() < 0.02:
                 values[random.randrange(2)] = random.choice(COLUMNS)

@@ -71,7 +71,8 @@ def _flood(station: Station, seconds: float) -> Figures:
     until(lambda: station.phase == "flying", "it flies")
     journal = station.journals()[0]
     ids = _forge(journal.parent)
-    before, over = _peak(station.pid), threading.Event()
+    before = _peak(station.pid)
+    over = threading.Event()
     floods = [*(_idle, _bodies), *[_asks(ids, figures)] * 2]
     threads = [threading.Thread(target=one, args=(station.port, over)) for one in floods]
     for thread in threads:
@@ -167,7 +168,8 @@ def _bodies(port: int, over: threading.Event) -> None:
     bodies = cycle([DEEP[:100_000].encode(), b"x" * 2_000_000, b'{"id": 1e999}', None])
     lines = deque[http.client.HTTPConnection]()
     while not over.wait(0.02):
-        body, line = next(bodies), http.client.HTTPConnection("127.0.0.1", port, timeout=30)
+        body = next(bodies)
+        line = http.client.HTTPConnection("127.0.0.1", port, timeout=30)
         lines.append(line)
         kind = {"X-Pluto": "1", "Content-Type": "application/json"}
         with suppress(OSError, http.client.HTTPException):

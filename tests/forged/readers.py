@@ -80,7 +80,8 @@ def _replay(past: Any) -> None:
         part = past.replay(FLIGHT, start)
         json.dumps(part, allow_nan=False)
         assert part["next"] is None or part["next"] > start
-        start, parts = part["next"], parts + 1
+        start = part["next"]
+        parts = parts + 1
 
 
 def _results(folder: Path) -> None:

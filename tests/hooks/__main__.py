@@ -42,7 +42,9 @@ HOMES = [(0.5, 0.5, 0.0)] * 10  # all of one home: it does not matter who flies
 
 def one_app(number: int) -> list[str]:
     """Fly one app, and return what must not be."""
-    package, rng, said = accepted(number), Random(f"{number}/crashes"), list[str]()
+    package = accepted(number)
+    rng = Random(f"{number}/crashes")
+    said = list[str]()
     crashes = [rng.uniform(0.0, 60.0) + 60.0 * n for n in range(rng.choice((1, 2, 3)))]
     for struck in ([], crashes):
         before, after = (_flown(package, number, active, struck, said) for active in (False, True))
@@ -67,13 +69,15 @@ def _flown(
     package: Package, number: int, active: bool, crashes: Sequence[float], said: list[str]
 ) -> tuple[str, str]:
     """Fly an app; return how the good mission ended."""
-    vandals, events = Vandals(number, package.graph, active), list[Event]()
+    vandals = Vandals(number, package.graph, active)
+    events = list[Event]()
     given = package.app(vandals.module, patient=True)
     category = replace(given.categories[0], speed=2.0, flight_time=1e7, actions=None)
     app = described(replace(given, categories=(category, *given.categories[1:])))
     vandals.trip = _trips_of(app, Random(f"{number}/new"))
     missions = _missions_of(app, _trips_of(app, Random(f"{number}/trips")), Random(number))
-    fleet, usual = apps.fleet(*HOMES, categories=[category.name]), asking.MOST_CALLS
+    fleet = apps.fleet(*HOMES, categories=[category.name])
+    usual = asking.MOST_CALLS
     asking.MOST_CALLS = CALLS
     try:
         if crashes:
@@ -81,7 +85,8 @@ def _flown(
             for when in crashes:
                 living.crash(when)
             living.run(LONGEST)
-            ended, events = living.life.missions, living.events
+            ended = living.life.missions
+            events = living.events
         else:
             how: dict[str, Any] = {
                 "faults": apps.NO_FAULTS,

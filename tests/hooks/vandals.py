@@ -13,7 +13,8 @@ from pluto_fleet.shared.hooks.context import Verdict
 from plutoc.block import HookKind
 from plutoc.graph.model import Graph, Hook
 
-DEEPEST, FLIGHTS = 5, 6
+DEEPEST = 5
+FLIGHTS = 6
 """Steps from an argument to what is written; flights after which an evaluator asks for no more."""
 PLACES = (1.0, 2.0, 1.2), (2, 3), [4.0, 4.0], (1e9, 0.0), (float("nan"), 1.0)
 NUMBERS = -5, 0, 3, 10**30, 2.5, float("nan"), float("inf"), True
@@ -41,7 +42,9 @@ class Vandals:
     """Makes a trip of the app."""
 
     def __init__(self, seed: int, graph: Graph, active: bool) -> None:
-        self._seed, self._active, self._called = seed, active, 0
+        self._seed = seed
+        self._active = active
+        self._called = 0
         makers = {
             HookKind.MODIFIER: self._modifier,
             HookKind.EVALUATOR: self._evaluator,
@@ -65,7 +68,8 @@ class Vandals:
 
     def _evaluator(self, hook: Hook) -> Callable[..., object]:
         def evaluator(mission: Any, results: Any, **_: object) -> Verdict:
-            chance, more = self._chance(hook.name, mission), mission.attempts < FLIGHTS
+            chance = self._chance(hook.name, mission)
+            more = mission.attempts < FLIGHTS
             redo = mission.completed_trips[:1] if more and chance.random() < 0.5 else ()
             self._spoil(mission, mission, results)
             add = chance.choice((0, 1, 2)) if more and self._is_bad(mission) else 0
@@ -79,7 +83,8 @@ class Vandals:
             return candidates[0]
 
         def for_all(waiting: Any, drones: Any, now: float) -> object:
-            free, pairs = list(drones), []
+            free = list(drones)
+            pairs = []
             for one in waiting:
                 with suppress(Exception):  # else it is a fault of who has waited longest
                     self._spoil(one.mission, one, waiting, drones)
@@ -97,7 +102,8 @@ class Vandals:
             self._spoil(trip, drone, trip, context)
             return GIVES.get(returns)
 
-        action.__module__, action.__name__ = __name__, name
+        action.__module__ = __name__
+        action.__name__ = name
         return action
 
     def _is_bad(self, of: Any) -> bool:
@@ -115,7 +121,8 @@ class Vandals:
                 self._write(chance, given)
 
     def _write(self, chance: Random, given: tuple[object, ...]) -> None:
-        here, value = _somewhere(chance, given), self._value(chance, given)
+        here = _somewhere(chance, given)
+        value = self._value(chance, given)
         if isinstance(here, list) and chance.random() < 0.8:
             at = chance.randint(0, len(here))
             name, *rest = chance.choice(

@@ -11,7 +11,8 @@ import pytest
 
 pytestmark = pytest.mark.process
 RUN = "import sys; from pluto_fleet.cli import main; from tests.library.files.an_app import APP; sys.exit(main(APP, sys.argv[1:]))"
-MEMORY, SECONDS = 600 << 20, 120
+MEMORY = 600 << 20
+SECONDS = 120
 TRIP = '[[mission.trip]]\naction = "take_photo"\ntarget = ["{x}", 1]\n'
 AREA = '[[mission.area]]\naction = "take_photo"\npolygon = [[0, 0], [20, 0], [20, 20]]\nspacing = 0.6\n'
 

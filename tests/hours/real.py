@@ -51,12 +51,15 @@ class RealCase(NamedTuple):
     """Whether it is killed then, and resumed."""
 
 
-ROME, SPRING, AUTUMN = "Europe/Rome", "2027-03-28 01:59:40", "2027-10-31 02:29:40"
+ROME = "Europe/Rome"
+SPRING = "2027-03-28 01:59:40"
+AUTUMN = "2027-10-31 02:29:40"
 BOTH = 'at = "12:30"\ndeadline = "12:20"'
 SOON = 'at = "03:00:15"\ndeadline = "03:00:10"'
 DUE = 'deadline = "03:45:05"\nat = "03:45:30"'
 FROM = 'window = ["{}", "13:00"]'.format
-LORD_HOWE, CHATHAM = "Australia/Lord_Howe", "Pacific/Chatham"
+LORD_HOWE = "Australia/Lord_Howe"
+CHATHAM = "Pacific/Chatham"
 CASES = (
     RealCase(ROME, SPRING, 'at = "03:00:05"', {"launched": "01:00:05"}),
     RealCase(ROME, SPRING, 'at = "02:30"', {"launched": "01:00:00"}),
@@ -84,7 +87,8 @@ def library() -> Path | None:
 
 def flown(number: int) -> list[str]:
     """Fly a case; return in what it differs from what is expected."""
-    case, folder = CASES[number], Path(mkdtemp(prefix="hours-"))
+    case = CASES[number]
+    folder = Path(mkdtemp(prefix="hours-"))
     try:
         return _flown(case, folder)
     finally:
@@ -96,7 +100,8 @@ def _flown(case: RealCase, folder: Path) -> list[str]:
     source.write_text(APP, "utf-8")
     package = apps.compiled_file(source, folder / "package")
     trip = '[[mission.trip]]\naction = "take_photo"\ntarget = [3.0, 1.5]\n'
-    plan, clock = folder / "m.toml", folder / "clock"
+    plan = folder / "m.toml"
+    clock = folder / "clock"
     plan.write_text(f'[[mission]]\nname = "m"\n{case.mission}\n{trip}', "utf-8")
     start = datetime.fromisoformat(case.start).replace(tzinfo=ZoneInfo(case.zone))
     ahead = start.timestamp() - time.time()

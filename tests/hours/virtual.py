@@ -11,7 +11,8 @@ from zoneinfo import ZoneInfo
 
 from tests.kit import apps
 
-MINUTE, DAY = timedelta(minutes=1), timedelta(days=1)
+MINUTE = timedelta(minutes=1)
+DAY = timedelta(days=1)
 ZONES = {
     "Europe/Rome": 2027,
     "America/Sao_Paulo": 2018,  # at midnight
@@ -33,7 +34,8 @@ EVERY = (1800.0, 3600.0, 5400.0, 43_200.0, 86_400.0, 172_800.0)
 @cache
 def changes(zone: str) -> tuple[datetime, ...]:
     """Return the instants of a year at which a zone's clocks are changed; two days of one that never does."""
-    year, place = ZONES[zone], ZoneInfo(zone)
+    year = ZONES[zone]
+    place = ZoneInfo(zone)
     hours = [datetime(year, 1, 1, tzinfo=UTC) + timedelta(hours=n) for n in range(365 * 24)]
     shown = [one.astimezone(place).utcoffset() for one in hours]
     found = [hours[n] for n in range(1, len(hours)) if shown[n] != shown[n - 1]]
@@ -51,7 +53,8 @@ def minutes(place: ZoneInfo, since: datetime) -> Iterator[tuple[datetime, dateti
 def coming(hour: time, place: ZoneInfo, since: datetime) -> datetime:
     """Return when it is an hour next: the first of two, and right after the gap if clocks jump over it."""
     for before, now in minutes(place, since):
-        last, this = before.replace(tzinfo=None), now.replace(tzinfo=None)
+        last = before.replace(tzinfo=None)
+        this = now.replace(tzinfo=None)
         jumped = {datetime.combine(day, hour) for day in (last.date(), this.date())}
         if (now.time() == hour and not now.fold) or any(last < one < this for one in jumped):
             return now.astimezone(UTC)
@@ -69,12 +72,14 @@ class Case:
 
     def __init__(self, zone: str, number: int) -> None:
         chance = Random(f"hours/{zone}/{number}")
-        self.place, self.zone = ZoneInfo(zone), zone
+        self.place = ZoneInfo(zone)
+        self.zone = zone
         change = chance.choice(changes(zone))
         self.start = change - timedelta(seconds=chance.randrange(-7_200, 2 * 86_400))
         about = change.astimezone(self.place).replace(tzinfo=None)
         first, second = (about + MINUTE * chance.randrange(-150, 150) for _ in range(2))
-        self.hour, self.closes = first.time(), second.time()
+        self.hour = first.time()
+        self.closes = second.time()
         self.every = chance.choice(EVERY)
         self.kind = ("at", "window", "deadline", "every")[number % 4]
         if self.hour == self.closes:
@@ -83,7 +88,8 @@ class Case:
     @property
     def promises(self) -> dict[str, str]:
         """What its plan promises."""
-        opens, due = f"{self.hour:%H:%M}", f"{self.closes:%H:%M}"
+        opens = f"{self.hour:%H:%M}"
+        due = f"{self.closes:%H:%M}"
         return {"window": {"opens": opens, "deadline": due}, "deadline": {"deadline": due}}.get(
             self.kind, {}
         )
@@ -107,7 +113,8 @@ class Case:
             if since % DAY:
                 starts.append(starts[0] + n * since)
                 continue
-            kept, then = starts[0].astimezone(self.place).time(), starts[0]
+            kept = starts[0].astimezone(self.place).time()
+            then = starts[0]
             for _ in range(n * (since // DAY)):
                 then = coming(kept, self.place, then + MINUTE)
             starts.append(then)
@@ -137,7 +144,8 @@ class Case:
 
     def wrong(self) -> list[str]:
         """Return in what the flight differs from what `zoneinfo` says."""
-        expected, flown = self.expected(), self.flown()
+        expected = self.expected()
+        flown = self.flown()
         if len(expected) == len(flown) and all(
             abs(a - b) < timedelta(milliseconds=2) for a, b in zip(expected, flown, strict=True)
         ):

@@ -54,7 +54,8 @@ class Seen:
 
 @cache
 def _ready(name: str) -> tuple[App, Path]:
-    plan, folder = known()[name], Path(mkdtemp(prefix="heights-"))
+    plan = known()[name]
+    folder = Path(mkdtemp(prefix="heights-"))
     plan.write(folder / "plan")
     return imported(plan.app, plan.compiled(folder / "app").parent), folder / "plan"
 

@@ -183,7 +183,8 @@ def _bounded(answer: HTTPResponse, largest: int) -> bytes | None:
     return bytes(found)
 
 
-_AT_ONCE, _SHOWN = 1024 * 1024, 100
+_AT_ONCE = 1024 * 1024
+_SHOWN = 100
 
 
 def _refusal(status: int, answer: bytes) -> Refused:

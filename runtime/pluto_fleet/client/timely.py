@@ -25,7 +25,8 @@ class _Timely(io.RawIOBase):
     """Reads a socket, whose own time-out is that of the whole."""
 
     def __init__(self, sock: socket.socket) -> None:
-        self._socket, self._file = sock, sock.makefile("rb", buffering=0)
+        self._socket = sock
+        self._file = sock.makefile("rb", buffering=0)
         self._until = time.monotonic() + (sock.gettimeout() or 0.0)
 
     def readable(self) -> bool:

@@ -174,7 +174,8 @@ def _look(options: CrazyflieOptions) -> list[str]:
     dongles = 1
     with suppress(Exception):  # to open the first says what is wrong
         dongles = max(dongles, len(get_serials()))
-    there, refused = set[str](), list[LinkLost]()
+    there = set[str]()
+    refused = list[LinkLost]()
     for dongle in range(dongles):
         try:
             radio = _radio(dongle)

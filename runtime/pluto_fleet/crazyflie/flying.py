@@ -121,7 +121,8 @@ async def land(session: CrazyflieSession, speed: float) -> None:
     await _may_rise(session)
     state = await session.fresh()
     if state.steered:
-        limits, height = speed_limits_of(session), max(0.0, state.position[2])
+        limits = speed_limits_of(session)
+        height = max(0.0, state.position[2])
         if session.doubts:  # the longer it flies, the farther it drifts
             seconds = limits.seconds_down_blind(height)
         else:

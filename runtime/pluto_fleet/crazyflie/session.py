@@ -111,7 +111,9 @@ class CrazyflieSession:
         self, drone: str, uri: str, observer: SessionObserver, silence: float = SILENCE
     ) -> None:
         """`silence`: seconds without a state after which the link counts as lost."""
-        self.drone, self.uri, self.silence = drone, uri, silence
+        self.drone = drone
+        self.uri = uri
+        self.silence = silence
         self.loop = asyncio.get_running_loop()
         self.worker = Worker(drone)
         self.established = asyncio.Event()
@@ -225,7 +227,8 @@ class CrazyflieSession:
     @property
     def silent_for(self) -> float:
         """Seconds since its last state in which this process could have heard it."""
-        now, then = self.loop.time(), self._since if self.state is None else self.state.time
+        now = self.loop.time()
+        then = self._since if self.state is None else self.state.time
         return now - then - self._lag.since(then, now)
 
     @property

@@ -79,9 +79,11 @@ def profile(start: AxisState, end: float, duration: float) -> Profile:
 Limits = tuple[float, float, float]
 """Metres per second: forwards, sideways and upwards."""
 
-_GAIN, _GAIN_UP = 2.0, 1.8
+_GAIN = 2.0
+_GAIN_UP = 1.8
 """Metres per second for each metre of error: across, and in height."""
-_SUMMED, _LEAKS = 0.37, 60.0
+_SUMMED = 0.37
+_LEAKS = 60.0
 """The integral gain of the height, and the seconds in which the integral decays: an error in height
 decays at the rate of _SUMMED / _GAIN_UP + 1 / _LEAKS."""
 _MOST_SUMMED = 0.58

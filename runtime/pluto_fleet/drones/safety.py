@@ -162,7 +162,8 @@ class SafetyMonitor:
         silence: float = SILENCE,
     ) -> None:
         """`silence`: seconds for which a drone in the air may tell nothing."""
-        self._silence, self._lag = silence, Lag()
+        self._silence = silence
+        self._lag = Lag()
         self._vehicles: list[Vehicle] = []
         self._airspace, self._say, self._clock = airspace, say, clock
         self._low_since: dict[str, float] = {}

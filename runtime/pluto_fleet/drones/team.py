@@ -60,7 +60,8 @@ class Team:
 
         `silence`: seconds for which a drone in the air may tell nothing.
         """
-        self._loaded, self._silence = frozenset(loaded), silence
+        self._loaded = frozenset(loaded)
+        self._silence = silence
         self._kernel, self._wanted = kernel, tuple(wanted)
         self._cargo, self._feed = Cargo(folder, say), feeding
         self._say, self._clock, self._folder = say, clock, folder
@@ -96,7 +97,8 @@ class Team:
                 f"{drone.id} cannot join: no drone of this flight is flown by {how.navigation}, and to"
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
-        folder, speed = self._folder / FILES, drone.category.speed
+        folder = self._folder / FILES
+        speed = drone.category.speed
         navigation = make_one(how, drone.home, speed, folder, self._silence)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):

@@ -30,7 +30,8 @@ class Reports:
     """The messages of one drone; used within the event loop only."""
 
     def __init__(self, setup: DroneSetup) -> None:
-        self._id, self._silence = setup.id, setup.silence
+        self._id = setup.id
+        self._silence = setup.silence
         self.telemetry = DroneTelemetry(
             time=-inf, position=setup.home, yaw=0.0, voltage=0.0, battery_level=1.0, flying=False
         )
@@ -94,7 +95,9 @@ class Reports:
         Raises `LinkLost` when it is silent, `Crashed` when it reports that, and `TargetTimeout` after
         the time-out.
         """
-        began, silent, lag = time.monotonic(), self._silence, Lag()
+        began = time.monotonic()
+        silent = self._silence
+        lag = Lag()
         while self.telemetry.time <= began or not done(self.telemetry):
             now = time.monotonic()
             if self.crashed:
@@ -202,7 +205,8 @@ class VehicleTelemetry:
     @property
     def silence(self) -> float:
         """Seconds since its last valid state in which it could have been heard."""
-        last, now = self.look(), self._calls.clock()
+        last = self.look()
+        now = self._calls.clock()
         return inf if last is None else now - last.time - self.lag.since(last.time, now)
 
 

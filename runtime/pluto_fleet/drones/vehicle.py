@@ -69,7 +69,10 @@ T = TypeVar("T")
 
 LAND, RISE = "land", "take off"
 """The names of its commands to land and to take off."""
-PREFLIGHT, HOLD, RECOVER, SET = 12.0, 8.0, 8.0, 20.0
+PREFLIGHT = 12.0
+HOLD = 8.0
+RECOVER = 8.0
+SET = 20.0
 """Time-outs in seconds."""
 LOOK = 0.05
 """The polling interval of its telemetry, in seconds."""
@@ -250,7 +253,8 @@ class Vehicle:
 
     async def set_up(self) -> None:
         """Set its parameters, on the ground; raise `FlightFailed` if its link is lost over that."""
-        navigation, unset = self.navigation, list[str]()
+        navigation = self.navigation
+        unset = list[str]()
         if not isinstance(navigation, Readable) or navigation.telemetry.flying:
             return  # in the air it has them since it was connected to first
         for name, value in self.drone.parameters.items():

@@ -26,7 +26,8 @@ BASIC = ("name", "polygon", "action", "spacing", "height", "parameters")
 SPACING = values.Quantity(Type.LENGTH, 0.05, 10_000.0)
 """The side of the square around each place."""
 
-MOST_IN_ALL, MOST_AREAS = 100_000, 10_000
+MOST_IN_ALL = 100_000
+MOST_AREAS = 10_000
 """The most trips that the areas of one file make, and the most areas of one file."""
 
 

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 _NAMED = 10
 """Of more drones than these it is said how many they are; of what is too much to list, so many are named."""
-_MOST_LISTED, _LONGEST_HINT = 100, 100
+_MOST_LISTED = 100
+_LONGEST_HINT = 100
 """Words that are listed, or compared for a hint, and characters of one: more would take long."""
 
 

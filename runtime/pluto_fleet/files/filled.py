@@ -54,7 +54,8 @@ class Weight:
 
 def weight_of(template: object) -> Weight:
     """Return how much a template makes of each row, without making it."""
-    weight, left = Weight(), [template]
+    weight = Weight()
+    left = [template]
     while left:
         one = left.pop()
         weight.parts += 1

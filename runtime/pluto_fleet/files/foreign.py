@@ -35,7 +35,8 @@ _SIGNS: tuple[tuple[str, str, str], ...] = (
 """How the content begins or what is in it, what it is, and what to do; the first that fits counts."""
 
 _KINDS = [(re.compile(sign.encode("latin-1")), what, to_do) for sign, what, to_do in _SIGNS]
-_MARK, _LOOKED_AT = b"\xef\xbb\xbf", 1 << 20
+_MARK = b"\xef\xbb\xbf"
+_LOOKED_AT = 1 << 20
 
 
 def foreign(content: bytes, wanted: str) -> str | None:

@@ -20,9 +20,12 @@ from .reading import MOST_SHOWN, Table, text_of
 if TYPE_CHECKING:
     from .toml import TomlPath
 
-MOST_ROWS, MOST_COLUMNS, MOST_READ = 10_000, 1_000, 8 << 20
+MOST_ROWS = 10_000
+MOST_COLUMNS = 1_000
+MOST_READ = 8 << 20
 """Of all lists of a file: the most missions that they make, and characters that are read; and columns of each."""
-MOST_PARTS, MOST_CHARACTERS = 1_000_000, 10_000_000
+MOST_PARTS = 1_000_000
+MOST_CHARACTERS = 10_000_000
 """What all lists of a file make of its texts: so many values and tables, of so many characters."""
 
 _LONGEST_VALUE = csv.field_size_limit()  # in characters

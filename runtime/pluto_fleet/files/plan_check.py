@@ -100,7 +100,8 @@ def uncharged(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> s
     kinds = {category.name: category for category in app.categories}
     drones = [(kinds[drone.category], drone.home) for drone in fleet.drones]
     has = sum((1 - kind.reserve) * kind.endurance for kind, _ in drones)
-    takes, here = 0.0, None
+    takes = 0.0
+    here = None
     for mission in missions:
         rest: Sequence[Trip] = mission.trips
         while rest:

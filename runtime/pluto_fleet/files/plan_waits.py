@@ -22,7 +22,8 @@ def waits(missions: Sequence[Mission[Any]], hours: Hours) -> Iterator[str]:
         promises = kept_from(mission.promises, hours)
         after = ", ".join(map(quoted, promises.get("after", ())))
         opens = promises.get("opens", 0.0)
-        at, delay = getattr(mission, "at", None), getattr(mission.trips[0], "delay", None)
+        at = getattr(mission, "at", None)
+        delay = getattr(mission.trips[0], "delay", None)
         begins = 0.0 if at is None else hours.next(at, 0.0)
         why, seconds = max(
             ("its window has not opened", opens),
@@ -34,5 +35,6 @@ def waits(missions: Sequence[Mission[Any]], hours: Hours) -> Iterator[str]:
         if after:
             yield f"{who} until {after} {'have' if ', ' in after else 'has'} completed"
         if seconds > LONG:
-            start, end = hours.said(0.0), hours.said(seconds)
+            start = hours.said(0.0)
+            end = hours.said(seconds)
             yield f"{who} {duration(seconds)} if it is started at {start}, until {end}: {why}"

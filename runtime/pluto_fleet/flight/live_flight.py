@@ -204,7 +204,8 @@ class LiveFlight:
     def _drifted(self) -> float | None:
         """Return how far the clock of the hours has drifted, and record it, if that is news."""
         self._clock.moved()
-        life, drift = self.life, self._clock.drift
+        life = self.life
+        drift = self._clock.drift
         if life is None or not life.is_set_out or life.records.clock["drift"] == drift:
             return None
         life.note("clock.moved", by=drift - life.records.clock["drift"], drift=drift)

@@ -95,7 +95,8 @@ def count_flights(journal: Path) -> tuple[int, int, float, list[Event]]:
     With it come the events of broken reserves. The seconds are from when the drones were connected, as in a simulation; 0: none has ended.
     """
     launched = failed = 0
-    began, ended = None, 0.0
+    began = None
+    ended = 0.0
     drained = list[Event]()
     with closing(Reader(journal)) as reader:
         for row in reader.rows():

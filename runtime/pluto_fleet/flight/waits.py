@@ -74,16 +74,19 @@ class Waits:
 
     def look(self) -> None:
         """Note which waits are long by now, and what has landed."""
-        life, now = self._life, self._life.kernel.now
+        life = self._life
+        now = self._life.kernel.now
         life.driver.look()  # where the drones are
-        where, drones = life.brain.whereabouts(), life.brain.drones()
+        where = life.brain.whereabouts()
+        drones = life.brain.drones()
         flying = {one["drone"]: name for name, one in where.items() if one["flies"]}
         found: dict[_Key, Wait] = {}
         for name, wait in _of_missions(life.records.missions, where, life.app.resumes, now):
             found["mission", name, wait.what, None] = wait
         is_wanted = any(wait.what == "drone" for wait in found.values())
         for id, drone in drones.items():
-            at, mission = self._rests_at(id, drone["at"]), flying.get(id)
+            at = self._rests_at(id, drone["at"])
+            mission = flying.get(id)
             self._see_landing(id, drone, mission)
             of_drone = self._of_drone(id, drone, mission, is_wanted, now)
             if of_drone is not None:
@@ -127,7 +130,8 @@ class Waits:
         self, id: str, drone: Mapping[str, Any], mission: str | None, is_wanted: bool, now: float
     ) -> Wait | None:
         """Return what a drone waits for, as long as it stays where it is."""
-        status, is_docked = DroneStatus(drone["status"]), self._is_docked(id, drone)
+        status = DroneStatus(drone["status"])
+        is_docked = self._is_docked(id, drone)
         where = "in its dock" if is_docked else f"at {place(drone['at'])}"
         stands = f"{'stands' if drone['landed'] else 'hovers'} {where}"
         if status in _UNDER_WAY and self._life.link.telemetry(id).silence > SILENT:
@@ -179,7 +183,8 @@ class Waits:
         life = self._life
         if not drone["landed"] and life.told_to.get(id) != "land":
             life.to_land.discard(id)
-        before, self._landed[id] = self._landed.get(id, True), drone["landed"]
+        before = self._landed.get(id, True)
+        self._landed[id] = drone["landed"]
         is_lost = drone["status"] == DroneStatus.LOST.value
         if before or not drone["landed"] or is_lost or self._is_docked(id, drone):
             return
@@ -217,7 +222,8 @@ def of_mission(
         )
     if where is None or not where["lives"] or where["flies"]:
         return None
-    block, promises = where["block"].partition(" ")[0], record["promises"]
+    block = where["block"].partition(" ")[0]
+    promises = record["promises"]
     if (until := where["until"] or 0.0) > now:
         trip = record["todo"][0]["name"] if record["todo"] else ""
         return Wait(what="time", reason=f"waits for the time of trip {trip}", until=until)

@@ -170,7 +170,8 @@ class Descent:
     def _stretch(self, drone: str) -> Section:
         """Return a drone's next stretch, from where it is: it may have been stopped on the way."""
         (first, last), one = self._at[drone], self._plan.courses[drone]
-        telemetry, here = self._pilots.telemetry[drone], self._pilots.place(drone)
+        telemetry = self._pilots.telemetry[drone]
+        here = self._pilots.place(drone)
         first = max(first, one.piece_at(here, first, last) - 1)
         return one.stretch(here, telemetry.landed, first, last)
 

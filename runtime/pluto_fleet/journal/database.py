@@ -66,7 +66,8 @@ def tip_checksum(seq: object, epoch: object) -> int:
 LARGEST_TEXT = 128 * 1024 * 1024
 """Bytes of one text, so that no file has its reader take more memory than there is."""
 
-LATEST_WALL, MOST = 10**13, 2**53
+LATEST_WALL = 10**13
+MOST = 2**53
 """The largest plausible time, in milliseconds since 1970, and the largest plausible other number."""
 
 PATIENCE = 5.0

@@ -305,7 +305,8 @@ def header_of(text: str) -> Event:
 
 def check(event: Mapping[str, Any]) -> None:
     """Raise `ValueError` if an event does not say what it must."""
-    kind, t = event["event"], event.get("t")
+    kind = event["event"]
+    t = event.get("t")
     if not isinstance(t, (float, int)) or not 0 <= t <= LATEST:
         raise ValueError(_unfit(kind, "t", t))
     _hold(event, _TESTS.get(kind) or (_OF_A_DRONE if kind.startswith("drone.") else ()))

@@ -159,7 +159,9 @@ def _late(_: Records, record: Record, event: Fact) -> None:
 
 def _changed(_: Records, record: Record, event: Fact) -> None:
     """Take over a mission that a hook has changed."""
-    at, todo, done = event["at"], record["todo"], record["done"]
+    at = event["at"]
+    todo = record["todo"]
+    done = record["done"]
     old = todo[at : at + len(event["gone"])]
     if [trip["name"] for trip in old] != event["gone"]:
         raise KeyError(f"other trips than {event['gone']} at {at}")
@@ -305,7 +307,8 @@ def _prioritised(_: Records, record: Record, event: Fact) -> None:
 
 def _extended(records: Records, record: Record, event: Fact) -> None:
     _goes_on(record)
-    record["judged"], record["changed"] = len(records.results), True
+    record["judged"] = len(records.results)
+    record["changed"] = True
     for name in event["redo"]:
         trip = _take(record["done"], name)
         trip["attempt"] = trip.get("attempt", 1) + 1
@@ -517,7 +520,8 @@ def replayed(read: Read, header: Mapping[str, Any] | None = None) -> Records:
 
     Check afterwards whether `read` was damaged: then these are the records up to the damage.
     """
-    records, number = Records(), read.after
+    records = Records()
+    number = read.after
     with _without_collections():
         try:
             if read.snapshot is not None:

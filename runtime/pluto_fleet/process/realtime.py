@@ -28,7 +28,8 @@ class RealTime(Kernel):
         super().__init__()
         guard_hooks()
         self.now = self._begin = begin
-        self._loop, self.speed = asyncio.get_running_loop(), speed
+        self._loop = asyncio.get_running_loop()
+        self.speed = speed
         self._start = self._loop.time()
         self._draining = False
         self._armed: asyncio.TimerHandle | None = None
@@ -44,7 +45,8 @@ class RealTime(Kernel):
 
     def pass_at(self, speed: float) -> None:
         """Let time pass at another speed from now on; it does not jump."""
-        self._begin, self._start = self._clock(), self._loop.time()
+        self._begin = self._clock()
+        self._start = self._loop.time()
         self.speed = speed
         self._disarm()
         if not self._draining:
@@ -110,7 +112,8 @@ class RealTime(Kernel):
     def _disarm(self) -> None:
         if self._armed is not None:
             self._armed.cancel()
-        self._armed, self._armed_for = None, inf
+        self._armed = None
+        self._armed_for = inf
 
     def _due(self) -> None:
         self._disarm()

@@ -22,7 +22,8 @@ class WallClock:
 
     def __init__(self, kernel: RealTime, known: Mapping[str, float | None]) -> None:
         """`known` from earlier runs: when the flight first `began`, in seconds since 1970, and the `drift`."""
-        began, self.drift = known["began"], known["drift"] or 0.0
+        began = known["began"]
+        self.drift = known["drift"] or 0.0
         self.began = now() - kernel.time() if began is None else began
         if began is not None and kernel.speed == 1.0:
             self.drift = now() - began - kernel.time()

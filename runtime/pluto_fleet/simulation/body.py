@@ -68,7 +68,8 @@ class Body:
     """The state of one drone. It is its own telemetry."""
 
     def __init__(self, drone: SimulatedDrone, clock: Callable[[], float], seed: int = 0) -> None:
-        self.drone, self._clock = drone, clock
+        self.drone = drone
+        self._clock = clock
         self.model = varied(drone.category.motion, seed)
         self.spread = Spread(seed, drone.id)
         """What the spread of its durations is drawn from."""

@@ -72,7 +72,9 @@ def living_row(
     # once its trips are done, a block has yet to decide
     stands = Status.STANDBY if status in ENDED else status
     row = _row(name, record, stands, str(record["reason"]), trips, [*at], wait)
-    row["drone"], row["until"], row["due"] = where["drone"], until, moments.get("deadline")
+    row["drone"] = where["drone"]
+    row["until"] = until
+    row["due"] = moments.get("deadline")
     return row
 
 

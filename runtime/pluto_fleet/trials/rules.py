@@ -161,7 +161,8 @@ class CompletedDidEverything:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
 
     def _change(self, event: Event) -> None:
-        own, to_do = self._own[event["mission"]], self._to_do[event["mission"]]
+        own = self._own[event["mission"]]
+        to_do = self._to_do[event["mission"]]
         put = {str(trip["name"]): trip for trip in listed(event, "put")}
         for name in listed(event, "gone"):
             if name not in put:

@@ -290,7 +290,8 @@ def parsed(
         said, end = f"{error}", ""
         if not isinstance(error, tomllib.TOMLDecodeError):  # Python's hint is for its programmers
             row = next((n for n, line in enumerate(text.split("\n"), 1) if _LONG.search(line)), 1)
-            path, said = f"{path}:{row}", "a whole number has too many digits"
+            path = f"{path}:{row}"
+            said = "a whole number has too many digits"
         if place := _PLACE.search(said):
             row = int(place[1] or text.rstrip().count("\n") + 1)
             path, shown = f"{path}:{row}", cut_off(text.split("\n")[row - 1].strip(), 80)

@@ -109,7 +109,8 @@ class IdealDrone(KnownState):
         last, place = self._legs[-1], (*place_on(self._legs, now)[:2], 0.0)
         touched = min(now, last.arrives) if last.end[2] <= 0.0 else now
         rate = docked(place, self.home) / self.category.charge_time
-        self._charge, self._landed = self._charge.changing(touched, rate), True
+        self._charge = self._charge.changing(touched, rate)
+        self._landed = True
         self.turn([resting(place, now)], now)
 
     def _look_ahead(self) -> None:

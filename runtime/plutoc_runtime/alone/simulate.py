@@ -88,7 +88,8 @@ def simulate(
     before anything begins, and returns what runs the world until a time.
     """
     app = moving(app, fleet.motion, charges=fleet.charges_at_home)
-    bound, events = Bound(missions), list[Event]()
+    bound = Bound(missions)
+    events = list[Event]()
 
     def listen(event: Event) -> None:
         events.append(event)

@@ -30,13 +30,13 @@ class Action:
     parameters: tuple[Parameter, ...] = ()
     repeat: str = "once"  # may it be repeated after a crash of the system: `safe`, `once` or `ask`
     takes: float | str | None = None
-    """How many seconds plans reckon with, or the parameter that says so; None: nobody has said."""
+    """How many seconds plans reckon with, or the parameter that says so; None: it is not declared."""
     hook: Callable[..., Any] | None = None
     """The app's own code; None: the drone's navigation knows how."""
 
     @property
     def seconds(self) -> float:
-        """How many seconds plans reckon with, whatever a trip says."""
+        """How many seconds plans reckon with where the parameters of a trip do not count."""
         return self.takes if isinstance(self.takes, (int, float)) else RECKONED
 
     def lasts(self, parameters: Mapping[str, Plain]) -> float:

@@ -28,7 +28,7 @@ _set = object.__setattr__
 
 
 def put(of: Kept, **facts: object) -> None:
-    """Set attributes as the runtime does, whatever hooks may write."""
+    """Set attributes as the runtime does, without the checks of what hooks write."""
     for name, value in facts.items():
         _set(of, name, value)
 
@@ -61,13 +61,13 @@ def keep(keeper: Keeper, mission: Any, trips: Iterable[Any]) -> None:
 
 
 def keeper_of(of: object) -> Keeper | None:
-    """Return who keeps a mission, a trip or a drone; None: nobody does yet."""
+    """Return the keeper of a mission, a trip or a drone; None: it has none yet."""
     found: Keeper | None = getattr(of, "_keeper", None)
     return found
 
 
 class Kept:
-    """A mission, a trip or a drone. Before somebody keeps it, anything may be written."""
+    """A mission, a trip or a drone. As long as it has no keeper, anything may be written."""
 
     __slots__ = ("_keeper",)
 
@@ -78,7 +78,7 @@ class Kept:
     """What a modifier may write, beside the fields of the app."""
 
     def __new__(cls, *_: object, **__: object) -> Self:
-        """Make one that nobody keeps."""
+        """Make one without a keeper."""
         made = object.__new__(cls)
         _set(made, "_keeper", None)
         return made
@@ -119,7 +119,9 @@ class Keeper:
         evaluators: Iterable[str] = (),
     ) -> None:
         """`time` is the clock of the app; nothing is written before it is `opened`."""
-        self.time, self._fields, self._evaluators = time, fields or {}, frozenset(evaluators)
+        self.time = time
+        self._fields = fields or {}
+        self._evaluators = frozenset(evaluators)
         self._writers = self._editors = 0
         self.names: dict[str, int] = {}
         """Of all trips that the mission has had in this round; with how many wanted each."""
@@ -145,7 +147,8 @@ class Keeper:
 
     def written(self, of: Kept, name: str, value: object) -> object:
         """Return a value, as it is kept, that a hook writes; raise if it may not, or not that."""
-        what, field = f"{of._called}.{name}", self._fields.get((type(of), name))
+        what = f"{of._called}.{name}"
+        field = self._fields.get((type(of), name))
         if field is not None:
             if not self._writers:
                 who = "a modifier, an evaluator or an action of its mission"

@@ -105,7 +105,8 @@ class Motion:
 def varied(motion: Motion, seed: int) -> Motion:
     """Return how all drones move in the flight of a seed: not in two at quite the same pace."""
     pace, rises = (_within(chance := Random(f"{seed}/motion")), _within(chance))
-    slower, later = 1.0 + motion.spread * pace, 1.0 + _TAKE_OFFS * motion.spread * rises
+    slower = 1.0 + motion.spread * pace
+    later = 1.0 + _TAKE_OFFS * motion.spread * rises
     return replace(motion, pace=motion.pace * slower, take_off=motion.take_off * max(0.0, later))
 
 

@@ -15,7 +15,8 @@ from .text import MOST_DIGITS
 
 T = TypeVar("T")
 
-MOST_BITS, _FLOAT_BITS = int(MOST_DIGITS / log10(2)), 1_000
+MOST_BITS = int(MOST_DIGITS / log10(2))
+_FLOAT_BITS = 1_000
 """Of a whole number; a longer one is none. And of one that a float holds."""
 
 _LARGEST = 1e12  # of a field, a coordinate, a time

@@ -141,7 +141,9 @@ class Fleet:
 
     def _settle_here(self, drone: Drone) -> bool:
         """Make a healthy drone FREE, CHARGING or, if retired, OFFLINE; return False: it must go home for that."""
-        reserve, level, retired = drone.category.reserve, drone.battery_level, drone in self.retired
+        reserve = drone.category.reserve
+        level = drone.battery_level
+        retired = drone in self.retired
         if self._is_docked(drone) and drone.status in _UNDER_WAY and level < reserve - 0.005:
             self._trace.note("drone.drained", drone=drone.id, level=level)
         if level > reserve and not retired:

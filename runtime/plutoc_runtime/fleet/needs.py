@@ -29,7 +29,9 @@ class Request(Future["Drone"]):
     ) -> None:
         self.is_set = False
         self.error = self.waiter = self._value = self._watchers = None
-        self.mission, self.trips, self.since = mission, trips_of(mission), 0.0
+        self.mission = mission
+        self.trips = trips_of(mission)
+        self.since = 0.0
         self.trip = trip = self.trips[0]
         # the rank: its priority, and minus the number of its arrival; the highest is served first
         self.policy, self.rank = policy, rank

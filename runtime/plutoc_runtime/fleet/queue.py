@@ -57,7 +57,8 @@ class Queue:
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
         self._arrivals = number = self._arrivals - 1
-        rank, waiting = (priority, number), self.requests
+        rank = (priority, number)
+        waiting = self.requests
         request = Request(self._reach, mission, policy, rank)
         if waiting and waiting[0].rank > rank:  # most that enter
             waiting.insert(0, request)

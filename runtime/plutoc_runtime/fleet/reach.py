@@ -216,7 +216,7 @@ def idle_actions(app: App, fleet: FleetData) -> list[str]:
 
 
 def reckoned(app: App, missions: Sequence[Mission[Any]]) -> list[str]:
-    """Return a sentence for each action of these missions of which nobody says how long it takes."""
+    """Return a sentence for each action of these missions whose duration is not declared."""
     used = {trip.action for mission in missions for trip in mission.trips}
     return [
         f"{action.name} is reckoned with {action.seconds:g} s: `takes` in the app says how long it takes"

@@ -92,7 +92,8 @@ class KnownState:
     __slots__ = ("_charge", "_clock", "_landed", "_legs", "_motion")
 
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
-        self._clock, self._motion = clock, motion
+        self._clock = clock
+        self._motion = motion
         self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
         self._landed = True
 

@@ -27,7 +27,8 @@ return at once or sleep."""
 
 async def ask(run: Run[Any], hook: Hook, *args: object, edits: bool = False) -> object:
     """Call one of the app's hooks, which `edits` trips; its faults end the mission."""
-    state, keeper = run.state, kept_by(run.mission)
+    state = run.state
+    keeper = kept_by(run.mission)
     state.calls += 1
     if state.calls > MOST_CALLS:
         raise MissionFailed(
@@ -67,8 +68,11 @@ def undo(mission: Mission[Any]) -> None:
 
 def take_over(state: MissionState, hook: Hook) -> None:
     """Take over what a hook has changed of its mission; raise its fault if that cannot be flown."""
-    core, mission = state.core, state.mission
-    keeper, trips, before = kept_by(mission), mission.trips, trips_of(mission)
+    core = state.core
+    mission = state.mission
+    keeper = kept_by(mission)
+    trips = mission.trips
+    before = trips_of(mission)
     if not keeper.before and len(trips) == len(before) and all(map(is_, trips, before)):
         return
     if (wrong := _wrong_trips(state, keeper)) is not None:
@@ -84,11 +88,14 @@ def take_over(state: MissionState, hook: Hook) -> None:
 
 def _wrong_trips(state: MissionState, keeper: Keeper) -> str | None:
     """Return what a hook did to the trips so that they cannot be flown, or None."""
-    mission, flying, app = state.mission, state.in_flight, state.core.app
+    mission = state.mission
+    flying = state.in_flight
+    app = state.core.app
     trips: list[Trip] = [*mission.trips]
     if flying is not None and (not trips or trips[0] is not flying.trip):
         return f"took trip {flying.trip.name}, which is flying, from its place"
-    written, seen = {of for of, _ in keeper.before}, set[int]()
+    written = {of for of, _ in keeper.before}
+    seen = set[int]()
     for trip in trips:
         problem = None
         if type(trip) is not app.trip:
@@ -113,7 +120,9 @@ _TO_DO = (TripStatus.WAITING, TripStatus.FAILED)
 
 def _note_change(core: Core, mission: Mission[Any], changed: set[Any]) -> None:
     """Make an event of what has changed: of the trips to do the part from the first to the last that has."""
-    app, old, new = core.app, trips_of(mission), mission.trips
+    app = core.app
+    old = trips_of(mission)
+    new = mission.trips
     least = min(len(old), len(new))
     first = last = 0
     while first < least and old[first] is new[first] and old[first] not in changed:

@@ -64,7 +64,8 @@ class Control:
     def _change_trips(self, request: Request) -> str:
         """Replace all that a mission has to do behind its first trip, which may be flying."""
         state = self._state(request)
-        core, trips = self._core, trips_of(state.mission)
+        core = self._core
+        trips = trips_of(state.mission)
         if state.task is None or not trips:
             raise BadInput(f"mission {request['mission']} has no trip before these in its graph")
         new = [trip_of(core.app, one, place) for place, one in enumerate(request["trips"], 1)]

@@ -29,7 +29,8 @@ class Engine:
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
         self.core, self.states = core, states
-        app, kinds = core.app, {Entity.MISSION: core.app.mission, Entity.TRIP: core.app.trip}
+        app = core.app
+        kinds = {Entity.MISSION: core.app.mission, Entity.TRIP: core.app.trip}
         self._fields = {(kinds[field.on], field.name): field for field in app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs

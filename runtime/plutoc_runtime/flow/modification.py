@@ -66,7 +66,8 @@ def undeclared(
 
 def _contradiction(state: MissionState, status: Status) -> str | None:
     """Return why the mission cannot have this status, or None."""
-    mission, trips = state.mission, trips_of(state.mission)
+    mission = state.mission
+    trips = trips_of(state.mission)
     flying = state.in_flight
     if status is Status.RUNNING:
         return None if flying else "no trip is in flight"

@@ -88,8 +88,11 @@ class OwnAction(Action):
 
         For as long as plans reckon with, half of the reserve will do: it is there for chance and traffic.
         """
-        kernel, drone, key = state.core.kernel, flight.flier, mission_key(state.mission.index)
-        category, space = drone.category, state.core.airspace
+        kernel = state.core.kernel
+        drone = flight.flier
+        key = mission_key(state.mission.index)
+        category = drone.category
+        space = state.core.airspace
         until = kernel.now + self.lasts(flight.trip.parameters)
         way = needed(category, space, drone.location, (), drone.home)
         if way is None:

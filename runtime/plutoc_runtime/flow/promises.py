@@ -134,14 +134,18 @@ def kept_from(
     A window that is open now has opened, though that was earlier; what is due at this hour is so tomorrow. `drift`
     is by how much the clock of the hours is ahead of the app's own time.
     """
-    found, said, day = {**promises}, dict[str, str](), None
+    found = {**promises}
+    said = dict[str, str]()
+    day = None
     for name in ("deadline", "opens"):
         moment = promises.get(name)
         if not isinstance(moment, str):
             if moment is not None:
                 found[name] = now + moment
             continue
-        said[name], hour, clock = moment, time_of_day(moment), now + drift
+        said[name] = moment
+        hour = time_of_day(moment)
+        clock = now + drift
         if name == "deadline":
             clock = nextafter(clock, inf)
         if day is not None:  # of a window that closes on that day

@@ -70,7 +70,8 @@ class Recording:
                     "fields": fields_of(self._app, Entity.TRIP, current_of(self._mission(event)))
                 }
             case "mission.extended":
-                names, trips = cast("list[str]", event["add"]), trips_of(self._mission(event))
+                names = cast("list[str]", event["add"])
+                trips = trips_of(self._mission(event))
                 return {
                     "trips": [trip_data(self._app, trip) for trip in trips if trip.name in names]
                 }

@@ -61,7 +61,8 @@ class Hours:
 
     def __init__(self, began: float = 0.0, zone: str = "UTC") -> None:
         """`began`: when the app started, in seconds since 1970; raise `ValueError` for an unknown zone."""
-        self.began, self._zone = began, zone_of(zone)
+        self.began = began
+        self._zone = zone_of(zone)
 
     def shown(self, moment: float) -> datetime:
         """Return what clocks show at a moment."""
@@ -74,7 +75,8 @@ class Hours:
 
     def said(self, moment: float, now: float = 0.0) -> str:
         """Return when a moment is for people: its hour and zone, and its date if that is another than now's."""
-        then, today = self.shown(round(self.began + moment) - self.began), self.shown(now).date()
+        then = self.shown(round(self.began + moment) - self.began)
+        today = self.shown(now).date()
         clock = f"{then:%H:%M:%S}".removesuffix(":00")
         if not self.start:
             days = (then.date() - today).days
@@ -85,7 +87,8 @@ class Hours:
         """Return when it is an hour, in seconds after midnight, on a day."""
         first, second = self._both(day, hour)
         if first > second:  # clocks jump over it, somewhere between these two
-            after, span = self._ahead(first), range(floor(second), ceil(first) + 1)
+            after = self._ahead(first)
+            span = range(floor(second), ceil(first) + 1)
             first = float(span[bisect_left(span, True, key=lambda t: self._ahead(t) == after)])
         return first - self.began
 

@@ -46,7 +46,9 @@ def allocate_drone(
     if status is FAILED:
         core.transitions.put_back(mission)
         status = STANDBY
-    trip, drone, why = trips[0], state.allocated, "allocated before"
+    trip = trips[0]
+    drone = state.allocated
+    why = "allocated before"
     if drone is None:
         drone, why = state.carrier, "carries the mission's item"
     if drone is None:
@@ -72,7 +74,8 @@ def allocate_drone(
 
 async def _in_time(run: Run[Any], request: Request, within: float | None) -> None:
     """Wait until the mission is late, but not longer than any mission waits here."""
-    kernel, mission = run.core.kernel, run.mission
+    kernel = run.core.kernel
+    mission = run.mission
     if within is not None and kernel.now + within < _due(mission):
         await _no_longer_than(run, request, within)
     elif not await kernel.before(request, partial(_due, mission), EventKind.ALLOCATE, run.key):

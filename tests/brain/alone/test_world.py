@@ -69,7 +69,8 @@ def test_a_photo_sees_exactly_its_footprint(x: float, y: float, z: float, seed: 
     world = World(seed, MAP)
     photo = world.photo((x, y, z), 1.5)
     left, bottom = photo.position[0] - photo.width / 2, photo.position[1] - photo.height / 2
-    right, top = left + photo.width, bottom + photo.height
+    right = left + photo.width
+    top = bottom + photo.height
     for feature in world.features:  # sums of floats do not say what lies exactly on an edge
         assume(min(abs(feature.at[0] - left), abs(feature.at[0] - right)) > 1e-9)
         assume(min(abs(feature.at[1] - bottom), abs(feature.at[1] - top)) > 1e-9)

@@ -17,7 +17,8 @@ class Scalar:
     """A scalar of a library that nobody here knows."""
 
     def __init__(self, value: object, shape: tuple[int, ...] = ()) -> None:
-        self.value, self.shape = value, shape
+        self.value = value
+        self.shape = shape
 
     def item(self) -> object:
         return self.value

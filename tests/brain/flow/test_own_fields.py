@@ -211,7 +211,9 @@ def test_another_librarys_values_are_plain_from_then_on(wards: apps.Loaded) -> N
     """In results, fields and parameters: what is kept of them is what was given."""
 
     def spray(drone: Any, trip: Any, context: Any, *, dose: float) -> object:
-        trip.gentle, trip.layers, trip.note = np.False_, np.int64(7), np.str_("hm")
+        trip.gentle = np.False_
+        trip.layers = np.int64(7)
+        trip.note = np.str_("hm")
         return np.bool_(True)
 
     given: Any = wards.app.given

@@ -122,7 +122,8 @@ def test_a_clock_that_moves_does_not_move_an_hour(
 
 def test_the_drift_of_a_clock_is_what_it_was_set_by(monkeypatch: pytest.MonkeyPatch) -> None:
     loop = JumpingLoop()
-    ahead, seen = [0.0], list[object]()
+    ahead = [0.0]
+    seen = list[object]()
     monkeypatch.setattr(wall_clock, "now", lambda: 1_000.0 + loop.now + ahead[0])
 
     async def look() -> None:

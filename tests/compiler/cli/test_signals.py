@@ -14,7 +14,9 @@ pytestmark = [
     pytest.mark.skipif(os.name != "posix", reason="Windows has no such signals"),
     pytest.mark.process,
 ]
-HUP, INT, TERM = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
+HUP = signal.SIGHUP
+INT = signal.SIGINT
+TERM = signal.SIGTERM
 HELLO = (
     '{"jsonrpc": "2.0", "id": 1, "method": "initialize",'
     ' "params": {"processId": null, "rootUri": null, "capabilities": {}}}'

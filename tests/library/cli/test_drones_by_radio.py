@@ -55,7 +55,8 @@ def test_all_dongles_are_scanned_and_each_drone_is_found_once(
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setattr(radio, "_NO_ANSWER", 0.0)
-    build, record = Build(id="cf1", home=(1.0, 1.0, 0.0), seed=1), MemoryLog()
+    build = Build(id="cf1", home=(1.0, 1.0, 0.0), seed=1)
+    record = MemoryLog()
     other = Build(id="cf2", home=(2.0, 1.0, 0.0), seed=2)
     ethers = [Ether([build], record), Ether([build, other], record)]
     words = ["drones", "--address", "E7E7E7E701", "--address", "E7E7E7E702"]

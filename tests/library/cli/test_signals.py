@@ -13,7 +13,9 @@ from tests.kit.apps import EXAMPLES, compiled_file
 from tests.kit.command import hearing
 
 pytestmark = [pytest.mark.long, pytest.mark.process]
-HUP, INT, TERM = signal.SIGHUP, signal.SIGINT, signal.SIGTERM
+HUP = signal.SIGHUP
+INT = signal.SIGINT
+TERM = signal.SIGTERM
 APP = "pm10"
 FILES = EXAMPLES / APP
 MISSIONS = (str(FILES / "missions.toml"), "--fleet", str(FILES / "fleet.toml"))

@@ -60,7 +60,8 @@ async def test_one_that_has_lost_its_place_lands_in_half_the_time(one: Hangar) -
     await passes(15.0)
     await one.let("fixes", False)
     await one.hears(POSITION_LOST)
-    began, (x, y, _) = the_air().time(), one.position
+    began = the_air().time()
+    x, y, _ = one.position
     await cf.hold()
     await cf.land(0.5)
     assert the_air().time() - began < 6.0  # two of them until it tells that it has landed

@@ -34,7 +34,8 @@ async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -
 async def test_while_the_gateway_is_held_up_a_drone_is_not_silent(tmp_path: Path) -> None:
     """What it told meanwhile is still to be read."""
     async with flying(tmp_path) as flown:
-        drone, vehicle = await flown.up(), flown.team.vehicles["cf1"]
+        drone = await flown.up()
+        vehicle = flown.team.vehicles["cf1"]
         drone.goes_silent()
         for at in (1.0, 4.0):
             the_loop().call_later(at, the_loop().advance, 2.9)

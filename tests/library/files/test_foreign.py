@@ -46,7 +46,8 @@ def test_another_file_is_called_what_it_is(
 ) -> None:
     """As missions and as a fleet, and where the station takes a file in."""
     content = given if isinstance(given, bytes) else given.encode()
-    other, good = tmp_path / "other", tmp_path / "good.toml"
+    other = tmp_path / "other"
+    good = tmp_path / "good.toml"
     other.write_bytes(content)
     good.write_text(MISSIONS, encoding="utf-8")
     for command in (["check", f"{other}"], ["check", f"{good}", "--fleet", f"{other}"]):

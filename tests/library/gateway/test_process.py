@@ -135,7 +135,8 @@ def test_a_gateway_that_lives_passes_its_time_as_the_next_brain_asks(
         where = link.telemetry("cf1").location
         brain.pass_at(speed)
         link = await brain.linked()
-        there, at = link.telemetry("cf1").location, asyncio.get_running_loop().time()
+        there = link.telemetry("cf1").location
+        at = asyncio.get_running_loop().time()
         assert dist(where, there) < 2.0
         await brain.until(lambda: dist(there, link.telemetry("cf1").location) >= 3.0)
         seconds = (asyncio.get_running_loop().time() - at) * speed

@@ -34,7 +34,9 @@ class Reservation:
 
     def __init__(self, drone: str, telemetry: Telemetry, slack: float = 0.0) -> None:
         """`slack`: metres within which a drone counts as being where it was told to be."""
-        self.drone, self.telemetry, self.slack = drone, telemetry, slack
+        self.drone = drone
+        self.telemetry = telemetry
+        self.slack = slack
         self.moves = self.fails = False
         self.points: tuple[Point, ...] = ()
         """Its route; while it hovers, that point alone."""

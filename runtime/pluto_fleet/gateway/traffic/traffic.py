@@ -80,7 +80,8 @@ class Traffic:
         )
         self._space.changed = self._waiting.changed
         self._claims = self._space.claims
-        self.touches_down, self.place = self._space.touches_down, self._space.place
+        self.touches_down = self._space.touches_down
+        self.place = self._space.place
         self.lost, self.found = self._space.lost, self._space.found
         self._free: dict[str, None] = {}
         """The drones that have released space at this instant."""

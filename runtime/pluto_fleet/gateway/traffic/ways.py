@@ -191,7 +191,9 @@ class Ground:
         place: Callable[[str], Point],
     ) -> None:
         """`place` returns where a drone in the air is, by what it was told."""
-        self._drones, self._telemetry, self._place = drones, telemetry, place
+        self._drones = drones
+        self._telemetry = telemetry
+        self._place = place
         self._airspace, self._step = airspace, step
 
     def below(self, drone: str, here: Point) -> Point | None:
@@ -232,7 +234,9 @@ class Ground:
 
     def ways_down(self, drone: str) -> Iterator[Section]:
         """Yield ways to where a drone that hovers can land: straight below first, its dock last, if it may."""
-        here, airspace, step = self._place(drone), self._airspace, self._step
+        here = self._place(drone)
+        airspace = self._airspace
+        step = self._step
         below, (x, y, z) = self.below(drone, here), here
         if below is not None:
             yield Section(drone, (here, below), False, True, aside=True)

@@ -31,7 +31,8 @@ HOW_TO_INSTALL = (
 LARGEST = 1024 * 1024 * 1024
 """Bytes of a file, which is made in memory."""
 
-_SECOND, _LATEST = 1_000_000_000, 2**64 - 1
+_SECOND = 1_000_000_000
+_LATEST = 2**64 - 1
 _LEVELS = {"bad": 4, "info": 2, "good": 2, "hook": 2}
 """Foxglove's levels of a log: 2 is information, 4 an error."""
 
@@ -54,7 +55,9 @@ def mcap_of(past: Past, book: Logbook) -> bytes:
 
 class _Writing:
     def __init__(self, writer: Writer, file: BytesIO, begun_at: int) -> None:
-        self._writer, self._file, self._begin = writer, file, begun_at * 1_000_000
+        self._writer = writer
+        self._file = file
+        self._begin = begun_at * 1_000_000
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._told: dict[str, Mapping[str, Any]] = {}

@@ -17,7 +17,8 @@ BATTERY_STEP, BATTERY_EVERY = 0.01, 60.0
 """A level is kept that differs by so much from the one before, or is so many seconds later."""
 
 
-MOST_HOLES, MOST_LEFT_OUT = 100, 10_000
+MOST_HOLES = 100
+MOST_LEFT_OUT = 10_000
 """A file with more damaged parts, or more lines that say nothing, is no recording."""
 
 

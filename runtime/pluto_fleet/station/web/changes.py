@@ -47,7 +47,8 @@ async def replace_plan(asked: Asked) -> Reply:
 async def import_plan(asked: Asked) -> Reply:
     """Replace the plan's missions by those of a file."""
     query, plan = asked.request.query, asked.station.plan
-    revision, file = asked_number(query, "revision"), _file(query)
+    revision = asked_number(query, "revision")
+    file = _file(query)
 
     async def take() -> None:
         await plan.import_file(decoded(asked.body, file), revision, file)

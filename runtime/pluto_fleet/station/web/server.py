@@ -38,7 +38,8 @@ if TYPE_CHECKING:
 _LARGEST_MESSAGE = 64 * 1024
 _LARGEST_HEAD = 16 * 1024
 """The largest WebSocket message and head of a request, in bytes."""
-BODY_WITHIN, BYTES_A_SECOND = 10.0, 512 * 1024
+BODY_WITHIN = 10.0
+BYTES_A_SECOND = 512 * 1024
 """The time-out of a body in seconds, and the rate that lengthens it for large ones."""
 _FIELDS = 16
 _LONGEST_REASON = 120

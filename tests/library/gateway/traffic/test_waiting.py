@@ -66,7 +66,8 @@ def test_a_few_centimetres_change_no_way() -> None:
     )
     assert sky.until(sky.gives("cf3", (5, 5, 2.3)), 60)
     assert sky.until(sky.gives("cf2", (5, 5, 1.6)), 60)
-    took, heights = [], []
+    took = []
+    heights = []
     for x in (2, 8) * 6:
         began = sky.kernel.now
         assert sky.until(sky.gives("cf1", (x, 5, 1.6)), 120)
