@@ -14,7 +14,14 @@ from ..shared.domain.model import AfterTrip
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import duration, quoted
 from ..shared.domain.values import shown
-from ..shared.fleet.reach import Lacks, Miss, chain_of, flight_seconds, miss_of, stops_of
+from ..shared.fleet.reach import (
+    Lacks,
+    Miss,
+    chain_of,
+    flight_seconds,
+    miss_of,
+    stops_of,
+)
 
 if TYPE_CHECKING:
     from ..app import App
