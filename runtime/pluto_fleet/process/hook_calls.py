@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Coroutine, Generator
 from contextlib import suppress
+from contextvars import copy_context
 from functools import lru_cache, partial
 from inspect import CO_COROUTINE, iscoroutinefunction
 from opcode import opmap
@@ -75,7 +76,8 @@ async def _in_thread(call: Callable[[], object]) -> object:
         else:
             tell(lambda: returned)
 
-    Thread(target=work, name="hook", daemon=True).start()
+    context = copy_context()  # a thread begins with an empty one
+    Thread(target=context.run, args=(work,), name="hook", daemon=True).start()
     return (await ended)()
 
 

@@ -14,7 +14,7 @@ from typing import Any, Generic, NamedTuple, ParamSpec, TypeVar, cast, overload
 from ..domain.actions import Plain
 from ..domain.app import App
 from ..domain.errors import Failure, FlightFailed
-from ..domain.keeper import Keeper, Kept, hand_to, put
+from ..domain.keeper import Keeper, Kept, hand_to, put, reading
 from ..domain.model import Drone, Mission, Point, ResultStore, Trip, put_back
 from ..domain.status import RUNNING, Status, TripStatus
 from ..domain.trace import Trace
@@ -268,7 +268,7 @@ class AppKit(Generic[M, T, Given]):
 
         for context in contexts:
             context.lend(mission, lambda: self._flights.get(mission), drone)
-        call = call_hook(self.clock.kernel, hook, *given, **named)
+        call = call_hook(self.clock.kernel, reading(), hook, *given, **named)
         task = self.clock.kernel.spawn(call, FLEET, hook_name(hook))
         task.over = over
         self.clock.advance(0.0)

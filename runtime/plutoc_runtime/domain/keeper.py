@@ -1,13 +1,15 @@
 """What hooks may write, decided where they write it; names, statuses and counts are the runtime's.
 
-A mission and its trips have one keeper. It knows what the hooks that run now may write, and what was
-there before: what a hook has written is taken over as a whole, or not at all (flow/asking.py).
+A mission and its trips have one keeper. A hook runs in a context of its own, from which the keeper
+knows whether it is one of the mission's. What a hook has written is taken over as a whole, or not at
+all (flow/asking.py).
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import Context, ContextVar, copy_context
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
@@ -98,19 +100,31 @@ class Kept:
         return ""
 
 
+class Writer:
+    """A hook that runs, as the keeper of what it may write knows it."""
+
+    __slots__ = ("edits", "of")
+
+    def __init__(self, of: Keeper, edits: bool) -> None:
+        self.of: Keeper | None = of  # None: it has ended, and nobody may write in its name
+        self.edits = edits
+
+
+_writer: ContextVar[Writer | None] = ContextVar("writer", default=None)
+"""The hook that runs in this context."""
+
+
+def reading() -> Context:
+    """Return a context for a hook that may write nothing."""
+    context = copy_context()
+    context.run(_writer.set, None)
+    return context
+
+
 class Keeper:
     """What hooks may write of one mission and its trips."""
 
-    __slots__ = (
-        "_editors",
-        "_evaluators",
-        "_fields",
-        "_writers",
-        "before",
-        "changed",
-        "names",
-        "time",
-    )
+    __slots__ = ("_evaluators", "_fields", "before", "changed", "names", "time")
 
     def __init__(
         self,
@@ -118,11 +132,10 @@ class Keeper:
         fields: FieldsOf | None = None,
         evaluators: Iterable[str] = (),
     ) -> None:
-        """`time` is the clock of the app; nothing is written before it is `opened`."""
+        """`time` is the clock of the app; only what runs in a context of `opened` writes."""
         self.time = time
         self._fields = fields or {}
         self._evaluators = frozenset(evaluators)
-        self._writers = self._editors = 0
         self.names: dict[str, int] = {}
         """Of all trips that the mission has had in this round; with how many wanted each."""
         self.before: dict[tuple[Any, str], object] = {}
@@ -130,19 +143,20 @@ class Keeper:
         self.changed = False  # whether a hook has ever changed the mission
 
     @contextmanager
-    def opened(self, *, edits: bool = False) -> Iterator[None]:
-        """Let a hook write fields of the app, and if it `edits`, trips."""
-        self._writers += 1
-        self._editors += edits
+    def opened(self, *, edits: bool = False) -> Iterator[Context]:
+        """Give a context in which a hook may write fields of the app, and if it `edits`, trips."""
+        writer = Writer(self, edits)
+        context = copy_context()
+        context.run(_writer.set, writer)
         try:
-            yield
+            yield context
         finally:
-            self._writers -= 1
-            self._editors -= edits
+            writer.of = None
 
     def must_edit(self, what: str) -> None:
-        """Raise `AttributeError` unless a modifier of the mission runs."""
-        if not self._editors:
+        """Raise `AttributeError` unless it is a modifier of the mission that writes."""
+        writer = _writer.get()
+        if writer is None or writer.of is not self or not writer.edits:
             raise AttributeError(f"{what}: that is for a modifier, while it runs{_ELSE}")
 
     def written(self, of: Kept, name: str, value: object) -> object:
@@ -150,7 +164,8 @@ class Keeper:
         what = f"{of._called}.{name}"
         field = self._fields.get((type(of), name))
         if field is not None:
-            if not self._writers:
+            writer = _writer.get()
+            if writer is None or writer.of is not self:
                 who = "a modifier, an evaluator or an action of its mission"
                 raise AttributeError(f"{what} cannot be set here: that is for {who}, while it runs")
             if wanted := field.wanted(value, self._evaluators):

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
 from ..domain.guard import unless_by_a_person
+from ..domain.keeper import reading
 from ..domain.model import Drone, Mission, Trip
 from ..domain.plain import number_of
 from ..domain.text import class_of, quoted, said
@@ -127,7 +128,7 @@ class _Asked:
         queue = self._queue
         question = partial(hook, tuple(self.waiting), self._free, queue.kernel.now)
         try:
-            after, pairs = all_awaited(partial(self._answer, question))
+            after, pairs = reading().run(all_awaited, partial(self._answer, question))
         except HookFault:
             raise
         except BaseException as error:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
 from ..domain.guard import unless_by_a_person
+from ..domain.keeper import reading
 from ..domain.model import Drone
 from ..domain.text import class_of, said
 from ..hooks.calls import hook_name, trace_of
@@ -33,7 +34,7 @@ def _trip_by_trip(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneBy
             return None
         name = hook_name(hook)
         try:
-            drone = all_awaited(partial(hook, trip, candidates))
+            drone = reading().run(all_awaited, partial(hook, trip, candidates))
         except BaseException as error:
             unless_by_a_person(error)
             raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error

@@ -36,8 +36,8 @@ async def ask(run: Run[Any], hook: Hook, *args: object, edits: bool = False) -> 
             f"since its last launch, and now {hook_name(hook)} again"
         )
     try:
-        with keeper.opened(edits=edits):
-            answer = await call_hook(run.core.kernel, hook, *args)
+        with keeper.opened(edits=edits) as context:
+            answer = await call_hook(run.core.kernel, context, hook, *args)
     except Cancelled:  # another branch was faster, and what it has changed by now counts
         try:
             take_over(state, hook)

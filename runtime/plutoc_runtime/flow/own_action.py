@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from ..domain.actions import Action
 from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.guard import NOT_ITS_OWN
+from ..domain.keeper import reading
 from ..domain.plain import as_a
 from ..domain.text import LONGEST_REASON, bounded, text_of
 from ..fleet.reach import needed
@@ -120,7 +121,7 @@ class OwnAction(Action):
         answer: object = None
         try:
             if probe is not None:
-                answer = await call_hook(core.kernel, probe, flight.flier, flight.trip)
+                answer = await call_hook(core.kernel, reading(), probe, flight.flier, flight.trip)
         except NOT_ITS_OWN:
             raise
         except ANY_ERROR as error:  # it cannot tell: a person must
@@ -131,8 +132,8 @@ class OwnAction(Action):
 async def _call(state: MissionState, hook: Hook, /, *args: object, **named: object) -> object:
     """Call an action; all that it raises, `ActionFailed` aside, is a fault of the hook."""
     try:
-        with kept_by(state.mission).opened():
-            return await call_hook(state.core.kernel, hook, *args, **named)
+        with kept_by(state.mission).opened() as context:
+            return await call_hook(state.core.kernel, context, hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
     except ANY_ERROR as error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Generator
+from contextvars import Context
 from functools import partial
 from types import CoroutineType, coroutine
 from typing import TYPE_CHECKING, Any, TypeVar, cast
@@ -22,13 +23,16 @@ T = TypeVar("T")
 Hook = Callable[..., object]
 
 
-async def call_hook(kernel: ToldTime, hook: Hook, /, *args: object, **named: object) -> object:
-    """Call one of the app's hooks, `def` or `async def`, and return its result."""
-    runner, call = kernel.runner, partial(hook, *args, **named)
+async def call_hook(
+    kernel: ToldTime, context: Context, hook: Hook, /, *args: object, **named: object
+) -> object:
+    """Call one of the app's hooks in a context, `def` or `async def`, and return its result."""
+    runner = kernel.runner
+    call = partial(hook, *args, **named)
     if runner is None:
-        return await _finished(all_awaited(call))
+        return await _finished(context, context.run(all_awaited, call))
     kernel.calls = number = kernel.calls + 1
-    if not runner.start(number, hook, call):
+    if not context.run(runner.start, number, hook, call):
         ended = kernel.hooks[number] = Future[None]()
         try:
             await ended
@@ -36,7 +40,7 @@ async def call_hook(kernel: ToldTime, hook: Hook, /, *args: object, **named: obj
             del kernel.hooks[number]
             if not ended.is_set:
                 runner.cancel(number)
-    return await _finished(guarded(partial(runner.result, number)))
+    return await _finished(context, context.run(guarded, partial(runner.result, number)))
 
 
 async def offer(kernel: ToldTime, future: Future[T]) -> T:
@@ -48,13 +52,13 @@ async def offer(kernel: ToldTime, future: Future[T]) -> T:
     return future.result()
 
 
-async def _finished(result: object) -> object:
+async def _finished(context: Context, result: object) -> object:
     """Return what a hook has returned; a coroutine is run to its end."""
     if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
         return result
     waiting = cast("Coroutine[Any, Any, object]", result)
     try:
-        return await _run_cancellable(waiting)
+        return await _run_cancellable(context, waiting)
     except RuntimeError as error:
         if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
             raise RuntimeError(
@@ -65,17 +69,17 @@ async def _finished(result: object) -> object:
 
 
 @coroutine
-def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
+def _run_cancellable(context: Context, hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
     """Run a hook inside this coroutine; a cancelled one cannot catch that and run on."""
     step: Callable[[], object] = partial(hook.send, None)
     while True:
         try:
-            waits_for = all_awaited(step)
+            waits_for = context.run(all_awaited, step)
         except StopIteration as end:
             returned: T = end.value
             return returned
         except BaseException:
-            guarded(hook.close)  # it may wait: what it does not await is told at once
+            context.run(guarded, hook.close)  # it may wait: what it does not await is told at once
             raise
         try:
             yield waits_for
@@ -85,7 +89,7 @@ def _run_cancellable(hook: Coroutine[Any, Any, T]) -> Generator[Any, Any, T]:
         except BaseException as error:
             for call in (partial(hook.throw, error), hook.close):
                 try:
-                    call()
+                    context.run(call)
                 except ANY_ERROR as its_own:  # its result is not wanted any more
                     if by_a_person(its_own):
                         raise

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import threading
 from collections.abc import Callable
+from contextvars import copy_context
+from threading import Timer
 from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.domain.model import AfterTrip, Item
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.model import AfterTrip, Category, Item
 from pluto_fleet.shared.domain.status import Status, TripStatus
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Verdict
 from pluto_fleet.shared.hooks.soundness import MOST_TRIPS
-from tests.kit import apps
+from tests.kit import apps, in_real_time
 from tests.kit.living import Living, enterable
 
 Write = Callable[[Any], object]
@@ -285,3 +290,84 @@ def test_an_error_of_ours_in_a_mission_that_hooks_have_changed_ends_that_mission
         f"by a bug of Pluto, or of a hook that has changed the mission: KeyError: {name!r}"
         for name in ("one", "two")
     ]
+
+
+def test_a_hook_writes_nothing_of_a_mission_whose_own_hook_waits() -> None:
+    ended = apps.flown(*two_missions(), prepare=waits_and_writes()).missions
+    assert [mission.status for mission in ended] == [Status.COMPLETED, Status.FAILED]
+    assert "mission.trips cannot be changed here" in ended[1].reason
+    assert [trip.name for trip in ended[0].completed_trips] == ["A", "B"]
+
+
+def two_missions() -> list[apps.Mission]:
+    """Return one whose modifier waits and writes its own, and one whose modifier writes the other's."""
+    pairs = [apps.trip("A", 3.0), apps.trip("B", 3.0)], [apps.trip("A", 2.0)]
+    return [apps.mission(name, *trips) for name, trips in zip(("one", "two"), pairs, strict=True)]
+
+
+def waits_and_writes() -> Callable[..., Any]:
+    """Return their modifier."""
+    first: list[Any] = []
+
+    async def modifier(mission: Any, context: Any) -> None:
+        if mission.name == "one":
+            first.append(mission)
+            await context.sleep(2.0)
+            mission.trips[-1].target = (2.0, 2.0)
+        else:
+            await context.sleep(1.0)
+            first[0].trips.clear()
+
+    return modifier
+
+
+@pytest.mark.parametrize("how", ["in its task", "in a task of its own", "in a thread"])
+def test_in_real_time_a_hook_writes_wherever_it_runs_and_no_more_when_it_has_ended(
+    how: str,
+) -> None:
+    late: list[str] = []
+    written = threading.Event()
+
+    def write(mission: Any) -> None:
+        mission.trips[-1].target = (1.5, 1.5, 0.003)
+
+    def write_late(mission: Any) -> None:
+        with pytest.raises(AttributeError) as refused:
+            write(mission)
+        late.append(str(refused.value))
+        written.set()
+
+    async def writes(mission: Any) -> None:
+        await asyncio.sleep(0)
+        write(mission)
+
+    async def task(mission: Any, context: Any) -> None:
+        await writes(mission)
+        asyncio.get_running_loop().call_later(0.01, write_late, mission)
+
+    async def own_task(mission: Any, context: Any) -> None:
+        await asyncio.create_task(writes(mission))
+        asyncio.get_running_loop().call_later(0.01, write_late, mission)
+
+    def thread(mission: Any, context: Any) -> None:
+        write(mission)
+        inside = copy_context()
+        Timer(0.01, inside.run, [write_late, mission]).start()
+
+    async def long(drone: Any, trip: Any, context: Any) -> None:
+        while not written.is_set():
+            await asyncio.sleep(0.01)
+
+    hook = {"in its task": task, "in a task of its own": own_task, "in a thread": thread}[how]
+    tested = apps.app(
+        apps.flow(prepare=hook),
+        categories=[Category(name="scout", speed=200.0)],
+        actions=[OwnAction(name="act", hook=long, takes=0.01)],
+    )
+    fleet = apps.fleet(airspace=Airspace(cruise_height=0.003))
+    mission = apps.mission(
+        "m", apps.Trip(name="A", action="act", target=(0.5, 0.5, 0.003)), index=0
+    )
+    in_real_time.fly(tested, [mission], fleet, id)
+    assert (mission.reason, mission.completed_trips[0].target) == ("", (1.5, 1.5, 0.003))
+    assert late[0].startswith("trip.target cannot be set")

@@ -8,6 +8,7 @@ from functools import partial
 import pytest
 
 from pluto_fleet.shared.domain.errors import Cancelled
+from pluto_fleet.shared.domain.keeper import reading
 from pluto_fleet.shared.hooks.calls import call_hook
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import EventKind
@@ -135,7 +136,7 @@ def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() 
 
     for hook in (sleeps, yields):
         kernel = VirtualTime()
-        task = kernel.spawn(call_hook(kernel, hook), 0, "hook")
+        task = kernel.spawn(call_hook(kernel, reading(), hook), 0, "hook")
         task.watch(lambda _: None)
         kernel.run(task)
         with pytest.raises(RuntimeError, match=r"only what its context offers"):
