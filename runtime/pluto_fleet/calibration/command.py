@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .commands import Flights
 
 _ABOUT = """Finds how drones really move, from the journals of their flights: their pace, what they take beside
-their ways, how much that varies, and their batteries."""
+their ways, how much that varies, and their batteries; and how long actions of an app's own took."""
 
 NOTHING_FOUND, BAD_INPUT = 1, 2
 

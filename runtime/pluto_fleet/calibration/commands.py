@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import FLEW
-from ..journal import errors
-from ..journal.facts import Event, check
+from ..journal.facts import BEGUN, check
+from ..journal.fold import Records, taken
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import bounded, quoted
+from .acted import Acted, Acting
 
 if TYPE_CHECKING:
-    from ..journal.database import Row
     from ..shared.domain.model import Point
 
 
@@ -63,6 +63,13 @@ class Flights:
     """The text of its fleet file; None: it was flown with the default fleet."""
     runs: Sequence[Sequence[Command]] = field(repr=False)
     """The commands of each run of the app: between two, no one has watched the drones."""
+    app: str = ""
+    begun: float = 0.0
+    """When, in seconds since 1970."""
+    takes: Mapping[str, Mapping[str, Any]] = field(default_factory=dict, repr=False)
+    """What plans count with for each action of the app's own, as in the journal's header."""
+    acted: Sequence[Acted] = field(default=(), repr=False)
+    """The actions of the app's own that were done."""
 
     @property
     def commands(self) -> Iterator[Command]:
@@ -74,25 +81,32 @@ class Flights:
 def read_flights(path: Path) -> Flights:
     """Read a journal; raise `BadInput` if it is none, is damaged, or tells no commands."""
     runs: list[list[Command]] = [[]]
+    begun = 0.0
     with closing(Reader(path)) as reader:
-        for row in reader.rows():
-            for event in _events(path, row):
-                if event["event"] == FLEW:
-                    runs[-1].append(_command(path, row.seq, event))
-                elif event["event"] == "brain.began":
-                    runs.append([])
+        header = reader.header
+        takes = header.get("takes", {})
+        acting = Acting(takes)
+        for row, event in taken(path, reader.more(), Records()):
+            acting.hear(event)
+            if event["event"] == BEGUN:
+                begun = row.wall
+            elif event["event"] == FLEW:
+                runs[-1].append(_command(path, row.seq, event))
+            elif event["event"] == "brain.began":
+                runs.append([])
         if reader.damaged is not None:
             raise BadInput(reader.damaged)
     if not any(runs):
         raise BadInput(f"{path}: {_NONE}")
-    return Flights(path=path, fleet=reader.header.get("fleet"), runs=[run for run in runs if run])
-
-
-def _events(path: Path, row: Row) -> Sequence[Event]:
-    try:
-        return row.events
-    except ValueError as error:
-        raise errors.strange(path, errors.unfit(row.seq, error)) from None
+    return Flights(
+        path=path,
+        fleet=header.get("fleet"),
+        runs=[run for run in runs if run],
+        app=header.get("app", ""),
+        begun=begun,
+        takes=takes,
+        acted=acting.acted,
+    )
 
 
 def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:

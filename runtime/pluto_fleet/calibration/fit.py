@@ -9,6 +9,7 @@ from ..jobs.flown import ACTION, BROKEN_OFF, DONE
 from .battery import find_battery
 from .durations import find_actions, find_durations
 from .found import Calibration
+from .own_actions import find_own_actions
 
 if TYPE_CHECKING:
     from ..shared.domain.motion import Motion
@@ -27,5 +28,6 @@ def calibrated(journals: Sequence[Flights], model: Motion) -> Calibration:
     find_actions(what, [one for one in done if one.what == ACTION])
     runs = [run for journal in journals for run in journal.runs]
     find_battery(what, runs)
+    find_own_actions(what, journals)
     what.bound()
     return what

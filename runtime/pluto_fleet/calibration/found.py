@@ -37,6 +37,24 @@ class Found:
         return max(self.estimate.value, 0.0)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ActionTime:
+    """An action of an app's own, and how long it took on average, in seconds."""
+
+    app: str
+    name: str
+    seconds: float
+    low: float
+    high: float
+    """Its interval."""
+    count: int
+    """In how many trips it was done."""
+    planned: float
+    """What plans count with, on average of the same trips."""
+    parameter: str | None
+    """The parameter of a trip that says so; None: it is the same in all."""
+
+
 @dataclass(slots=True, kw_only=True)
 class Calibration:
     """What journals tell of a fleet."""
@@ -47,6 +65,8 @@ class Calibration:
     """By the keys of `[motion]`, and `charge`: the share of `charge_time` that a charge takes."""
     untold: dict[str, str] = field(default_factory=dict)
     """What could not be told, and why."""
+    own: list[ActionTime] = field(default_factory=list)
+    """The apps' own actions that were done often enough."""
     notes: list[str] = field(default_factory=list)
     """What does not fit into `[motion]`."""
     commands: int = 0

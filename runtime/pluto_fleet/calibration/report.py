@@ -129,5 +129,17 @@ def as_data(what: Calibration, journals: Sequence[Flights]) -> dict[str, Any]:
             if (found := what.found.get(name)) is not None
         },
         "untold": what.untold,
+        "own_actions": [
+            {
+                "app": own.app,
+                "name": own.name,
+                "seconds": own.seconds,
+                "interval": [own.low, own.high],
+                "count": own.count,
+                "planned": own.planned,
+                "parameter": own.parameter,
+            }
+            for own in what.own
+        ],
         "notes": what.notes,
     }

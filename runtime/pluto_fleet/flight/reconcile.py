@@ -84,7 +84,7 @@ def ended(mission: str, flight: Record, result: object = None) -> Data:
     facts = {key: flight[key] for key in ("trip", "drone", "round", "attempt")}
     if isinstance(result, FlightFailed):
         return {"event": "trip.failed", "mission": mission, **facts, "reason": str(result)}
-    data = {"value": shown(result), "result": value_data(result)}
+    data = {"value": shown(result), "result": value_data(result), "found_out": True}
     return {"event": "trip.completed", "mission": mission, **facts, **data}
 
 

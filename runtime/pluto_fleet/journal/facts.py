@@ -92,6 +92,13 @@ class FlightFacts(TypedDict):
     beside: NotRequired[Point]
 
 
+class TakesFacts(TypedDict):
+    """How long plans reckon that an action takes, and the parameter that may say otherwise."""
+
+    seconds: float
+    parameter: NotRequired[str]
+
+
 class RecordFacts(TypedDict):
     """How a mission stands."""
 
@@ -156,6 +163,7 @@ DRAINED = "drone.drained"
 _FACTS: Mapping[str, Mapping[str, Any]] = {
     BEGUN: {
         "app?": str,
+        "takes?": dict[str, TakesFacts],
         "missions?": str,
         "fleet?": str | None,
         "sim?": bool,
@@ -211,7 +219,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.launched": _FLIGHT,
     ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
     "action.begun": {**_TRIP, "drone": str},
-    "trip.completed": {**_FLIGHT, "result": Any},
+    "trip.completed": {**_FLIGHT, "result": Any, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
     "trip.interrupted": {**_TRIP, "reason?": str},

@@ -14,6 +14,7 @@ from . import errors
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..shared.domain.actions import Action
 
 Header = Mapping[str, Any]
 
@@ -40,6 +41,7 @@ def header(
         "event": "journal.begun",
         "app": app.name,
         "app_hash": fingerprint(app),
+        "takes": {one.name: _takes(one) for one in app.actions.values() if one.hook is not None},
         "seam": app.seam,
         "library": __version__,
         "missions": missions,
@@ -51,6 +53,12 @@ def header(
         **({"by": by} if by else {}),
         **(inherited or {}),
     }
+
+
+def _takes(action: Action) -> dict[str, object]:
+    """Return with how many seconds plans reckon, and the parameter of a trip that may say otherwise."""
+    reckoned: dict[str, object] = {"seconds": action.lasts({})}
+    return {**reckoned, "parameter": action.takes} if isinstance(action.takes, str) else reckoned
 
 
 def check(path: Path, header: Header, app: App) -> None:
