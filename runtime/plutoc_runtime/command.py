@@ -206,7 +206,9 @@ def _report(outcome: Outcome, charges: bool) -> Iterator[str]:
     yield f"flown with {_WORLD} and {at_home}; with pluto-fleet they keep apart"
 
 
-def add_beginning(parser: ArgumentParser, default: str) -> None:
+def add_beginning(
+    add: Callable[..., object], default: str, any_day: str = "one of 24 hours"
+) -> None:
     """Add the flags that say when a plan is started, and by the hours of which zone."""
     from .domain.fields import time_of_day
     from .domain.quantities import typed
@@ -221,10 +223,9 @@ def add_beginning(parser: ArgumentParser, default: str) -> None:
 
         return typed(reading)
 
-    add = parser.add_argument
     hour = f"at this time of day; default: {default}"
     add("--start", metavar="HH:MM", type=quoting(time_of_day), help=hour)
-    day = "on this day, which may have 23 or 25 hours; default: one of 24 hours"
+    day = f"on this day, which may have 23 or 25 hours; default: {any_day}"
     add("--date", metavar="YYYY-MM-DD", type=quoting(day_of), help=day)
     zone = "by the hours of this zone, such as Europe/Rome; default: with --date, this computer's"
     add("--zone", metavar="ZONE", type=quoting(zone_of, keeps=True), help=zone)
@@ -258,7 +259,7 @@ def _parser(app: App) -> ArgumentParser:
     )
     add("--no-spread", action="store_true", help="let all take exactly as long as expected")
     add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
-    add_beginning(simulate, "midnight")
+    add_beginning(add, "midnight")
     add("--until", metavar="TIME", type=typed(time_from), help='stop then, such as "2 h"')
     add("--trace", metavar="FILE", type=Path, help="write every event there, as a JSON object")
     add("--json", action="store_true", help="print one JSON object instead")

@@ -1,7 +1,8 @@
 """`fly --dry-run`: every command that the drones would be given, and why `fly` would refuse.
 
 The missions are flown in virtual time with simulated drones, as by `simulate`, and by the very code
-that flies real drones. No drone is reached, and nothing is written.
+that flies real drones. They begin now, as by `fly`, or when it is said. No drone is reached, and nothing
+is written.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number
-from .plans import load
+from .plans import load, waiting
 from .preflight import OR_SIMULATED, check_real, made, warn_of_the_radio
 
 if TYPE_CHECKING:
@@ -71,7 +72,7 @@ def dry_run(app: App, options: Options) -> int:
         on_event=None,
         around=around,
     )
-    for line in _lines(plan, outcome, given[0].commands):
+    for line in _lines(plan, outcome, given[0].commands, options.says_when):
         output.line(line)
     output.flush()
     refused = [] if options.sim else list(_refused(app, options, plan))
@@ -128,8 +129,11 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
 
 
 def _lines(
-    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[LoggedCommand]
+    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[LoggedCommand], starts: bool
 ) -> Iterator[str]:
+    if starts:
+        yield f"starts at {plan.hours.start}"
+    yield from waiting(plan)
     yield from table(
         ("time", "drone", "command", "to", "at most"),
         [

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..arguments import positive_number, whole_number
 from ..jobs.job import MISHAPS
+from ..shared.command import add_beginning
 
 ACTIONS = (
     "stop",
@@ -170,12 +171,14 @@ def add_dry_run(fly: ArgumentParser, time: Callable[[str], float]) -> None:
         action="store_true",
         help="print every command that the drones would be given; none is reached, nothing flies",
     )
-    fly.add_argument(
+    only = fly.add_argument_group("with --dry-run")
+    only.add_argument(
         "--until",
         metavar="TIME",
         type=time,
-        help='with --dry-run: no further than to this time, such as "2 h"',
+        help='no further than to this time, such as "2 h"',
     )
+    add_beginning(only.add_argument, "now; midnight of a day that is named", "today")
 
 
 HOST, PORT = "127.0.0.1", 8765

@@ -92,6 +92,11 @@ class Options:
         return self.journal
 
     @property
+    def says_when(self) -> bool:
+        """Whether it is said when the plan is started, or by the hours of which zone."""
+        return (self.start, self.date, self.zone) != (None, None, None)
+
+    @property
     def is_real(self) -> bool:
         """Whether real drones are meant, or Crazyflies that are simulated down to the radio."""
         return self.command in ("fly", "serve") and not self.sim
@@ -134,9 +139,10 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
     _chance(size)
     _jobs(size)
     add_size(size, typed(time_from))
+    add_beginning(size.add_argument, "midnight")
     check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
     _files(check)
-    add_beginning(check, "what is promised by a time of day is not checked")
+    add_beginning(check.add_argument, "what is promised by a time of day is not checked")
     check.add_argument(
         "--write",
         metavar="P.toml",
@@ -167,6 +173,8 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         simulate.error("--trace writes down one run: it does not go with --runs")
     if options.command == "fly" and options.until is not None and not options.dry_run:
         fly.error("--until goes with --dry-run: to end a flight, stop it")
+    if options.command == "fly" and options.says_when and not options.dry_run:
+        fly.error("--start, --date and --zone go with --dry-run: a flight begins now")
     if options.jobs is not None and options.runs is None and options.command == "simulate":
         simulate.error("--jobs is for many runs: it goes with --runs")
     if options.command == "simulate" and options.plot is not None and options.runs is None:
@@ -274,7 +282,7 @@ def _simulation(parser: ArgumentParser) -> None:
         type=typed(time_from),
         help='stop at this simulated time, such as "2 h"',
     )
-    add_beginning(parser, "midnight")
+    add_beginning(parser.add_argument, "midnight")
     parser.add_argument(
         "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
     )

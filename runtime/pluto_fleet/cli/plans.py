@@ -24,7 +24,7 @@ from ..shared.fleet.reach import idle_actions, reckoned
 from ..shared.time.hours import Hours, beginning
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from ..app import App
     from ..files.reading import MadeOfArea
@@ -48,6 +48,11 @@ class LoadedPlan:
     """What the areas of the missions file have become."""
 
     @property
+    def hours(self) -> Hours:
+        """The hours of the day from its start on."""
+        return Hours(self.fleet.began, self.fleet.zone)
+
+    @property
     def missions_text(self) -> str:
         """A missions file with these missions: without what lies beside the one that was read."""
         if self.file_text is None:
@@ -58,7 +63,7 @@ class LoadedPlan:
 def load(app: App, options: Options) -> LoadedPlan:
     """Return the plan of a command's files; raise `BadInput` if it cannot be flown."""
     fleet, fleet_text = load_fleet(app, options)
-    fleet = replace(fleet, **beginning(options.date, options.start, options.zone))
+    fleet = replace(fleet, **_beginning(options))
     if options.no_spread or options.dry_run:
         fleet = replace(fleet, motion=fleet.motion.exact)
     app = moving(app, fleet.motion)
@@ -74,7 +79,7 @@ def load(app: App, options: Options) -> LoadedPlan:
     if not options.supervised:  # its supervisor has said so
         warnings = [*look_alikes(missions, fleet.drones)]
         if options.command != "check":
-            warnings += impossible(missions, app, fleet, _hours(fleet, options))
+            warnings += impossible(missions, app, fleet, Hours(fleet.began, fleet.zone))
         for sentence in warnings:
             output.tell(f"{options.missions}: warning: {sentence}")
     return LoadedPlan(
@@ -87,16 +92,14 @@ def load(app: App, options: Options) -> LoadedPlan:
     )
 
 
-def _hours(fleet: FleetFile, options: Options) -> Hours:
-    """Return the hours from the start of what is loaded."""
-    is_now = options.command == "check" and not _says_when(options)
-    if is_now or (options.command == "fly" and not options.dry_run):
-        return Hours(time.time(), "")
-    return Hours(fleet.began, fleet.zone)
-
-
-def _says_when(options: Options) -> bool:
-    return (options.start, options.date, options.zone) != (None, None, None)
+def _beginning(options: Options) -> Mapping[str, Any]:
+    """Return when what is loaded begins, and in which zone."""
+    flies = options.command == "fly"
+    if not options.says_when and (flies or options.command == "check"):
+        return {"began": time.time(), "zone": ""}
+    # a dry run is of a flight, whose hours are those of a day of this computer's
+    zone = "" if flies and options.zone is None else options.zone
+    return beginning(options.date, options.start, zone)
 
 
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
@@ -144,7 +147,15 @@ _MOST_AREAS = 50
 
 
 _MOST_WAITS = 50
-"""The most missions of which `check` says for what they wait."""
+"""The most missions of which is said for what they wait."""
+
+
+def waiting(plan: LoadedPlan) -> Iterator[str]:
+    """Yield for what missions wait, and until when."""
+    found = [*waits(plan.missions, plan.hours)]
+    yield from map(printable, found[:_MOST_WAITS])
+    if (more := len(found) - _MOST_WAITS) > 0:
+        yield f"… and {more} more wait"
 
 
 def check(app: App, options: Options) -> int:
@@ -161,7 +172,7 @@ def check(app: App, options: Options) -> int:
         doubts.append(scarce)
     for sentence in doubts:
         output.tell(f"{options.fleet or app.name}: warning: {sentence}")
-    hours = _hours(plan.fleet, options) if _says_when(options) else None
+    hours = plan.hours if options.says_when else None
     broken = impossible(plan.missions, plan.app, plan.fleet, hours)
     if broken:
         output.tell(shortened([f"{options.missions}: {sentence}" for sentence in broken]))
@@ -172,11 +183,8 @@ def check(app: App, options: Options) -> int:
         output.line(printable(area.sentence))
     if (more := len(plan.areas) - _MOST_AREAS) > 0:
         output.line(f"… and {counted(more, 'more area')}")
-    waiting = [*waits(plan.missions, _hours(plan.fleet, options))]
-    for sentence in waiting[:_MOST_WAITS]:
-        output.line(printable(sentence))
-    if (more := len(waiting) - _MOST_WAITS) > 0:
-        output.line(f"… and {more} more wait")
+    for sentence in waiting(plan):
+        output.line(sentence)
     if options.write is not None:
         _write(options.write, plan.missions_text)
     last = (

@@ -20,7 +20,6 @@ from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
-from ..shared.time.hours import Hours
 from ..trials.case import fresh
 from .plans import LoadedPlan, load
 
@@ -58,7 +57,7 @@ def simulate(app: App, options: Options) -> int:
 
 def _once(app: App, options: Options, plan: LoadedPlan, progress: Progress) -> int:
     watch = _watcher(options, len(plan.missions), progress)
-    start = Hours(plan.fleet.began, plan.fleet.zone).start
+    start = plan.hours.start
     if start and not options.json:
         output.line(f"starts at {start}")
     with trace_file(options.trace) as write:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,10 +12,10 @@ from ..report.progress import Progress, simulation_progress
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
-from ..shared.domain.fields import Entity, FieldType, time_of_day
+from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.text import counted, duration
 from ..shared.domain.trace import dumped
-from ..shared.time.hours import DAY
+from ..shared.flow.promises import kept_from
 from ..sizing.answer import Answer, sized
 from ..sizing.batteries import swapping
 from ..sizing.bounds import Rule, usual_runs
@@ -27,8 +26,11 @@ from .picture import drawing, kind_of, write
 from .plans import load
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from ..app import App
     from ..shared.domain.model import Mission
+    from ..shared.time.hours import Hours
     from ..sizing.tries import Tally
     from .options import Options
     from .plans import LoadedPlan
@@ -70,28 +72,25 @@ def size(app: App, options: Options) -> int:
         ) from None
     finally:
         progress.clear()
-    _tell(answer, app, options)
+    _tell(answer, app, options, plan.hours.start)
     return 0 if answer.found is not None else 1
 
 
 def _question(plan: LoadedPlan, options: Options) -> Question:
     app, by = plan.app, options.by
     begin = _begin(plan)
-    if by is not None and by.is_time_of_day:
-        if begin is None:
-            raise BadInput(
-                f"{options.missions}: --by {by.text} is a time of day, and not all missions begin at one"
-                ' (at = "08:00", or a window): say how long they may take, such as --by "20 min"'
-            )
-        ends: float | None = begin + (by.seconds - begin) % DAY
-    else:
-        ends = None if by is None else (begin or 0.0) + by.seconds
+    if by is not None and by.is_time_of_day and begin is None and options.start is None:
+        raise BadInput(
+            f"{options.missions}: --by {by.text} is a time of day, and not all missions begin at one"
+            ' (at = "08:00", or a window): say when they are started, such as --start 08:00, or how'
+            ' long they may take, such as --by "20 min"'
+        )
+    begin = begin or 0.0
+    ends = None
+    if by is not None:
+        ends = plan.hours.next(by.seconds, begin) if by.is_time_of_day else begin + by.seconds
     question = Question(
-        app=app,
-        missions=plan.missions,
-        faults=Faults(**options.fail),
-        begin=begin or 0.0,
-        by=ends,
+        app=app, missions=plan.missions, faults=Faults(**options.fail), begin=begin, by=ends
     )
     if options.swap is None:
         return question
@@ -99,25 +98,24 @@ def _question(plan: LoadedPlan, options: Options) -> Question:
 
 
 def _begin(plan: LoadedPlan) -> float | None:
-    """Return the time of day at which the first mission begins; None: not all say one."""
+    """Return when the first mission begins, after the start; None: not all begin at an hour."""
     names = [
         one.name
         for one in plan.app.fields
         if one.on is Entity.MISSION and one.type is FieldType.TIME_OF_DAY
     ]
-    times = [
-        [*filter(lambda at: at is not None, (getattr(one, name) for name in names)), *_opens(one)]
-        for one in plan.missions
-    ]
-    return min(map(max, times)) if times and all(times) else None
+    moments = [_begins(one, names, plan.hours) for one in plan.missions]
+    known = [one for one in moments if one is not None]
+    return min(known) if known and len(known) == len(moments) else None
 
 
-def _opens(mission: Mission[Any]) -> Iterator[float]:
-    """Yield when a mission's window opens in a simulation, if that is a time of day: it begins at midnight."""
-    opens, closes = (mission.promises.get(name) for name in ("opens", "deadline"))
-    if isinstance(opens, str):
-        at = time_of_day(opens)
-        yield 0.0 if isinstance(closes, str) and time_of_day(closes) < at else at
+def _begins(mission: Mission[Any], names: Sequence[str], hours: Hours) -> float | None:
+    """Return when a mission begins by its window, and by its fields with an hour, if it has any."""
+    promises = kept_from(mission.promises, hours)
+    by_hour = "opens" in promises.get("hours", ())
+    opens = max(promises["opens"], 0.0) if by_hour else None
+    given = [at for name in names if (at := getattr(mission, name)) is not None]
+    return max((hours.next(at, opens or 0.0) for at in given), default=opens)
 
 
 def _show(progress: Progress, tally: Tally, rule: Rule) -> None:
@@ -128,14 +126,17 @@ def _show(progress: Progress, tally: Tally, rule: Rule) -> None:
     progress.update(runs / rule.runs, text)
 
 
-def _tell(answer: Answer, app: App, options: Options) -> None:
+def _tell(answer: Answer, app: App, options: Options, start: str) -> None:
     if options.plot is not None:
         _plot(options.plot, app.name, answer)
     if options.write is not None and answer.found is not None:
         _write(options.write, answer)
     if options.json:
-        output.line(dumped(data(answer, app.name, options.seed)))
+        when = {"start": start} if start else {}
+        output.line(dumped({**data(answer, app.name, options.seed), **when}))
         return
+    if start:
+        output.line(f"starts at {start}")
     for line in report(answer):
         output.line(line)
 

@@ -46,7 +46,7 @@ class Question:
     missions: Sequence[Mission[Any]]
     faults: Faults = field(default_factory=Faults)
     begin: float = 0.0
-    """When the first mission may begin, in seconds after the midnight with which a simulation begins."""
+    """When the first mission may begin, in seconds after the start of a simulation."""
     by: float | None = None
     """When all must be completed; None: no matter when."""
     swapped: App | None = None

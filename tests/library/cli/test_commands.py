@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Iterator
 from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
+from pluto_fleet.cli import plans
 from pluto_fleet.cli.options import parse
 from pluto_fleet.cli.plans import take_fleet_beside
+from pluto_fleet.shared.domain.model import Category
+from tests.kit.apps import app, flow
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP
 
@@ -70,3 +77,40 @@ def test_real_drones_fly_only_by_a_fleet_that_is_named(
     options = parse(APP, [str(missions) if word == "M" else word for word in words])
     take_fleet_beside(options)
     assert options.fleet == (beside if is_taken else None)
+
+
+NIGHT = """
+[[mission]]
+name = "Night"
+at = "03:01"
+[[mission.trip]]
+action = "take_photo"
+target = [2, 3]
+"""
+
+
+@pytest.fixture
+def in_rome(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let this computer's zone be Rome's."""
+    with monkeypatch.context() as patch:
+        patch.setenv("TZ", "Europe/Rome")
+        time.tzset()
+        yield
+    time.tzset()
+
+
+@pytest.mark.usefixtures("in_rome")
+def test_a_dry_run_begins_now_by_this_computers_hours(
+    tmp_path: Path, command: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As `fly` would: here in the night in which clocks are put forward."""
+    now = datetime.fromisoformat("2027-03-28T01:59:30+01:00").timestamp()
+    monkeypatch.setattr(plans, "time", SimpleNamespace(time=lambda: now))
+    missions = tmp_path / "m.toml"
+    missions.write_text(NIGHT)
+    tested = app(flow(clock=True), categories=[Category(name="scout")])
+    code, out, err = command("fly", missions, "--sim", "--dry-run", app=tested)
+    assert (code, err) == (0, "")
+    waits = "waits 1 min 30 s if it is started at 01:59:30 CET, until 03:01 CEST"
+    assert f'mission "Night": {waits}: its first trip is not to start before\n' in out
+    assert "\n 90.0 s  cf2    take off" in out
