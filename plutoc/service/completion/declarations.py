@@ -123,7 +123,9 @@ def hook(hole: Hole, known: Known) -> Iterator[Candidate]:
     elif word == "ACTION":
         if last == ARROW:
             yield from _results()
-        elif last in (NAME, "RPAR"):
+        elif last == "TAKES":
+            yield from _durations(hole)
+        elif last in (NAME, "RPAR", "QUANTITY"):
             if ARROW not in hole.types:
                 yield Candidate(label="->", kind=Sort.KEYWORD, forms=("-> float",), doc=_GIVES)
             for repeat in REPEATS:
@@ -139,6 +141,17 @@ def hook(hole: Hole, known: Known) -> Iterator[Candidate]:
                 yield keyword("emits", "emits", "emits STANDBY, COMPLETED, FAILED")
             if "WRITES" not in lists:
                 yield keyword("writes", "writes", "writes trips")
+
+
+def _durations(hole: Hole) -> Iterator[Candidate]:
+    """Give how long an action can be said to take: one of its parameters that is a time, or a time."""
+    if hole.of_number:
+        yield from units(hole, Type.TIME)
+        return
+    for name, colon, kind in zip(hole.before, hole.before[1:], hole.before[2:], strict=False):
+        if colon.type == "COLON" and kind == Type.TIME.value:
+            yield Candidate(label=str(name), kind=Sort.PARAMETER, detail=Type.TIME.value, rank=-1)
+    yield Candidate(label="30 s", kind=Sort.VALUE, doc=describe.of_type(Type.TIME))
 
 
 def _statuses(hole: Hole) -> Iterator[Candidate]:
