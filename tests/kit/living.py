@@ -180,6 +180,7 @@ class Living:
             records,
             epoch=self._epoch,
             listeners=[self.events.append],
+            charges=fleet.charges_at_home,
         )
         disk.life = life
         link.on_flown(life.flown)  # as in real flights: nothing may follow from it

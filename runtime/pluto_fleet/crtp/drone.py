@@ -5,6 +5,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 from random import Random
 
 from .battery import CHARGE, FLIGHT, SimulatedBattery
@@ -51,7 +52,7 @@ class Build:
     flight: float = FLIGHT
     """Seconds that a full battery lasts in the air."""
     charge: float = CHARGE
-    """Seconds from an empty battery to a full one on the pad."""
+    """Seconds from an empty battery to a full one on the pad; infinite: it has none."""
     cells: int = 1
     """How many its battery has: a Bolt or a Flapper has two."""
     shuts_down: bool = False
@@ -135,8 +136,8 @@ class SimulatedCrazyflie:
         self.supervisor.step(now, thrust=thrust, tumbled=self.body.tumbled)
         if not self.supervisor.can_fly:
             self.body.cut()
-        docked = not thrust and _near(self.body.position, self.build.home)
-        if self.on and self.battery.step(seconds, loaded=thrust, charging=docked):
+        on_pad = self.build.charge < inf and _near(self.body.position, self.build.home)
+        if self.on and self.battery.step(seconds, loaded=thrust, charging=on_pad and not thrust):
             self.note("switched off")
             self.switch(False)
         if now - self._traced >= _TRACED and (was_flying or self.body.airborne):

@@ -52,6 +52,8 @@ class FlightConfig:
     speed: float = 1.0
     sim: bool = True
     """Whether drones are simulated: then a lost one is carried home automatically."""
+    charges: bool = True
+    """Whether a battery that is low may become full: False of simulated drones that nothing charges."""
     patient: bool = False
     """Whether it goes on while a mission waits for the user's decision."""
 

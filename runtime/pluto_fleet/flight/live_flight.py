@@ -90,6 +90,7 @@ class LiveFlight:
             watcher=setting.tell,
             hooks=hooks,
             clock=self._clock,
+            charges=setting.charges,
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,6 +62,11 @@ class FlightSetup:
     """Whether the drones are simulated."""
     crtp: bool = False
     """Whether the drones are Crazyflies that are simulated down to their radio."""
+
+    @property
+    def charges(self) -> bool:
+        """Whether a battery that is low may become full: what is real has its say itself."""
+        return self.fleet.charges_at_home or not (self.sim or self.crtp)
 
     @property
     def how_to_go_on(self) -> str:
@@ -191,6 +197,7 @@ async def run_flight(
         tell=observer.tell,
         speed=flight.speed,
         sim=flight.sim,
+        charges=flight.charges,
         patient=observer.patient,
     )
     deaths, done = 0, -1
@@ -243,7 +250,10 @@ async def _real(
     homes = {drone.id: drone.home for drone in fleet.drones}
     kinds = {one.name: one for one in flight.app.categories}
     batteries = {
-        drone.id: (kind.flight_time / flight.fleet.motion.drain, kind.charge_time)
+        drone.id: (
+            kind.flight_time / flight.fleet.motion.drain,
+            kind.charge_time if flight.charges else inf,
+        )
         for drone in fleet.drones
         for kind in (kinds[drone.category],)
     }

@@ -55,15 +55,17 @@ class RecordedBrain:
         watcher: Listener | None = None,
         hooks: HookRunner | None = None,
         clock: WallClock | None = None,
+        charges: bool = True,
     ) -> None:
         """`watcher` is called with an event only when it is durable, `listeners` at once.
 
-        By `clock` it is which hour it is; without one the hours are the fleet's.
+        By `clock` it is which hour it is; without one the hours are the fleet's. `charges`: whether drones
+        may have more in their batteries than they say now.
         """
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
         self.recorder = Recorder(kernel, sink, records)
         self.clock = {} if clock is None else clock.data
-        data = {**fleet_data(fleet), "charges_at_home": True, "recorded": True, **self.clock}
+        data = {**fleet_data(fleet), "charges_at_home": charges, "recorded": True, **self.clock}
         self.hours = Hours(data["began"], data["zone"])
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.told_to: dict[str, str] = {}

@@ -139,6 +139,7 @@ def _drone(data: Mapping[str, Any]) -> SimulatedDrone:
         home=tuple(data["home"]),
         index=data["index"],
         battery_level=data["battery_level"],
+        charges_at_home=data["charges_at_home"],
     )
 
 

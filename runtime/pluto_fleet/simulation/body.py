@@ -40,13 +40,20 @@ class SimulatedDrone:
     """Its index in the fleet file."""
     battery_level: float = 1.0
     """Its initial charge, from 0 to 1."""
+    charges_at_home: bool = True
 
 
 def simulated(app: App, fleet: FleetData) -> list[SimulatedDrone]:
     """Return the drones of a fleet file, to be simulated."""
     categories = {category.name: category for category in app.categories}
     return [
-        SimulatedDrone(id=one.id, category=categories[one.category], home=one.home, index=index)
+        SimulatedDrone(
+            id=one.id,
+            category=categories[one.category],
+            home=one.home,
+            index=index,
+            charges_at_home=fleet.charges_at_home,
+        )
         for index, one in enumerate(fleet.drones)
     ]
 
@@ -230,7 +237,7 @@ class Body:
     def _grounded(self, now: float) -> Charge:
         """Return the battery of a drone that is on the ground now, and may have touched down before."""
         touched = min(now, self._leg.arrives) if self._leg.end[2] <= 0.0 else now
-        charges = docked(self._leg.at(now), self.drone.home)
+        charges = self.drone.charges_at_home and docked(self._leg.at(now), self.drone.home)
         return self._charge.changing(touched, charges / self.drone.category.charge_time)
 
     def dock(self, now: float) -> None:

@@ -64,7 +64,7 @@ class FleetData:
     drones: Sequence[DroneData]
     after_trip: AfterTrip = AfterTrip.NEXT
     max_airborne: int | None = None
-    charges_at_home: bool = True  # in simulations; in a flight each drone says what it has
+    charges_at_home: bool = True  # of simulated drones: a real one says what it has
     motion: Motion = STRAIGHT
     began: float = 0.0
     """When a simulation begins, in seconds since 1970."""

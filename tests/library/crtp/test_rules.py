@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import struct
+from dataclasses import replace
+from math import inf
 
 import pytest
 
+from pluto_fleet.crtp.battery import CHARGE
 from pluto_fleet.crtp.packets import Port
 from pluto_fleet.crtp.server import collide
-from tests.library.crtp.bench import Bench, hovering
+from tests.library.crtp.bench import CF1, Bench, hovering
 
 ARMED, CAN_FLY, FLYING, TUMBLED, LOCKED, CRASHED, ACTIVE, DONE = 1, 3, 4, 5, 6, 7, 8, 9
 PLANNER_OFF = 10
@@ -181,3 +184,13 @@ def test_a_drone_in_the_air_locks_two_seconds_after_a_stranger_s_last_setpoint()
     assert bench.x == pytest.approx(1.0, abs=0.05)
     bench.passes(2.0)
     assert bench.has(LOCKED) and bench.z == 0.0
+
+
+def test_one_without_a_pad_does_not_charge_at_home() -> None:
+    levels = {}
+    for charge in CHARGE, inf:
+        bench = Bench(replace(CF1, level=0.5, charge=charge))
+        bench.passes(60.0)
+        levels[charge] = bench.drone.battery.level
+    assert levels[CHARGE] > 0.5
+    assert levels[inf] == 0.5
