@@ -7,6 +7,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from ..journal.facts import DRAINED
 from ..report.sentences import line_of, sentence_of
 from .results.meaning import Meanings
 from .results.rows import NameOf, ResultRows, nowhere
@@ -49,8 +50,11 @@ class VersionedRows(Generic[Row]):
 LINES_KEPT = 20_000
 """The number of lines, and of results, that are kept; older ones are only in the journal."""
 
-FINDINGS_KEPT = 100
-"""The number of results with findings of which pages are alerted."""
+ALERTED = 100
+"""The number of results with findings, and of broken reserves, of which pages are alerted."""
+
+AMENDED_KEPT = 100
+"""The number of results of which pages are told what has become known later."""
 
 LINES_A_MESSAGE = 500
 """The most lines in one message: the newest ones."""
@@ -72,6 +76,12 @@ class Tail(Generic[Row]):
         """Append an entry."""
         self.last += 1
         self._texts.append(json.dumps(entry))
+
+    def amend(self, number: int, entry: Row) -> None:
+        """Replace the entry of this number, if it is still kept."""
+        place = number - self.last - 1
+        if -len(self._texts) <= place:
+            self._texts[place] = json.dumps(entry)
 
     def since(self, number: int) -> Iterator[str]:
         """Yield the entries after a number, up to the most in one message."""
@@ -97,8 +107,16 @@ class Feed:
         self._rows = ResultRows(flight, app.actions, meanings, name_of)
         self.log: Tail[LogLine] = Tail()
         self.results: Tail[Result] = Tail()
-        self.findings: deque[Result] = deque(maxlen=FINDINGS_KEPT)
+        self.findings: deque[Result] = deque(maxlen=ALERTED)
         """The newest results in which something was found."""
+        self.drained: deque[tuple[int, Event]] = deque(maxlen=ALERTED)
+        """The newest events of broken reserves, numbered from 1."""
+        self._reserves = 0
+        """How many reserves were broken."""
+        self._fresh: list[str] = []
+        """Results of which more is known than pages were told."""
+        self._amended: deque[tuple[int, str]] = deque(maxlen=AMENDED_KEPT)
+        """Results of which pages were told more, by the version of that."""
         self._lines: deque[str] = deque(maxlen=LINES_KEPT)
         self._whole: deque[object] = deque(maxlen=LINES_KEPT)
         """The full values of results that pages get shortened."""
@@ -109,13 +127,34 @@ class Feed:
         if said is not None:
             self._lines.append(line_of(event) or "")
             self._line(event["t"], event.get("mission"), said, kind_of(event))
+        if event["event"] == DRAINED:
+            self._reserves += 1
+            self.drained.append((self._reserves, event))
         brought = self._rows.take(event)
-        if brought is not None:
-            row, value = brought
-            self.results.add(row)
-            if row["tags"]:
-                self.findings.append(row)
-            self._whole.append(value)
+        if brought is None:
+            return
+        row, value = brought
+        if row["number"] <= self.results.last:
+            self._amend(row)
+            return
+        self.results.add(row)
+        if row["tags"]:
+            self.findings.append(row)
+        self._whole.append(value)
+
+    def _amend(self, row: Result) -> None:
+        self.results.amend(row["number"], row)
+        self._fresh.append(json.dumps(row))
+
+    def look(self, version: int) -> bool:
+        """Tell pages with this version of what results say more; return whether any does."""
+        fresh, self._fresh = self._fresh, []
+        self._amended.extend((version, text) for text in fresh)
+        return bool(fresh)
+
+    def amended_since(self, version: int) -> Iterator[str]:
+        """Yield the results that say more since a version."""
+        return (text for changed, text in self._amended if changed > version)
 
     def say(self, time: float, text: str, kind: LineKind = "info") -> None:
         """Add a line that is not an event of the flight."""

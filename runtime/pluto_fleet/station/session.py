@@ -23,7 +23,7 @@ from ..journal.reader import Reader
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
-from .attention.causes import Cause, of_drones, of_missions, of_results
+from .attention.causes import Cause, of_drones, of_missions, of_reserves, of_results
 from .attention.waiting import Waits, of_batteries, of_waiting
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
@@ -259,7 +259,8 @@ class FlightSession:
     def look(self, number: int) -> bool:
         """Update the rows with this version; return whether anything has changed."""
         self._look_into_the_journal()
-        return any([self._see_missions(number), self._see_drones(number)])
+        changed = [self._see_missions(number), self._see_drones(number), self.feed.look(number)]
+        return any(changed)
 
     def _look_into_the_journal(self) -> None:
         """Read the journal again if it has changed, as a command may have brought a drone back."""
@@ -325,6 +326,7 @@ class FlightSession:
         yield from of_drones(drones, self.crashed(drones))
         yield from of_missions(self.missions)
         yield from of_results(self.feed.findings)
+        yield from of_reserves(self.feed.drained)
         if self.lives:
             yield from of_batteries(drones, self._waits.any)
             cause = of_waiting(long, drones, self._waiting.takes) if long else None

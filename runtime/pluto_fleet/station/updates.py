@@ -185,6 +185,7 @@ class Updates:
             "drones": _listed((session or self).drones.since(seen)),
             "log": _listed(session.feed.log.since(log) if session else ()),
             "results": _listed(session.feed.results.since(results) if session else ()),
+            "amended": _listed(session.feed.amended_since(seen) if session else ()),
             "alerts": _listed(self._station.attention.rows.since(seen)),
         }
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"

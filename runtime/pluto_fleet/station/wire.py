@@ -17,13 +17,14 @@ Busy = Literal["", "connecting", "asking"]
 LineKind = Literal["good", "bad", "info", "hook"]
 ResultKind = Literal["measurement", "photo", "result", "verdict", "handling"]
 AlertKind = Literal[
-    "lost", "crashed", "battery", "uncertain", "finding", "late", "waiting", "failed"
+    "lost", "crashed", "battery", "drained", "uncertain", "finding", "late", "waiting", "failed"
 ]
 Role = Literal["watch", "fly"]
 SaidKey = Literal[
     "alert.battery",
     "alert.battery-stays",
     "alert.crashed",
+    "alert.drained",
     "alert.failed",
     "alert.finding",
     "alert.late",
@@ -268,6 +269,8 @@ class Result(TypedDict):
     tags: list[str]
     layers: list[str]
     """The ids of the layers that show it."""
+    drained: float | None
+    """The level with which its drone came home after this trip, if that was less than its reserve."""
 
 
 class Quantity(TypedDict):
@@ -319,6 +322,8 @@ class LiveMessage(TypedDict):
     drones: list[DroneRow]
     log: list[LogLine]
     results: list[Result]
+    amended: list[Result]
+    """Results of before of which more is known now."""
     alerts: list[Alert]
     people: NotRequired[list[Person]]
     """All others, if that has changed."""

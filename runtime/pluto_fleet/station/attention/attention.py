@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, cast, get_type_hints
@@ -21,6 +21,8 @@ KEPT = 200
 """The most alerts that are kept: of those that are over, the oldest are forgotten first."""
 OF_A_DRONE = ("lost", "crashed")
 """The kinds of alerts that last from one flight to the next."""
+ONCE = ("finding", "drained")
+"""The kinds of alerts of what has happened, and is over once a person knows of it."""
 
 
 class Attention:
@@ -38,23 +40,23 @@ class Attention:
     def look(self, flight: str, causes: Iterable[Cause], version: int) -> bool:
         """Note what has arisen, changed and ended; return whether anything has.
 
-        A finding is over once it has been acknowledged, anything else when its cause is.
+        What has happened once is over when it has been acknowledged, anything else when its cause is.
         """
         found = {_named(flight, one): one for one in causes}
         changed = arisen = False
         for key, cause in found.items():
             if key in self._open:
                 changed |= self._update(self._alerts[self._open[key]], cause)
-            elif cause.kind != "finding" or f"{key}/1" not in self._alerts:
+            elif cause.kind not in ONCE or f"{key}/1" not in self._alerts:
                 arisen = True
                 self._arise(key, cause)
         for key, id in list(self._open.items()):
             alert = self._alerts[id]
-            known = alert["kind"] == "finding" and alert["by_at"] is not None
-            if key not in found or known:
+            known = alert["by_at"] is not None
+            if key not in found or (known and alert["kind"] in ONCE):
                 alert["over"], arisen = True, True
                 del self._open[key]
-        self._forget()
+        self._forget(found.keys())
         if arisen:
             self._keep()
         if arisen or changed or not self._told:
@@ -104,8 +106,9 @@ class Attention:
         alert["said"] = cause.said
         return True
 
-    def _forget(self) -> None:
-        over = [id for id, one in self._alerts.items() if one["over"]]
+    def _forget(self, found: Collection[str]) -> None:
+        """Forget what is over, but not what would arise again."""
+        over = [id for id, one in self._alerts.items() if one["over"] and _key(id) not in found]
         for id in over[: max(0, len(self._alerts) - KEPT)]:
             del self._alerts[id]
             self.rows.drop(id)

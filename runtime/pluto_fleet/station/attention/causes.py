@@ -7,11 +7,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ...flight.control import ANSWERS
+from ...report.sentences import sentence_of
 from ...shared.domain.status import Status
 from ...shared.domain.text import cut_off, quoted
 from ..words import words
 
 if TYPE_CHECKING:
+    from ...shared.domain.trace import Event
     from ..wire import (
         AlertKind,
         DroneRow,
@@ -52,6 +54,14 @@ def of_drones(drones: Iterable[DroneRow], crashed: Collection[str]) -> Iterator[
         at = None if row["x"] is None or row["y"] is None else [row["x"], row["y"]]
         said = words("alert.crashed" if fell else "alert.lost", text, drone=id, why=why)
         yield Cause(kind=kind, about=id, said=said, urgent=True, drone=id, at=at)
+
+
+def of_reserves(drained: Iterable[tuple[int, Event]]) -> Iterator[Cause]:
+    """Yield the drones that came home with less than their reserve, each time by its number."""
+    for number, event in drained:
+        id, level = str(event["drone"]), float(str(event["level"]))
+        said = words("alert.drained", sentence_of(event) or "", drone=id, level=level)
+        yield Cause(kind="drained", about=str(number), said=said, drone=id)
 
 
 def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:

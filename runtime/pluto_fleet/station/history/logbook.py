@@ -55,8 +55,8 @@ def logbook(
             except BROKEN:
                 book.said = LEFT_OUT
             told += len(_new_lines(book))
-            book.results += _new(book.feed.results.since(len(book.results)))
     book = book or Logbook(Feed(app, {}))
+    book.results = _new(iter(book.feed.results))
     for line, _ in [*([ahead] if ahead is not None else []), *others]:
         _say(book, line)
     book.said = journal.damaged or book.said

@@ -18,7 +18,7 @@ export interface ActionData {
 /** Something that a person must know of, until it is over. */
 export interface Alert {
   id: string;
-  kind: "lost" | "crashed" | "battery" | "uncertain" | "finding" | "late" | "waiting" | "failed";
+  kind: "lost" | "crashed" | "battery" | "drained" | "uncertain" | "finding" | "late" | "waiting" | "failed";
   urgent: boolean;
   mission: string | null;
   drone: string | null;
@@ -366,6 +366,8 @@ export interface LiveMessage {
   drones: DroneRow[];
   log: LogLine[];
   results: Result[];
+  /** Results of before of which more is known now. */
+  amended: Result[];
   alerts: Alert[];
   /** All others, if that has changed. */
   people?: Person[];
@@ -741,6 +743,8 @@ export interface Result {
   tags: string[];
   /** The ids of the layers that show it. */
   layers: string[];
+  /** The level with which its drone came home after this trip, if that was less than its reserve. */
+  drained: number | null;
 }
 
 /** Go on with a flight that was stopped or interrupted. */
@@ -859,7 +863,7 @@ export interface WaysAsked {
 
 /** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */
 export interface Words {
-  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.uncertain-action" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far" | "question.action" | "question.other" | "wait.after" | "wait.drone" | "wait.drone-full" | "wait.paused" | "wait.time" | "wait.verdict" | "wait.you";
+  key: "alert.battery" | "alert.battery-stays" | "alert.crashed" | "alert.drained" | "alert.failed" | "alert.finding" | "alert.late" | "alert.lost" | "alert.uncertain" | "alert.uncertain-action" | "alert.waiting" | "preflight.beside" | "preflight.brought-back" | "preflight.busy" | "preflight.cannot" | "preflight.charges" | "preflight.charging" | "preflight.endless" | "preflight.few" | "preflight.few-lift" | "preflight.flies" | "preflight.given-up" | "preflight.heard-before" | "preflight.in-the-air" | "preflight.lost" | "preflight.low" | "preflight.low-away" | "preflight.never-heard" | "preflight.no-rehearsal" | "preflight.not-apart" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "preflight.retired" | "preflight.room" | "preflight.too-far" | "question.action" | "question.other" | "wait.after" | "wait.drone" | "wait.drone-full" | "wait.paused" | "wait.time" | "wait.verdict" | "wait.you";
   facts: Record<string, string | number | number | boolean | string[]>;
   text: string;
 }

@@ -85,6 +85,8 @@ class ResultsOfFlights:
                 brought = rows.take(event)
                 if brought is not None:
                     result, value = brought
+                    if result["number"] <= len(found):
+                        continue  # the same row, which says more now
                     found.append(Brought(result=result, wall=row.wall, value=value))
         return FlightResults(
             flight=journal.stem, journal=journal, rows=tuple(found), pictures=rows.pictures

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ...jobs.flown import ACTS_BESIDE
+from ...journal.facts import DRAINED
 from ...report.sentences import sentence_of
 from ...shared.domain.actions import MEASURE
 from ...shared.domain.text import bounded
@@ -52,6 +53,8 @@ class ResultRows:
         self._name_of = name_of
         self._beside: dict[tuple[object, object], Any] = {}
         """Where actions are done that are done beside their targets, by mission and trip."""
+        self._brought: dict[object, tuple[Result, Any]] = {}
+        """What the last trip of each drone has brought, until it is told how it came home."""
         self.last = 0
         self.pictures: dict[int, str] = {}
         """The files of photos, as their cameras named them, by the numbers of their results."""
@@ -59,6 +62,7 @@ class ResultRows:
     def take(self, event: Event) -> tuple[Result, Any] | None:
         """Process an event; return the result that it brings, and its value in full.
 
+        A result of before, known by its number, is returned once more if the event says more of it.
         Of a `trip.completed`, `did` must be the trip.
         """
         kind = event["event"]
@@ -66,8 +70,13 @@ class ResultRows:
             self._beside[event["mission"], event["trip"]] = event["at"]
         elif kind == "trip.failed":
             self._beside.pop((event["mission"], event["trip"]), None)
+        elif kind == "trip.launched":
+            self._brought.pop(event["drone"], None)
         elif kind == "trip.completed":
-            return self._completed(event)
+            self._brought[event["drone"]] = brought = self._completed(event)
+            return brought
+        elif kind == DRAINED:
+            return self._drained(event)
         elif (verdict := VERDICTS.get(str(kind))) is not None:
             said = f"{verdict}: {event.get('reason') or sentence_of(event)}"
             return self._row(event) | {"kind": "verdict", "value": said}, said
@@ -94,7 +103,15 @@ class ResultRows:
             "values": [],
             "tags": [],
             "layers": [],
+            "drained": None,
         }
+
+    def _drained(self, event: Event) -> tuple[Result, Any] | None:
+        """Say of what a drone has brought last that it came home with less than its reserve."""
+        brought = self._brought.pop(event["drone"], None)
+        if brought is not None:
+            brought[0]["drained"] = round(float(str(event["level"])), 4)
+        return brought
 
     def _completed(self, event: Event) -> tuple[Result, Any]:
         did: Any = event["did"]

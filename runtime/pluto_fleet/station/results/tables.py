@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 COLUMNS = (
     *("number", "time", "wall", "mission", "trip", "round", "attempt", "drone", "kind"),
     *("action", "place", "x", "y", "z", "quantity", "value", "unit", "tags"),
-    *("width", "height", "sharpness", "picture"),
+    *("width", "height", "sharpness", "picture", "drained"),
 )
 """The columns of a table; `docs/files.md` says what they hold."""
 
@@ -75,6 +75,7 @@ def _common(flight: FlightResults, one: Brought) -> Cells:
         "height": photo["height"] if photo else None,
         "sharpness": photo["sharpness"] if photo else None,
         "picture": picture_name(result["number"], file) if file is not None else None,
+        "drained": result["drained"],
     }
 
 

@@ -13,7 +13,13 @@ import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.attention.attention import KEPT, Attention
-from pluto_fleet.station.attention.causes import Cause, of_drones, of_missions, of_results
+from pluto_fleet.station.attention.causes import (
+    Cause,
+    of_drones,
+    of_missions,
+    of_reserves,
+    of_results,
+)
 from pluto_fleet.station.attention.waiting import LONG, Waits, of_batteries, of_waiting
 from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result, Words
 from pluto_fleet.station.words import words
@@ -142,6 +148,31 @@ def test_a_finding_lasts_until_a_person_knows_of_it(tmp_path: Path) -> None:
     listed.attention.acknowledge(alert["id"], "Ana")
     assert listed.look(of_results(found)) == []
     assert listed.look(of_results([*found, result(5, "bloom")]))[0]["said"]["facts"]["number"] == 5
+
+
+def test_a_broken_reserve_is_told_each_time_until_a_person_knows_of_it(tmp_path: Path) -> None:
+    """Also when the drone has been charged since, and when the station was started anew."""
+    listed = Listed(tmp_path / "attention.json")
+    came = [(n, {"event": "drone.drained", "t": 9.0 * n, "drone": "cf1"}) for n in (1, 2)]
+    drained = [(n, {**event, "level": 0.08 * n}) for n, event in came]
+    [alert] = listed.look(of_reserves(drained[:1]))
+    assert (alert["kind"], alert["drone"], alert["urgent"]) == ("drained", "cf1", False)
+    assert alert["said"]["facts"] == {"drone": "cf1", "level": 0.08}
+    assert alert["said"]["text"] == "cf1 came home with 8 % of its battery, less than its reserve"
+    listed.again()
+    assert listed.look(of_reserves(drained[:1])) == [alert]
+    listed.attention.acknowledge(alert["id"], "Ana")
+    [second] = listed.look(of_reserves(drained))
+    assert second["said"]["facts"]["level"] == 0.16
+
+
+def test_what_was_acknowledged_long_ago_does_not_arise_again(tmp_path: Path) -> None:
+    listed, found = Listed(tmp_path / "attention.json"), [result(1, "bloom")]
+    [alert] = listed.look(of_results(found))
+    listed.attention.acknowledge(alert["id"], "Ana")
+    for n in range(KEPT + 20):
+        listed.look([*of_missions([mission(f"{n}", "FAILED")]), *of_results(found)])
+    assert listed.look(of_results(found)) == []
 
 
 def test_why_all_wait_is_said_in_total() -> None:

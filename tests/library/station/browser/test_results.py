@@ -14,6 +14,13 @@ from tests.library.station.browser.exercise import put_in
 from tests.library.station.browser.steps import open_page
 from tests.paths import EXAMPLES
 
+DRAINED = """
+async (drained) => {
+  const { world } = await import("/pages/core/station.js");
+  world.results.amend([{ ...world.results.entries.peek()[0], drained }]);
+}
+"""
+
 MANY = """
 async (count) => {
   const { world } = await import("/pages/core/station.js");
@@ -72,6 +79,16 @@ def test_results_are_searched_filtered_sorted_and_shown_on_the_map(
     expect(card).to_contain_text(re.compile(r"Place.*When.*Mission.*Drone", re.DOTALL))
     page.keyboard.press("ArrowDown")
     expect(card).to_contain_text(f"{measured[1]:.6g} °C")
+    assert violations(page) == []
+    page.evaluate(DRAINED, 0.07)
+    page.get_by_role("button", name="Show all").click()
+    page.get_by_label("Search the results").fill("reserve")
+    expect(rows).to_have_count(1)
+    sentence = "came home from this trip with 7%, less than its reserve"
+    expect(rows.get_by_role("button", name=sentence)).to_be_visible()
+    rows.first.click()
+    card = page.locator(".result-card")
+    expect(card).to_contain_text(sentence)
     assert violations(page) == []
     card.get_by_role("button", name="Show in console").click()
     expect(page.get_by_role("tab", name="Monitor")).to_have_attribute("aria-selected", "true")

@@ -113,6 +113,43 @@ def test_motors_are_cut_one_drone_at_a_time_and_the_others_finish(serve: Serve) 
     assert "COMPLETED" in station.statuses().values()
 
 
+def test_a_broken_reserve_is_told_until_somebody_has_seen_it_and_beside_its_result(
+    serve: Serve,
+) -> None:
+    """To a page that knows the result already, in the files, in the replay, and by the next station."""
+    station = serve().flying()
+    station.until(lambda: station.get("/api/results.json"), "a result is there")
+    seen = station.now()
+    drone = seen["results"][0]["drone"]
+    body = station.world.bodies[drone]
+    data: dict[str, Any] = body.data
+    level, *drains = data["charge"]
+    body.restore({**data, "charge": [level - body.battery_level + 0.15, *drains]})
+    station.until(lambda: alerts(station, "drained"), "it is alerted of")
+    [alert] = alerts(station, "drained")
+    assert (alert["drone"], alert["over"]) == (drone, False)
+    asked = {"flight": seen["flight"], "seen": str(seen["version"]), "log": "0", "results": "999"}
+    [amended] = station.get("/api/live", **asked)["amended"]
+    left = alert["said"]["facts"]["level"]
+    assert (amended["drone"], amended["drained"]) == (drone, pytest.approx(left, abs=1e-4))
+    station.tell("acknowledge", alert=alert["id"])
+    station.until(lambda: alerts(station, "drained")[0]["over"], "it is over")
+    station.comes_to("over")
+    station.world.run(station.life.recorded())
+    station.start()
+    replay = station.get("/api/flights/replay", flight=seen["flight"])
+    assert any(one["id"] == alert["id"] for one in replay["alerts"])
+    past = station.get("/api/results.json", flight=seen["flight"])
+    for results in (station.now()["results"], past, replay["results"]):
+        [row] = [one for one in results if one["drained"] is not None]
+        assert row["number"] == amended["number"]
+    assert [one["over"] for one in alerts(station, "drained")] == [True]
+    reply = station.ask("GET", "/api/results.csv", flight=seen["flight"])
+    header, *lines = reply.body.decode().splitlines()
+    assert header.endswith(",drained")
+    assert sum(not line.endswith(",") for line in lines) == 1
+
+
 def test_what_was_interrupted_is_shown_and_flies_when_it_is_told_or_is_put_away(
     serve: Serve,
 ) -> None:

@@ -44,6 +44,8 @@ class Page:
         self.flight, self.seen = given["flight"], given["version"]
         self.log += given["log"]
         self.results += given["results"]
+        for row in given["amended"]:
+            self.results[row["number"] - 1] = row
         t = given["state"]["time"]
         self.shown.take_frame({**given, "t": t})
         self.views[t] = deepcopy(self.shown)

@@ -53,6 +53,15 @@ test("of two languages that are chosen at once the last is spoken", async () => 
   assert.equal(t("close"), "Chiudi");
 });
 
+test("that a drone has broken its reserve is said in every language", async () => {
+  const drained = { key: "alert.drained", facts: { drone: "cf1", level: 0.071 }, text: "" };
+  const said = { en: "cf1 came home with 7% of its battery, less than its reserve", it: "cf1 è rientrato con 7% di batteria, meno della sua riserva" };
+  for (const [name, words] of Object.entries({ ...said, de: "cf1 kam mit 7\u00a0% im Akku heim, weniger als ihre Reserve" })) {
+    await speak(name);
+    assert.equal(say(drained), words);
+  }
+});
+
 test("what the station says is said with its facts, and without what it does not know", async () => {
   await speak("it");
   const lost = { key: "alert.lost", facts: { drone: "cf1", why: "" }, text: "cf1 is lost" };

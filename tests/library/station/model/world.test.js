@@ -56,6 +56,16 @@ test("a line that comes twice is there once", () => {
   assert.deepEqual(world.log.entries.value.map(({ number }) => number), [1, 2, 3, 4]);
 });
 
+test("what is known of a result later stands in its place, and brings none that is not here", () => {
+  const world = new World();
+  /** @type {any[]} */
+  const results = [1, 2].map((number) => ({ number, drained: null }));
+  world.take({ flight: "f", state: STATE, results });
+  world.take({ flight: "f", state: STATE, amended: [{ ...results[0], drained: 0.07 }, { ...results[0], number: 3 }] });
+  assert.deepEqual(world.results.entries.value, [{ number: 1, drained: 0.07 }, results[1]]);
+  assert.equal(world.results.last, 2);
+});
+
 test("until the station has spoken, nothing is known", () => {
   const world = new World();
   assert.equal(world.state.value.known, false);

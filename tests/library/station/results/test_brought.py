@@ -75,6 +75,7 @@ def test_a_measurement_says_of_what_it_is_and_where() -> None:
         "values": [{"quantity": "pm10", "value": 17.3, "unit": "µg/m³"}],
         "tags": [],
         "layers": ["measure"],
+        "drained": None,
     }
 
 
@@ -86,6 +87,28 @@ def test_what_was_done_beside_its_target_says_where() -> None:
     found: list[Any] = feed.brought()
     assert [one.get("at") for one in found] == [[3.7, 4.5, 1.2], None, None]
     assert "another drone is at its place" in feed.console()
+
+
+def drained(level: float, drone: str = "cf1") -> dict[str, Any]:
+    return {"t": 60.0, "event": "drone.drained", "drone": drone, "level": level}
+
+
+def test_the_last_trip_before_its_drone_came_home_says_that_its_reserve_was_broken() -> None:
+    """No earlier trip does, none of another drone, and none before one that has brought nothing."""
+    launched = trip("launched")
+    one, other = trip(action="measure", result=1.0), trip(drone="cf2")
+    feed = taken(launched, one, launched, one, other, drained(0.08123456), launched, drained(0.1))
+    found: list[Any] = feed.brought()
+    assert [row["drained"] for row in found] == [None, 0.0812, None]
+
+
+def test_pages_that_know_a_result_are_told_what_is_known_of_it_since() -> None:
+    feed = taken(trip(), drained(0.08))
+    assert feed.look(7) and not feed.look(8)
+    [again] = map(json.loads, feed.amended_since(6))
+    assert again == json.loads(next(feed.results.since(0)))
+    assert (again["number"], again["drained"]) == (1, 0.08)
+    assert not list(feed.amended_since(7))
 
 
 def test_what_an_action_of_the_apps_own_returns_is_no_measurement_and_its_dose_a_parameter() -> (

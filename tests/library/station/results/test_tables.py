@@ -19,13 +19,15 @@ from pluto_fleet.station.results.rows import ResultRows
 from pluto_fleet.station.results.tables import cells, csv_text, from_cell, geojson
 
 
-def a_flight(**facts: object) -> FlightResults:
-    """Return a flight with one result."""
+def a_flight(level: float | None = None, **facts: object) -> FlightResults:
+    """Return a flight with one result, from which the drone came home with so low a level."""
     rows = ResultRows("flight", BUILT_IN, Meanings((), BUILT_IN, {}), lambda _: "Bed 3")
     did = {"action": "measure", "target": [3.0, 4.5, 1.2], "parameters": {"quantity": "pm10"}}
     event = {"t": 1.5, "event": "trip.completed", "mission": "Field", "trip": "A", "round": 0}
     brought = rows.take({**event, "attempt": 1, "drone": "cf1", "did": did, "result": 3.5, **facts})
     assert brought is not None
+    if level is not None:
+        rows.take({"t": 9.0, "event": "drone.drained", "drone": "cf1", "level": level})
     result, value = brought
     row = Brought(result=result, wall=1_700_000_000.25, value=value)
     return FlightResults(
@@ -64,6 +66,17 @@ def test_a_row_says_what_where_when_and_in_which_unit() -> None:
     assert line["wall"] == "2023-11-14T22:13:20.250+00:00"
     assert (line["quantity"], line["value"], line["unit"]) == ("pm10", "-3.5", "")
     assert (line["x"], line["y"], line["z"], line["place"]) == ("3.0", "4.5", "1.2", "Bed 3")
+
+
+@pytest.mark.parametrize(("level", "cell"), [(None, ""), (0.0, "0.0"), (0.08, "0.08")])
+def test_a_row_says_with_which_level_a_drone_came_home_that_broke_its_reserve(
+    level: float | None, cell: str
+) -> None:
+    flight = a_flight(level)
+    [line] = csv.DictReader(io.StringIO(csv_text(cells(flight)).removeprefix("\ufeff"), newline=""))
+    assert line["drained"] == cell
+    collection: Any = geojson(flight, "field")
+    assert collection["features"][0]["properties"]["drained"] == level
 
 
 def test_a_photo_is_the_ground_that_it_shows() -> None:

@@ -97,6 +97,13 @@ class Tail {
     return this.entries.value.length >= Math.min(this.last, LINES_KEPT);
   }
 
+  /** Have what is known of entries by now, of those that are here. @param {Entry[]} amended */
+  amend(amended) {
+    if (!amended.length) return;
+    const byNumber = new Map(amended.map((entry) => [entry.number, entry]));
+    this.entries.value = this.entries.peek().map((entry) => byNumber.get(entry.number) ?? entry);
+  }
+
   /** Take entries that may be older than the newest. @param {Entry[]} entries */
   fill(entries) {
     const byNumber = new Map([...entries, ...this.entries.peek()].map((entry) => [entry.number, entry]));
@@ -156,6 +163,7 @@ export class World {
       this.alerts.take(message.alerts ?? []);
       this.log.take(message.log ?? []);
       this.results.take(message.results ?? []);
+      this.results.amend(message.amended ?? []);
       if (message.people) this.people.value = message.people;
     });
   }

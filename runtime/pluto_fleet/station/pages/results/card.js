@@ -7,7 +7,7 @@ import { pictureAt } from "../map/ground.js";
 import { Button, IconButton } from "../ui/button.js";
 import { placeOf } from "./layers.js";
 import { revealBeside } from "./reveal.js";
-import { sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
+import { drainedWords, sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
 
 /** @import { Result } from "../wire" */
 /** @import { Camera } from "../map/camera.js" */
@@ -29,6 +29,7 @@ export function facts(result) {
     [t("results.column.trip"), trip ?? ""],
     [t("results.round"), round ? String(round) : ""],
     [t("results.column.drone"), drone ?? ""],
+    [t("results.battery"), drainedWords(result)],
     [t("results.parameters"), given.join(", ")],
     [t("results.sees"), isPhoto ? tagWords(value.sees).join(", ") || t("results.sees-nothing") : ""],
     [t("results.found"), isPhoto ? "" : tagWords(tags).join(", ")],

@@ -6,11 +6,14 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { language, t } from "../core/i18n.js";
 import { plain } from "../core/format.js";
 import { Button } from "../ui/button.js";
+import { Icon } from "../ui/icon.js";
 import { Empty } from "../ui/parts.js";
 import { ALL, choices, COLUMNS, windowOf } from "./table_model.js";
+import { drainedWords } from "./words.js";
 
 /** @import { Filters, Row } from "./table_model.js" */
 /** @import { ResultsModel } from "./model.js" */
+/** @import { Result } from "../wire" */
 
 const ROW = 40; // pixels
 
@@ -100,7 +103,13 @@ function Table({ model, listed, onPick }) {
     }, COLUMNS.map((column) => h("span", { key: column, role: "cell", class: `cell of-${column}`, title: row.words[column] },
       column === "what" ? h("button", {
         type: "button", class: "cell-button", tabIndex: -1, "aria-current": row.result.number === chosen ? "true" : undefined,
-      }, row.words.what) : row.words[column]))))));
+      }, h("span", { class: "what" }, row.words.what), h(Drained, { result: row.result })) : row.words[column]))))));
+}
+
+/** A sign that its drone came home with less than its reserve. @param {{ result: Result }} props */
+function Drained({ result }) {
+  const words = drainedWords(result);
+  return words && h("span", { class: "drained", role: "img", "aria-label": words, title: words }, h(Icon, { name: "warning", size: 14 }));
 }
 
 /** @param {{ model: ResultsModel }} props */

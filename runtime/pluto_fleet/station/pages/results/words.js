@@ -1,6 +1,6 @@
 // What results are called, and how their values are written.
 
-import { capital, clock, measured, number, place, plain } from "../core/format.js";
+import { capital, clock, measured, number, percent, place, plain } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { placeOf } from "./layers.js";
@@ -50,13 +50,17 @@ export function placeWords(result) {
   return result.place ?? (point ? place(point) : "");
 }
 
+/** How its drone came home from that trip, where that was with less than its reserve; else empty. @param {Result} result */
+export const drainedWords = ({ drained }) => (drained === null ? "" : t("results.drained", { level: percent(drained) }));
+
 /** @param {Result} result @returns {Row} */
 export function rowOf(result) {
   const words = {
     time: clock(result.time), what: whatWords(result), value: valueWords(result), place: placeWords(result),
     mission: result.mission, trip: result.trip ?? "", drone: result.drone ?? "",
   };
-  return { result, words, text: [...Object.values(words), ...result.tags].join(" ").toLowerCase() };
+  const more = [...result.tags, drainedWords(result)];
+  return { result, words, text: [...Object.values(words), ...more].join(" ").toLowerCase() };
 }
 
 /** What a layer is called: by the app, or by its quantity or kind. @param {ShownLayer} layer */
