@@ -147,6 +147,8 @@ class Waits:
             return Wait(what="way", reason=f"{stands} and waits for its way")
         has = f"its battery has {percent(drone['battery'])}"
         if is_wanted and status is DroneStatus.CHARGING:
+            if not self._life.fleet.charges_at_home:
+                return Wait(what="battery", reason=f"{stands}: {has}, and nothing charges it")
             return Wait(
                 what="charge", reason=f"charges: {has}", until=now + self._charges(id, drone)
             )

@@ -21,17 +21,17 @@ def to_fly(kind: Category) -> float:
 def ready_in(kind: Category, level: float, wanted: float, *, docked: bool) -> float | None:
     """Return the seconds until a battery has the level that is wanted; None: it never will.
 
-    A drone charges only in its dock. Levels are from 0 to 1; 0 seconds: it has it already.
+    A drone charges only in its dock, if its fleet does at all. Levels are from 0 to 1; 0 seconds: it has it already.
     """
     if level >= wanted:
         return 0.0
-    if not docked or wanted > 1.0 or wanted == inf:
+    if not docked or wanted > 1.0 or kind.charge_time == inf:
         return None
     return charging(level, wanted, kind.charge_time, kind.motion.taper)
 
 
 def level_after(kind: Category, level: float, seconds: float, at: Point, home: Point) -> float:
     """Return the level of a battery so many seconds later, of a drone that stands on the ground."""
-    if seconds <= 0.0 or not stands_in_its_dock(at, home):
+    if seconds <= 0.0 or kind.charge_time == inf or not stands_in_its_dock(at, home):
         return level
     return charged(level, seconds, kind.charge_time, kind.motion.taper)

@@ -48,7 +48,8 @@ class WaitReasons:
     """The reasons of waiting missions, cached between updates."""
 
     def __init__(self, app: App, fleet: FleetData, clock: Callable[[], float]) -> None:
-        self._app, self._fleet, self._clock = moving(app, fleet.motion), fleet, clock
+        self._app = moving(app, fleet.motion, charges=fleet.charges_at_home)
+        self._fleet, self._clock = fleet, clock
         self._reach = Reach(self._app, fleet.airspace)
         self._kinds = {category.name: category for category in self._app.categories}
         self._drones: Mapping[str, Any] = {}

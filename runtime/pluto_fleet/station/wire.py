@@ -57,6 +57,7 @@ SaidKey = Literal[
     "preflight.retired",
     "preflight.room",
     "preflight.too-far",
+    "preflight.uncharged",
     "question.action",
     "question.other",
     "wait.after",

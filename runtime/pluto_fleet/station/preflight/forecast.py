@@ -123,6 +123,9 @@ def _why_not(
             "preflight.too-far", "no battery lasts for any of these missions and the way home"
         )
     facts = {"battery": one.battery, "needs": wanted}
+    if seconds is None and docked:
+        text = f"{has}, any of these missions takes {percent(wanted)}, and nothing charges it"
+        return words("preflight.uncharged", text, **facts)
     if seconds is None:
         text = (
             f"{has}, any of these missions takes {percent(wanted)}: it flies home first to charge"

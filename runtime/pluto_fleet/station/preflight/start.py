@@ -54,7 +54,7 @@ class StartForecasts:
         refuse: Callable[[], object],
     ) -> None:
         """`refuse` raises `BadInput` if a Start of any plan would be refused."""
-        self._app = moving(app, config.fleet.motion)
+        self._app = moving(app, config.fleet.motion, charges=config.fleet.charges_at_home)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)
         plan.on_change = self.preflight.revised

@@ -50,7 +50,7 @@ def question(
     """Return the question of a Start of these missions, with all batteries at one level."""
     fleet = replace(fleet, drones=tuple(drones))
     return Question(
-        app=moving(APP, fleet.motion),
+        app=moving(APP, fleet.motion, charges=fleet.charges_at_home),
         fleet=fleet,
         missions=drawn(*missions, fleet=fleet).launchable()[0],
         present=present(fleet, level, out),

@@ -95,6 +95,15 @@ def test_low_batteries_lengthen_it_and_it_says_what_waits_for_them(tmp_path: Pat
     ]
 
 
+def test_where_nothing_charges_no_drone_is_said_to_be_ready_later(tmp_path: Path) -> None:
+    fleet = replace(FLEET, charges_at_home=False)
+    low = answer(question(*THREE, drones=SCOUTS, level=0.25, fleet=fleet), tmp_path)
+    for one in low["drones"]:
+        assert (one["ready"], one["ready_in"]) == (False, None)
+        assert one["why"] is not None
+        assert one["why"]["text"].endswith(" %, and nothing charges it")
+
+
 def test_a_drone_that_is_lost_flies_nothing_and_the_others_take_longer(tmp_path: Path) -> None:
     both = answer(question(*THREE, drones=SCOUTS), tmp_path)
     alone = answer(question(*THREE, drones=SCOUTS, out=[SCOUTS[0].id]), tmp_path)

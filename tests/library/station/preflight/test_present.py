@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from math import inf
+
 import pytest
 
 from pluto_fleet.gateway.sightings import Sighting
@@ -80,6 +83,9 @@ def test_a_battery_is_ready_when_it_has_charged_up_to_what_it_needs() -> None:
     assert ready_in(KIND, 0.9, wanted, docked=False) == 0.0
     assert ready_in(KIND, 0.1, wanted, docked=False) is None
     assert ready_in(KIND, 0.1, 1.01, docked=True) is None
+    uncharged = replace(KIND, charge_time=inf)  # in a fleet that says so
+    assert ready_in(uncharged, 0.1, wanted, docked=True) is None
+    assert level_after(uncharged, 0.1, 600.0, ENTRY.home, ENTRY.home) == 0.1
     seconds = ready_in(KIND, 0.1, wanted, docked=True)
     assert seconds is not None
     assert level_after(KIND, 0.1, seconds, ENTRY.home, ENTRY.home) == pytest.approx(wanted)

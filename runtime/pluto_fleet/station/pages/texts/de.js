@@ -730,6 +730,7 @@ const texts = {
   "said.preflight.retired": "ausgesetzt",
   "said.preflight.room": { one: "{missions} wartet, da höchstens {drones} zugleich fliegen dürfen", other: "{missions} warten, da höchstens {drones} zugleich fliegen dürfen" },
   "said.preflight.too-far": "kein Akku reicht für eine dieser Missionen und den Weg heim",
+  "said.preflight.uncharged": "ihr Akku hat {battery}, jede dieser Missionen braucht {needs}, und nichts lädt ihn",
   "said.question.action": "Hat {drone} „{action}“ von Etappe {trip} ausgeführt? Es war nicht zu sehen.",
   "said.question.other": "{question}",
   "said.wait.after": "kommt nach {after}",

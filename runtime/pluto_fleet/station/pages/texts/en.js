@@ -724,6 +724,7 @@ export default {
   "said.preflight.retired": "retired",
   "said.preflight.room": { one: "{missions} waits, as no more than {drones} may fly at once", other: "{missions} wait, as no more than {drones} may fly at once" },
   "said.preflight.too-far": "no battery lasts for any of these missions and the way home",
+  "said.preflight.uncharged": "its battery has {battery}, any of these missions takes {needs}, and nothing charges it",
   "said.question.action": "Did {drone} do “{action}” of trip {trip}? It could not be seen.",
   "said.question.other": "{question}",
   "said.wait.after": "comes after {after}",

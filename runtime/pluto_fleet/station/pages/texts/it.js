@@ -730,6 +730,7 @@ const texts = {
   "said.preflight.retired": "escluso",
   "said.preflight.room": { one: "{missions} aspetta, perché insieme possono volare al massimo {drones}", other: "{missions} aspettano, perché insieme possono volare al massimo {drones}" },
   "said.preflight.too-far": "nessuna batteria basta per una di queste missioni e il ritorno alla base",
+  "said.preflight.uncharged": "batteria {battery}, per ognuna di queste missioni serve {needs}, e nulla la ricarica",
   "said.question.action": "{drone} ha eseguito “{action}” della tratta {trip}? Non si è potuto vedere.",
   "said.question.other": "{question}",
   "said.wait.after": "viene dopo {after}",
