@@ -323,9 +323,11 @@ def _repeated(records: Records, record: Record, event: Fact) -> None:
     own = [trip for trip in record["done"] if not trip.get("added")]
     for trip in own:
         _waits(trip)
-        trip["attempt"] = 1
     record["gone"] += [trip for trip in record["done"] if trip.get("added")]
     record["todo"] = sorted([*record["todo"], *own], key=lambda trip: int(trip["index"]))
+    for trip in record["todo"]:
+        if "status" not in trip:  # it waits
+            trip["attempt"] = 1
     record["judged"] = len(records.results)
     record["waited"] = []
     record.update(done=[], round=event["round"], last_action_end=None, status="STANDBY", reason="")

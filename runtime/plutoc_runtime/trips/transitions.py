@@ -97,8 +97,10 @@ class Transitions:
         own = [trip for trip in mission.completed_trips if not trip.added]
         for trip in own:
             put_back(trip)
-            put(trip, attempt=1)
         trips = sorted([*trips_of(mission), *own], key=lambda trip: trip.index)
+        for trip in trips:
+            if trip.status is TripStatus.WAITING:
+                put(trip, attempt=1)
         put_trips(mission, trips)
         put(mission, round=mission.round + 1, completed_trips=(), status=STANDBY, reason="")
         if (keeper := keeper_of(mission)) is not None:

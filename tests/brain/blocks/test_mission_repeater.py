@@ -9,6 +9,7 @@ import pytest
 from pluto_fleet.shared.domain.model import Mission, Results
 from pluto_fleet.shared.hooks.context import Verdict
 from tests.kit import apps
+from tests.kit.living import Living
 
 
 def repeated(repeat: int | bool, *trips: apps.Trip, **how: Any) -> apps.SimulationResult:
@@ -51,3 +52,41 @@ def test_an_attempt_of_an_earlier_round_does_not_count_in_the_next() -> None:
     launched = [(e["round"], e["attempt"]) for e in apps.events(outcome, "trip.launched")]
     assert launched == [(0, 1), (0, 2), (1, 1)]
     assert outcome.completed
+
+
+def test_what_an_evaluator_beside_it_sends_back_counts_anew_in_the_next_round_too() -> None:
+    app = apps.loaded(FORKED, HOOKS).app
+    mission = app.mission(name="m", trips=[app.trip(name="A", action="take_photo", target=(2.0, 0.5, 1.2))])
+    mission.repeat = 1
+    living = Living(app, mission, on=apps.TWO)
+    living.crash(9.0)  # it goes on from its journal
+    assert living.run() == ["COMPLETED"]
+    for kind in ("trip.launched", "trip.completed"):
+        events = [one for one in living.events if one["event"] == kind]
+        assert [(one["round"], one["attempt"]) for one in events] == [(0, 1), (1, 1)]
+
+
+FORKED = """pluto 1
+app NAME {
+  category scout can take_photo
+  evaluator once_more
+  create = MissionCreator
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  judge = MissionEvaluator(hook: once_more)
+  again = MissionRepeater
+  all = GateFunnel
+  start -> create -> allocate -> launch -> watch
+  watch -> allocate when STANDBY
+  watch -> [judge, again] when COMPLETED
+  [judge, again] -> all
+  all -> allocate when STANDBY
+  [watch, all] -> end otherwise
+}"""
+HOOKS = """
+from . import Verdict
+
+def once_more(mission, results):
+    return Verdict(redo=mission.completed_trips if mission.round == 0 else ())
+"""
