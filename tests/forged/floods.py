@@ -43,8 +43,10 @@ class Figures:
 
     answers: int = 0
     slowest: float = 0.0
+    stop: float = 0.0
+    """Seconds until a Stop was answered."""
     memory: int = 0
-    """MiB at most, beside what it had before."""
+    """MiB at most of all its processes, beside what they had before."""
     asked: int = 0
     """Of forged files."""
     faults: list[str] = field(default_factory=list)
@@ -85,7 +87,9 @@ def _flood(station: Station, seconds: float) -> Figures:
         figures.answers += 2
         figures.slowest = max(figures.slowest, time.monotonic() - asked)
         time.sleep(0.1)
+    asked = time.monotonic()
     station.tell("stop", how="land")
+    figures.stop = time.monotonic() - asked
     over.set()
     for thread in threads:
         thread.join()
@@ -124,9 +128,15 @@ def _forge(folder: Path) -> list[str]:
 
 
 def _peak(process: int) -> int:
-    status = Path(f"/proc/{process}/status").read_text()
-    [line] = [line for line in status.splitlines() if line.startswith("VmHWM")]
-    return int(line.split()[1]) // 1024
+    """Return the most MiB that a process had, and each that it has begun."""
+    about = Path(f"/proc/{process}")
+    try:
+        status = (about / "status").read_text()
+        begun = (about / f"task/{process}/children").read_text().split()
+    except FileNotFoundError:  # it has just ended
+        return 0
+    own = [line.split()[1] for line in status.splitlines() if line.startswith("VmHWM")]
+    return sum(map(int, own)) // 1024 + sum(map(_peak, map(int, begun)))
 
 
 def _asks(ids: list[str], figures: Figures) -> Callable[[int, threading.Event], None]:
@@ -200,6 +210,7 @@ def main() -> int:
         campaign.found(fault)
     return campaign.over(
         f"{figures.answers} answers to its own page, the slowest after {figures.slowest:.1f} s;"
+        f" a Stop after {figures.stop:.1f} s;"
         f" {figures.asked} questions about forged files; {figures.memory} MiB more at most"
     )
 

@@ -7,7 +7,7 @@ import fcntl
 import os
 import secrets
 from collections.abc import Callable, Coroutine, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -17,12 +17,14 @@ from ..flight.mission_status import finished, records_in
 from ..jobs.reports import Down
 from ..journal import place
 from ..process import respawn as again
+from ..process.apart import Apart
 from ..process.forked import not_for_children
 from ..process.text import in_shell
 from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..station.config import StationConfig
+from ..station.flight_files import FlightFiles
 from ..station.map.pictures import floor_plan
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
@@ -64,9 +66,9 @@ def serve(app: App, options: Options) -> int:
     _make_room(config)
     if options.supervise:
         return _supervised(app, options, config)
-    with _alone(config):
+    with closing(Apart(FlightFiles(app, config))) as files, _alone(config):
         (config.own_folder / LEFT_FILE).unlink(missing_ok=True)
-        station = Station(app, config, _plan(app, options, config))
+        station = Station(app, config, _plan(app, options, config), files)
         leaving = _Leaving(station)
         mark = partial(_mark_regular_end, config)
         interrupts = Interrupts(leaving, leaving.journal, HOW_TO_GO_ON, last=mark)

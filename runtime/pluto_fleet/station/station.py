@@ -23,6 +23,7 @@ from ..journal import lock, place
 from ..journal.fold import Records
 from ..journal.header import header
 from ..journal.store import Store
+from ..process.at_once import at_once
 from ..process.ipc import NoAnswer, NotRunning
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
@@ -33,7 +34,6 @@ from .between_flights import FleetHistory, put_away, unfinished_flight
 from .commands import checked
 from .config import described
 from .flight_changes import FlightChanges
-from .history.past import PastFlights
 from .map.drawn import DrawnMap
 from .map.ways import DrawnWays
 from .plan.library import PlanLibrary
@@ -49,9 +49,11 @@ if TYPE_CHECKING:
     from ..app import App
     from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
+    from ..process.apart import Answers
     from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
     from .config import StationConfig
+    from .flight_files import FlightFiles
     from .plan.plan import MissionPlan
     from .preflight.start import PlannedStart
     from .wire import Forecast
@@ -72,7 +74,14 @@ LOOK_EVERY = 0.1
 class Station:
     """One app with its fleet, its plan, and its flight."""
 
-    def __init__(self, app: App, config: StationConfig, plan: MissionPlan) -> None:
+    def __init__(
+        self,
+        app: App,
+        config: StationConfig,
+        plan: MissionPlan,
+        files: Answers[FlightFiles],
+    ) -> None:
+        """`files` reads the files of flights in the folder."""
         self._app, self._config, self.plan = app, config, plan
         self.map = DrawnMap(config.fleet.airspace, config.map_path)
         self.map.changed = self._describe
@@ -102,9 +111,8 @@ class Station:
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
         self.preflight = self._forecasts.preflight
         """The forecast that is being made, if any."""
-        self.past = PastFlights(app, config, self._ours, self.map.name_of)
-        """The flights of the past."""
-        self.exports = Exports(app, config, self._flight_now, self.map.name_of)
+        self.files = files
+        self.exports = Exports(config, files, self._flight_now)
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
@@ -123,10 +131,6 @@ class Station:
     def phase(self) -> Phase:
         """The present phase."""
         return phase_of(self.session)
-
-    def _ours(self) -> Path | None:
-        """Return the journal that is written here, or may be at any moment."""
-        return self.session.journal if self.session is not None else None
 
     def _looked_at(self, text: str, file: str) -> tuple[int, str]:
         """Return how many missions a kept plan has, and what is to be done before it can fly."""
@@ -427,7 +431,7 @@ class Station:
         if self.session is not None:
             folder = place.gateway_folder(self.session.journal)
             with suppress(BadInput):
-                return await asyncio.to_thread(stop_directly, folder, how, GATEWAY_ANSWERS_WITHIN)
+                return await at_once(lambda: stop_directly(folder, how, GATEWAY_ANSWERS_WITHIN))
         return "nothing flies"
 
     async def _cut_motors(self, drone: str) -> str:
@@ -436,7 +440,7 @@ class Station:
             raise BadInput("nothing flies")
         folder = place.gateway_folder(self.session.journal)
         try:
-            said = await asyncio.to_thread(cut_directly, folder, drone, GATEWAY_ANSWERS_WITHIN)
+            said = await at_once(lambda: cut_directly(folder, drone, GATEWAY_ANSWERS_WITHIN))
         except NotRunning:
             raise BadInput("nothing commands the drones now") from None
         except NoAnswer:

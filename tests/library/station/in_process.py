@@ -39,6 +39,7 @@ from tests.kill.judge import done_by_the_world
 from tests.kit.apps import EXAMPLES, example, fly_straight
 from tests.kit.station import Asked
 
+from .in_threads import InThreads
 from .jumping import AtOnce, JumpingLoop
 from .server.asking import OURS, request
 
@@ -178,7 +179,7 @@ class Flown(Asked):
             files = EXAMPLES / self.name
             missions = (files / "missions.toml").read_text("utf-8")
             plan.import_toml(missions, plan.revision, folder=files)
-        self.life = Station(app, config, plan)
+        self.life = Station(app, config, plan, InThreads(app, config))
         self.api = self.served(Guard(host="127.0.0.1", port=8765))
         self.world.run(self._begun())
 

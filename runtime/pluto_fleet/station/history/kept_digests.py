@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import threading
-from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -36,9 +35,8 @@ FORMAT = 1
 class KeptDigests:
     """Digests, also in a file, from which the next station takes them. Threads may share it."""
 
-    def __init__(self, app: App, folder: Path, file: Path, ours: Callable[[], Path | None]) -> None:
-        """`ours` returns the journal that this process writes, or may begin to write."""
-        self._app, self._folder, self._file, self._ours = app, folder, file, ours
+    def __init__(self, app: App, folder: Path, file: Path) -> None:
+        self._app, self._folder, self._file = app, folder, file
         self._known: dict[str, tuple[Stamp, Digest]] | None = None
         """By id: when and how large the journal was, and its digest."""
         self._in_file: dict[str, tuple[Stamp, Digest]] = {}
@@ -73,9 +71,7 @@ class KeptDigests:
         stamp = [written(path), path.stat().st_size]
         if known is not None and known[0] == stamp:
             return known
-        ours = self._ours()
-        text = JournalText(path, ours is not None and os.path.realpath(path) == os.fspath(ours))
-        return stamp, digest_of(id, text, self._app)
+        return stamp, digest_of(id, JournalText(path), self._app)
 
     def _present(self, digest: Digest, path: Path) -> Digest:
         """Add what the journal itself does not tell: whether it flies now, and was recorded."""
@@ -106,7 +102,7 @@ class KeptDigests:
         self._in_file = found.copy()
         text = json.dumps({"format": FORMAT, "app": self._app.name, "flights": flights})
         with suppress(OSError):  # then the next station reads the journals again
-            part = self._file.with_name(f"{self._file.name}.part")
+            part = self._file.with_name(f"{self._file.name}.{os.getpid()}.part")
             part.write_text(text, encoding="utf-8")
             part.replace(self._file)
 

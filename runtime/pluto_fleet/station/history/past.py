@@ -1,10 +1,8 @@
-"""The flights of the past as a station serves them. All of it blocks: call it in a thread."""
+"""The flights of the past as a station serves them. All of it blocks: ask it apart."""
 
 from __future__ import annotations
 
-import os
 import threading
-from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -41,16 +39,12 @@ class PastFlights:
         self,
         app: App,
         config: StationConfig,
-        ours: Callable[[], Path | None],
         name_of: NameOf = nowhere,
     ) -> None:
-        """`ours` returns the journal that this process writes, or may begin to write.
-
-        `name_of` says what a place of the map is called.
-        """
-        self._app, self._config, self._ours, self._name_of = app, config, ours, name_of
+        """`name_of` says what a place of the map is called."""
+        self._app, self._config, self._name_of = app, config, name_of
         file = config.own_folder / DIGESTS_FILE
-        self._digests = KeptDigests(app, config.folder, file, ours)
+        self._digests = KeptDigests(app, config.folder, file)
         self._recordings: dict[Path, Recorded] = {}
         self._one_at_a_time, self._one_export = threading.Lock(), threading.Lock()
 
@@ -70,7 +64,7 @@ class PastFlights:
         """Return what is to be said of a flight on paper."""
         path, digest = self._digest(id)
         return report_of(
-            self._app, self._text(path), self._text(path), digest, self._config.own_folder
+            self._app, JournalText(path), JournalText(path), digest, self._config.own_folder
         )
 
     def mcap(self, id: str) -> bytes:
@@ -91,7 +85,7 @@ class PastFlights:
         path = found(self._config.folder, id)
         recorded, _ = self._recorded(recording_of(path))
         said = recorded.said if recorded is not None else ()
-        return logbook(self._app, self._text(path), said, self._name_of)
+        return logbook(self._app, JournalText(path), said, self._name_of)
 
     def _past(self, id: str) -> Past:
         try:
@@ -108,7 +102,7 @@ class PastFlights:
         return Past(
             id=id,
             app=self._app,
-            read=partial(self._text, path),
+            read=partial(JournalText, path),
             digest=digest,
             recorded=recorded,
             trouble=trouble,
@@ -118,10 +112,6 @@ class PastFlights:
     def _digest(self, id: str) -> tuple[Path, Digest]:
         path = found(self._config.folder, id)
         return path, self._digests.of(id, path)
-
-    def _text(self, path: Path) -> JournalText:
-        ours = self._ours()
-        return JournalText(path, ours is not None and os.path.realpath(path) == os.fspath(ours))
 
     def _recorded(self, path: Path) -> tuple[Recorded | None, str]:
         """Return a recording as far as it is written now, and what is wrong with it."""

@@ -1,4 +1,4 @@
-"""Reading the journal of a flight, also of the one that this process writes."""
+"""Reading the journal of a flight, also of one that another process writes."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from ...journal import errors
-from ...journal.database import Row, connect, last_row
-from ...journal.errors import TROUBLE, JournalError
+from ...journal.database import Row
+from ...journal.errors import JournalError
 from ...journal.fold import Records
-from ...journal.reader import Reader, rows_between
+from ...journal.reader import Reader
 
 Event = dict[str, Any]
 
@@ -33,12 +33,6 @@ class JournalText:
     """A journal that is read from its beginning."""
 
     path: Path
-    ours: bool
-    """Whether this process writes it, or may begin to at any moment.
-
-    Then it is opened by SQLite alone: any other way to open the file, once closed, would take away
-    the locks by which SQLite keeps other programs from it.
-    """
     damaged: str = ""
     """What is wrong with it, after all that can be read; empty: nothing."""
     records: Records = field(default_factory=Records)
@@ -46,7 +40,7 @@ class JournalText:
 
     def instants(self) -> Iterator[Instant]:
         """Yield its rows, the header first, after each has been taken into the records."""
-        for row in self._ours() if self.ours else self._others():
+        for row in self._rows():
             try:
                 events = row.events
                 for event in events:
@@ -59,7 +53,7 @@ class JournalText:
             if events:
                 yield Instant(row.wall, row.epoch, events)
 
-    def _others(self) -> Iterator[Row]:
+    def _rows(self) -> Iterator[Row]:
         try:
             reader = Reader(self.path)
         except JournalError as error:
@@ -68,14 +62,3 @@ class JournalText:
         with closing(reader):
             yield from reader.rows()
             self.damaged = reader.damaged or ""
-
-    def _ours(self) -> Iterator[Row]:
-        try:
-            with closing(connect(self.path, "mode=ro")) as database:
-                read = rows_between(database, 0, last_row(database))
-                yield from read.rows
-        except TROUBLE as error:
-            self.damaged = str(errors.refused(self.path, error))
-            return
-        if read.damaged is not None:
-            self.damaged = str(errors.damaged(self.path, read.damaged))

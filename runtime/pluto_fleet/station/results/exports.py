@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import shutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,14 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
 from ...shared.domain.errors import BadInput
+from ..json_text import json_text
 from . import pictures
 from .archive import write_archive
-from .flights import FlightResults, ResultsOfFlights
-from .rows import NameOf, nowhere
 from .tables import cells, csv_text, geojson
 
 if TYPE_CHECKING:
-    from ...app import App
+    from ...process.apart import Answers
+    from .flights import ResultsOfFlights
 
 AT_ONCE = 2
 """The pictures that are read or made small at once, each in a thread."""
@@ -34,12 +35,16 @@ class CurrentResults(Protocol):
         """Return the newest results, with their values in full."""
 
 
-class Place(Protocol):
-    """Where a station keeps its files."""
+class Files(Protocol):
+    """The files of flights."""
 
     @property
-    def folder(self) -> Path:
-        """The folder of journals."""
+    def results(self) -> ResultsOfFlights:
+        """The results in them."""
+
+
+class Place(Protocol):
+    """Where a station keeps its files."""
 
     @property
     def own_folder(self) -> Path:
@@ -68,67 +73,79 @@ class Exports:
 
     def __init__(
         self,
-        app: App,
         place: Place,
+        files: Answers[Files],
         current: Callable[[], CurrentFlight | None],
-        name_of: NameOf = nowhere,
     ) -> None:
-        self._app, self._place, self._current = app, place, current
-        self._flights = ResultsOfFlights(app, place.folder, name_of)
+        self._place, self._files, self._current = place, files, current
         self._reading, self._packing = asyncio.Lock(), asyncio.Lock()
         self._cleared = False
         self._pictures = asyncio.Semaphore(AT_ONCE)
 
-    async def results(self, flight: str) -> list[object]:
-        """Return the results as mappings: of the current flight the newest, of another one all."""
+    async def results(self, flight: str) -> str:
+        """Return the results as JSON: of the current flight the newest, of another one all."""
         now = self._current()
         if now is None and not flight:
-            return []
+            return json_text([])
         if now is not None and flight in ("", now.flight):
-            return now.feed.brought()
-        found = await self._of(flight)
-        return [{**one.result, "value": one.value} for one in found.rows]
+            return json_text(now.feed.brought())
+        async with self._reading:  # one journal at a time is enough for a station that flies
+            return await self._files.ask(_results, flight)
 
     async def csv(self, flight: str) -> str:
         """Return the table of values."""
-        found = await self._of(flight)
-        return await asyncio.to_thread(lambda: csv_text(cells(found)))
+        async with self._reading:
+            return await self._files.ask(_csv, self._named(flight))
 
-    async def geojson(self, flight: str) -> dict[str, object]:
+    async def geojson(self, flight: str) -> str:
         """Return the results that have a place, as GeoJSON."""
-        found = await self._of(flight)
-        return await asyncio.to_thread(geojson, found, self._app.name)
+        async with self._reading:
+            return await self._files.ask(_geojson, self._named(flight))
 
     async def archive(self, flight: str) -> Path:
         """Write an archive of the pictures into a file, which the caller deletes."""
-        found = await self._of(flight)
+        id = self._named(flight)
         folder = self._place.own_folder / "archives"
         async with self._packing:
             if not self._cleared:  # a station that was killed may have left some
                 self._cleared = True
                 await asyncio.to_thread(shutil.rmtree, folder, ignore_errors=True)
-            return await asyncio.to_thread(write_archive, found, folder)
+            return await self._files.ask(_archive, id, folder)
 
     async def picture(self, flight: str, number: int, *, small: bool) -> tuple[bytes, str]:
         """Return the picture of a result and its media type: as it was taken, or a small JPEG."""
         now = self._current()
-        taken: pictures.Taken
-        if now is not None and flight in ("", now.flight):
-            taken = now
-        else:
-            taken = await self._of(flight)
+        cache = self._place.own_folder / "thumbnails" if small else None
         async with self._pictures:
-            if not small:
-                return await asyncio.to_thread(pictures.picture, taken, number)
-            cache = self._place.own_folder / "thumbnails"
-            return await asyncio.to_thread(pictures.small, taken, number, cache), "image/jpeg"
+            if now is not None and flight in ("", now.flight):
+                return await asyncio.to_thread(pictures.shown, now, number, cache)
+            return await self._files.ask(_picture, self._named(flight), number, cache)
 
-    async def _of(self, flight: str) -> FlightResults:
-        """Return the results of a flight, as its journal has them."""
-        now = self._current()
-        if not flight:
-            if now is None:
-                raise BadInput("nothing has flown yet: name an earlier flight with ?flight=")
-            flight = now.flight
-        async with self._reading:  # one journal at a time is enough for a station that flies
-            return await asyncio.to_thread(self._flights.of, flight)
+    def _named(self, flight: str) -> str:
+        """Return the id of a flight: of the current one if none is named."""
+        if flight:
+            return flight
+        if (now := self._current()) is None:
+            raise BadInput("nothing has flown yet: name an earlier flight with ?flight=")
+        return now.flight
+
+
+def _results(files: Files, flight: str) -> str:
+    return json_text([{**one.result, "value": one.value} for one in files.results.of(flight).rows])
+
+
+def _csv(files: Files, flight: str) -> str:
+    return csv_text(cells(files.results.of(flight)))
+
+
+def _geojson(files: Files, flight: str) -> str:
+    found = files.results.of(flight)
+    return json.dumps(geojson(found, files.results.app), ensure_ascii=False)
+
+
+def _archive(files: Files, flight: str, folder: Path) -> Path:
+    return write_archive(files.results.of(flight), folder)
+
+
+def _picture(files: Files, flight: str, number: int, cache: Path | None) -> tuple[bytes, str]:
+    return pictures.shown(files.results.of(flight), number, cache)

@@ -108,6 +108,13 @@ def _content(flight: Taken, number: int, file: str) -> bytes:
         return opened.read(LARGEST)
 
 
+def shown(flight: Taken, number: int, cache: Path | None) -> tuple[bytes, str]:
+    """Return the picture of a result and its media type: a small one if there is a cache for it."""
+    if cache is None:
+        return picture(flight, number)
+    return small(flight, number, cache), "image/jpeg"
+
+
 def small(flight: Taken, number: int, cache: Path) -> bytes:
     """Return a small JPEG of a picture; it is made once and kept in `cache`, a folder of the station's.
 

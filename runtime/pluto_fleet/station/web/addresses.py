@@ -74,6 +74,8 @@ class Address:
     query: Mapping[str, Parameter] = field(default_factory=dict)
     stale: Any = None
     """The type of the answer 409 to an edit of what has changed meanwhile, if not a sentence."""
+    reads_flights: bool = False
+    """Whether it reads files of flights, which may take a while."""
     always: bool = False
     """Whether it brings drones down, and so is exempt from all limits."""
 
@@ -137,8 +139,9 @@ _READS = (
         path="/api/console.txt",
         says="What has happened in the flight, line by line.",
         answers=TEXT,
-        do=reads.console,
+        do=flights.console,
         role="watch",
+        reads_flights=True,
         query={"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")},
     ),
     Address(
@@ -300,6 +303,7 @@ _FLIGHTS = (
         answers=list[FlightSummary],
         do=flights.flights,
         role="watch",
+        reads_flights=True,
     ),
     Address(
         method="GET",
@@ -308,6 +312,7 @@ _FLIGHTS = (
         answers=Replay,
         do=flights.replay,
         role="watch",
+        reads_flights=True,
         query={
             "flight": _FLIGHT,
             "start": Parameter(float, "From which second of the flight on; 0 if it is left out."),
@@ -320,6 +325,7 @@ _FLIGHTS = (
         answers=FlightReport,
         do=flights.report,
         role="watch",
+        reads_flights=True,
         query={"flight": _FLIGHT},
     ),
     Address(
@@ -329,6 +335,7 @@ _FLIGHTS = (
         answers=flights.MCAP,
         do=flights.mcap,
         role="watch",
+        reads_flights=True,
         query={"flight": _FLIGHT},
     ),
     Address(
@@ -338,6 +345,7 @@ _FLIGHTS = (
         answers=list[DroneHours],
         do=flights.hours,
         role="watch",
+        reads_flights=True,
     ),
 )
 _OF_FLIGHT = {"flight": Parameter(str, "The id of a flight of the past; left out: that of now.")}
@@ -349,6 +357,7 @@ _RESULTS = (
         answers=list[object],
         do=results.results,
         role="watch",
+        reads_flights=True,
         query=_OF_FLIGHT,
     ),
     Address(
@@ -358,6 +367,7 @@ _RESULTS = (
         answers=results.CSV,
         do=results.results_table,
         role="watch",
+        reads_flights=True,
         query=_OF_FLIGHT,
     ),
     Address(
@@ -367,6 +377,7 @@ _RESULTS = (
         answers=results.GEOJSON,
         do=results.results_on_map,
         role="watch",
+        reads_flights=True,
         query=_OF_FLIGHT,
     ),
     Address(
@@ -376,6 +387,7 @@ _RESULTS = (
         answers=results.ZIP,
         do=results.pictures,
         role="watch",
+        reads_flights=True,
         query=_OF_FLIGHT,
     ),
     Address(
@@ -385,6 +397,7 @@ _RESULTS = (
         answers=results.PICTURES,
         do=results.photo,
         role="watch",
+        reads_flights=True,
         query={
             **_OF_FLIGHT,
             "result": Parameter(int, "The number of the result.", needed=True),

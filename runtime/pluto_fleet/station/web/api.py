@@ -25,8 +25,10 @@ _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
 """Rates per second for each client; edits of the plan do not count as commands."""
 _MOST_UNDER_WAY = 64
 """The most concurrent requests, without Stops."""
+_MOST_READING = 32
+"""The most of them that read files of flights: these may be slow, and leave room for all others."""
 _MOST_LARGE = 2
-"""The most concurrent requests whose bodies may be large."""
+"""The most of them whose bodies may be large."""
 _WRONG_TOKEN_WAITS = 0.5
 """Seconds after which a wrong token is refused."""
 _MOST_WAITING = 32
@@ -60,7 +62,7 @@ class Api:
         self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
         self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
-        self._under_way = self._large = self._waiting = 0
+        self._under_way = self._reading = self._large = self._waiting = 0
 
     async def answer(self, request: Request) -> Reply:
         """Handle any request; errors reveal no internals."""
@@ -132,15 +134,21 @@ class Api:
         """Handle a request within the limits."""
         if not self._rate(request).allows(f"{role} {request.client}"):
             raise Refused(refusals.TOO_MANY)
-        is_large = address.most_bytes > SMALL_BODY
-        if self._under_way >= _MOST_UNDER_WAY or (is_large and self._large >= _MOST_LARGE):
+        reads, is_large = address.reads_flights, address.most_bytes > SMALL_BODY
+        if (
+            self._under_way >= _MOST_UNDER_WAY
+            or (reads and self._reading >= _MOST_READING)
+            or (is_large and self._large >= _MOST_LARGE)
+        ):
             raise Refused(refusals.TOO_BUSY)
         self._under_way += 1
+        self._reading += reads
         self._large += is_large
         try:
             return await self._done(address, request, role)
         finally:
             self._under_way -= 1
+            self._reading -= reads
             self._large -= is_large
 
     async def _done(self, address: Address, request: Request, role: Role) -> Reply:

@@ -1,75 +1,113 @@
-"""The handlers of flights of the past: each only reads, in a thread."""
+"""The handlers of flights of the past: each only reads, apart from the station's process."""
 
 from __future__ import annotations
 
-import asyncio
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from math import isfinite
+from typing import Concatenate, ParamSpec
 
+from ...process.beside import Died
 from ...shared.domain.errors import BadInput
 from ..commands import Malformed
-from .http import Reply, json_reply
+from ..flight_files import FlightFiles
+from . import refusals
+from .http import Reply, json_reply, text_reply
 from .http import said as in_words
+from .refusals import Refused
 from .served import Asked
 
-THREADS = ThreadPoolExecutor(2, "flights")
-"""Threads of its own: a Stop may need those of the loop, and never waits for what is read here."""
-
 MCAP = "application/octet-stream"
+
+P = ParamSpec("P")
 
 _LONGEST_NUMBER = 24
 """Digits and signs of a time."""
 
+_LONGEST_FLIGHT = 100
+
 
 async def flights(asked: Asked) -> Reply:
     """Answer with a line for each flight."""
-    return await in_thread(lambda: json_reply(200, asked.station.past.flights()))
+    return await _read(asked, _flights)
+
+
+def _flights(files: FlightFiles) -> Reply:
+    return json_reply(200, files.past.flights())
 
 
 async def replay(asked: Asked) -> Reply:
     """Answer with a part of a flight's replay."""
-    start = _seconds(asked)
-    return await in_thread(lambda: json_reply(200, asked.station.past.replay(id_in(asked), start)))
+    return await _read(asked, _replay, flight_in(asked), _seconds(asked))
+
+
+def _replay(files: FlightFiles, id: str, start: float) -> Reply:
+    return json_reply(200, files.past.replay(id, start))
 
 
 async def report(asked: Asked) -> Reply:
     """Answer with what is to be said of a flight on paper."""
-    return await in_thread(lambda: json_reply(200, asked.station.past.report(id_in(asked))))
+    return await _read(asked, _report, flight_in(asked))
+
+
+def _report(files: FlightFiles, id: str) -> Reply:
+    return json_reply(200, files.past.report(id))
 
 
 async def mcap(asked: Asked) -> Reply:
     """Answer with a flight as an MCAP file."""
+    return await _read(asked, _mcap, flight_in(asked))
 
-    def read() -> Reply:
-        body = asked.station.past.mcap(id_in(asked))
-        return download(Reply(status=200, body=body, type=MCAP), "flight.mcap")
 
-    return await in_thread(read)
+def _mcap(files: FlightFiles, id: str) -> Reply:
+    named = ("Content-Disposition", 'attachment; filename="flight.mcap"')
+    return Reply(status=200, body=files.past.mcap(id), type=MCAP, headers=(named,))
 
 
 async def hours(asked: Asked) -> Reply:
     """Answer with what each drone has flown."""
-    return await in_thread(lambda: json_reply(200, asked.station.past.hours()))
+    return await _read(asked, _hours)
 
 
-async def in_thread(read: Callable[[], Reply]) -> Reply:
+def _hours(files: FlightFiles) -> Reply:
+    return json_reply(200, files.past.hours())
+
+
+async def console(asked: Asked) -> Reply:
+    """Answer with the console, that of the current flight if none is named."""
+    if id := flight_in(asked):
+        return await _read(asked, _console, id)
+    return _console_reply(asked.station.console())
+
+
+def _console(files: FlightFiles, id: str) -> Reply:
+    return _console_reply(files.past.console(id))
+
+
+def _console_reply(text: str) -> Reply:
+    return text_reply(text, "console.txt")
+
+
+async def _read(
+    asked: Asked,
+    question: Callable[Concatenate[FlightFiles, P], Reply],
+    *given: P.args,
+    **named: P.kwargs,
+) -> Reply:
     """Read of a flight of the past; 404 if there is none of the id that was asked for."""
     try:
-        return await asyncio.get_running_loop().run_in_executor(THREADS, read)
+        return await asked.station.files.ask(question, *given, **named)
     except BadInput as error:
         return in_words(404, str(error))
+    except Died:
+        raise Refused(refusals.READER_ENDED) from None
 
 
-def id_in(asked: Asked) -> str:
+def flight_in(asked: Asked) -> str:
     """Return the id of the flight that was asked for; empty: none."""
-    return asked.request.query.get("flight", "")
-
-
-def download(reply: Reply, name: str) -> Reply:
-    """Return an answer that a browser saves as a file."""
-    named = ("Content-Disposition", f'attachment; filename="{name}"')
-    return Reply(status=reply.status, body=reply.body, type=reply.type, headers=(named,))
+    flight = asked.request.query.get("flight", "")
+    if len(flight) > _LONGEST_FLIGHT:
+        raise Malformed(f"flight is the id of a flight, of at most {_LONGEST_FLIGHT} characters")
+    return flight
 
 
 def _seconds(asked: Asked) -> float:

@@ -6,15 +6,14 @@ So everything that makes decisions can be tested without one.
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field
-from math import isfinite
 from pathlib import Path
 from typing import Protocol
 from urllib.parse import unquote
 
 from ...shared.domain.text import cut_off, printable
+from ..json_text import json_text
 
 Read = Callable[[int], Awaitable[bytes]]
 """Reads a body to its end; raises `Refused` if it has more than so many bytes."""
@@ -97,11 +96,7 @@ class PageSocket(Protocol):
 
 def json_reply(status: int, data: object) -> Reply:
     """Answer with data as JSON; numbers that JSON lacks become texts."""
-    try:
-        text = json.dumps(data, separators=(",", ":"), allow_nan=False)
-    except ValueError:  # a hook returned NaN or infinity
-        text = json.dumps(_finite(data), separators=(",", ":"), allow_nan=False)
-    return Reply(status=status, body=text.encode("ascii"))
+    return Reply(status=status, body=json_text(data).encode("ascii"))
 
 
 def said(status: int, text: str) -> Reply:
@@ -117,13 +112,3 @@ def text_reply(text: str, name: str, kind: str = "text/plain") -> Reply:
         type=f"{kind}; charset=utf-8",
         headers=(("Content-Disposition", f'attachment; filename="{name}"'),),
     )
-
-
-def _finite(data: object) -> object:
-    if isinstance(data, float) and not isfinite(data):
-        return str(data)
-    if isinstance(data, Mapping):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, (list, tuple)):
-        return [_finite(value) for value in data]
-    return data

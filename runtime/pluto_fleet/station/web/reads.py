@@ -7,7 +7,6 @@ from pathlib import Path
 
 from ...shared.domain.errors import BadInput
 from ..wire_app import AppData
-from .flights import id_in, in_thread
 from .http import Reply, json_reply, said, text_reply
 from .served import Asked
 
@@ -36,13 +35,6 @@ async def plan_file(asked: Asked) -> Reply:
         return text_reply(asked.station.plan.export_toml(), MISSIONS_FILE, TOML)
     except BadInput as error:
         return said(409, str(error))
-
-
-async def console(asked: Asked) -> Reply:
-    """Answer with the console."""
-    if id := id_in(asked):
-        return await in_thread(lambda: text_reply(asked.station.past.console(id), "console.txt"))
-    return text_reply(asked.station.console(), "console.txt")
 
 
 async def description(_: Asked) -> Reply:

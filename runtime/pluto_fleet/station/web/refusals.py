@@ -73,6 +73,10 @@ TOO_BUSY = Refusal(
     _SOON,
 )
 """Too many requests from all clients."""
+READER_ENDED = Refusal(
+    503, "the process that reads flights of the past has ended before it answered: ask again", _SOON
+)
+"""It was killed, for instance as there was no memory left."""
 OURS = Refusal(500, "something went wrong inside the station; what exactly stands in its audit.log")
 
 

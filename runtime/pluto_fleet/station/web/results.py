@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Awaitable
 
+from ...process.beside import Died
 from ...shared.domain.errors import BadInput
 from ..commands import Malformed
-from .http import Reply, json_reply, said, text_reply
+from . import refusals
+from .flights import flight_in
+from .http import Reply, said, text_reply
+from .refusals import Refused
 from .served import Asked
 from .strict_json import asked_number
 
 CSV, GEOJSON, ZIP, PICTURES = "text/csv", "application/geo+json", "application/zip", "image/*"
 
-_LONGEST_FLIGHT = 100
 _SIZES = ("", "full", "thumb")
 
 
@@ -21,10 +23,10 @@ async def results(asked: Asked) -> Reply:
     """Answer with the results, to be downloaded."""
 
     async def found(flight: str) -> Reply:
-        reply = json_reply(200, await asked.station.exports.results(flight))
-        return Reply(status=200, body=reply.body, headers=(_named("results.json"),))
+        text = await asked.station.exports.results(flight)
+        return Reply(status=200, body=text.encode(), headers=(_named("results.json"),))
 
-    return await _or_404(found(_flight(asked)))
+    return await _or_404(found(flight_in(asked)))
 
 
 async def results_table(asked: Asked) -> Reply:
@@ -33,17 +35,17 @@ async def results_table(asked: Asked) -> Reply:
     async def found(flight: str) -> Reply:
         return text_reply(await asked.station.exports.csv(flight), "results.csv", CSV)
 
-    return await _or_404(found(_flight(asked)))
+    return await _or_404(found(flight_in(asked)))
 
 
 async def results_on_map(asked: Asked) -> Reply:
     """Answer with the results that have a place."""
 
     async def found(flight: str) -> Reply:
-        text = json.dumps(await asked.station.exports.geojson(flight), ensure_ascii=False)
+        text = await asked.station.exports.geojson(flight)
         return text_reply(text, "results.geojson", GEOJSON)
 
-    return await _or_404(found(_flight(asked)))
+    return await _or_404(found(flight_in(asked)))
 
 
 async def pictures(asked: Asked) -> Reply:
@@ -53,7 +55,7 @@ async def pictures(asked: Asked) -> Reply:
         file = await asked.station.exports.archive(flight)
         return Reply(status=200, type=ZIP, headers=(_named("results.zip"),), file=file)
 
-    return await _or_404(found(_flight(asked)))
+    return await _or_404(found(flight_in(asked)))
 
 
 async def photo(asked: Asked) -> Reply:
@@ -68,7 +70,7 @@ async def photo(asked: Asked) -> Reply:
         content, kind = await exports.picture(flight, number, small=size == "thumb")
         return Reply(status=200, body=content, type=kind)
 
-    return await _or_404(found(_flight(asked)))
+    return await _or_404(found(flight_in(asked)))
 
 
 async def _or_404(found: Awaitable[Reply]) -> Reply:
@@ -76,13 +78,8 @@ async def _or_404(found: Awaitable[Reply]) -> Reply:
         return await found
     except BadInput as why:
         return said(404, str(why))
-
-
-def _flight(asked: Asked) -> str:
-    flight = asked.request.query.get("flight", "")
-    if len(flight) > _LONGEST_FLIGHT:
-        raise Malformed(f"flight is the id of a flight, of at most {_LONGEST_FLIGHT} characters")
-    return flight
+    except Died:
+        raise Refused(refusals.READER_ENDED) from None
 
 
 def _named(name: str) -> tuple[str, str]:

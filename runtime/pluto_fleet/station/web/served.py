@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from ...process.apart import Answers
+from ..flight_files import FlightFiles
 from ..map.drawn import DrawnMap
 from ..map.ways import DrawnWays
 from ..plan.library import PlanLibrary
@@ -50,39 +52,17 @@ class ServedPlan(Protocol):
         """Return it as a missions file."""
 
 
-class ServedFlights(Protocol):
-    """The flights of the past; what names one raises `BadInput` if there is none of this id."""
-
-    def flights(self) -> object:
-        """Return a line for each flight."""
-
-    def hours(self) -> object:
-        """Return what each drone has flown."""
-
-    def replay(self, id: str, start: float, /) -> object:
-        """Return a part of a flight's replay."""
-
-    def report(self, id: str, /) -> object:
-        """Return what is to be said of a flight on paper."""
-
-    def mcap(self, id: str, /) -> bytes:
-        """Return a flight as an MCAP file."""
-
-    def console(self, id: str, /) -> str:
-        """Return the console of a flight."""
-
-
 class ServedResults(Protocol):
     """The results that are served. `flight` is an id, or empty for the current flight."""
 
-    async def results(self, flight: str) -> list[object]:
-        """Return the results as mappings."""
+    async def results(self, flight: str) -> str:
+        """Return the results as JSON."""
 
     async def csv(self, flight: str) -> str:
         """Return the table of values."""
 
-    async def geojson(self, flight: str) -> dict[str, object]:
-        """Return the results that have a place."""
+    async def geojson(self, flight: str) -> str:
+        """Return the results that have a place, as GeoJSON."""
 
     async def archive(self, flight: str) -> Path:
         """Write an archive of the pictures into a file, which the caller deletes."""
@@ -115,8 +95,8 @@ class ServedStation(UpdateSource, Protocol):
         """The floor plan."""
 
     @property
-    def past(self) -> ServedFlights:
-        """The flights of the past."""
+    def files(self) -> Answers[FlightFiles]:
+        """What reads the files of flights; it raises `BadInput` if there is none of an id."""
 
     @property
     def described(self) -> AppData:

@@ -50,11 +50,11 @@ def kept(folder: Path, id: str, *, measured: bool = True) -> Path:
     return path
 
 
-def past_of(folder: Path, ours: Path | None = None) -> PastFlights:
+def past_of(folder: Path) -> PastFlights:
     """Return what a station serves that has this folder."""
     config = StationConfig(folder=folder, fleet=FLEET, faults={})
     config.own_folder.mkdir(exist_ok=True)
-    return PastFlights(FARM, config, lambda: ours)
+    return PastFlights(FARM, config)
 
 
 def parts_of(past: PastFlights, id: str) -> Iterator[list[dict[str, Any]]]:
@@ -144,7 +144,7 @@ def test_another_apps_journal_is_listed_as_such(tmp_path: Path) -> None:
     kept(tmp_path, NEW)
     config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
     config.own_folder.mkdir()
-    [flight] = PastFlights(APP, config, lambda: None).flights()
+    [flight] = PastFlights(APP, config).flights()
     assert flight["end"] == "unknown"
     assert "farm" in flight["said"]
 
@@ -271,7 +271,7 @@ def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: P
     """By no other way than SQLite, whose locks would be gone otherwise: the writer goes on."""
     journal = kept(tmp_path, NEW)
     store = Store.open(journal)
-    past = past_of(tmp_path, ours=store.path)
+    past = past_of(tmp_path)
     try:
         assert past.flights()[0]["end"] == "flying"
         for t in (700.0, 701.0):

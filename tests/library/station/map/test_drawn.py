@@ -18,6 +18,7 @@ from pluto_fleet.station.map.drawn import DrawnMap, StaleMap
 from pluto_fleet.station.map.pictures import ending_of, safe_name
 from pluto_fleet.station.station import Station
 from tests.library.files.an_app import APP
+from tests.library.station.in_threads import InThreads
 from tests.library.station.plan.drawing import FLEET as PLAIN_FLEET
 from tests.library.station.plan.drawing import a_plan
 
@@ -184,7 +185,8 @@ def test_all_pages_learn_of_a_new_map(tmp_path: Path) -> None:
     """By its revision in what they are told; its names are known to plans that are taken in."""
     config = StationConfig(folder=tmp_path, fleet=PLAIN_FLEET, faults={})
     config.own_folder.mkdir()
-    station = Station(APP, config, a_plan())
+    files = InThreads(APP, config)
+    station = Station(APP, config, a_plan(), files)
     station.begin()
 
     async def scene() -> list[int]:
@@ -197,7 +199,8 @@ def test_all_pages_learn_of_a_new_map(tmp_path: Path) -> None:
     before, after = asyncio.run(scene())
     assert after == before + 1
     assert station.plan.landmarks.place == {"Desk": (1.0, 2.0)}
-    assert Station(APP, config, a_plan()).plan.landmarks == station.plan.landmarks
+    again = Station(APP, config, a_plan(), files)
+    assert again.plan.landmarks == station.plan.landmarks
 
 
 @pytest.mark.parametrize(

@@ -166,7 +166,7 @@ def test_a_rehearsal_ends_at_the_median_with_every_mission_done(tmp_path: Path) 
     assert forecast["rehearsal"] is not None
     assert forecast["rehearsal"].startswith("rehearsal-")
     config = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
-    past = PastFlights(APP, config, lambda: None)
+    past = PastFlights(APP, config)
     first: Any = past.replay(forecast["rehearsal"], 0.0)
     frames, log = frames_of(past, forecast["rehearsal"]), first["log"]
     assert forecast["median"] is not None

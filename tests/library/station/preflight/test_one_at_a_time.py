@@ -22,6 +22,7 @@ from pluto_fleet.station.web.forecasts import preflight as answered
 from pluto_fleet.station.web.http import Request
 from pluto_fleet.station.web.served import Asked
 from tests.library.files.an_app import APP
+from tests.library.station.in_threads import InThreads
 from tests.library.station.jumping import run
 from tests.library.station.plan.drawing import drawn
 from tests.library.station.preflight.asking import FLEET, photos, question
@@ -66,7 +67,7 @@ def served(tmp_path: Path) -> Station:
     """A station where one mission could be started."""
     settings = StationConfig(folder=tmp_path, fleet=FLEET, faults={})
     settings.own_folder.mkdir()
-    return Station(APP, settings, drawn(ONE, fleet=FLEET))
+    return Station(APP, settings, drawn(ONE, fleet=FLEET), InThreads(APP, settings))
 
 
 async def test_a_newer_one_or_a_new_plan_ends_the_one_that_flies_and_all_else_is_answered_meanwhile(

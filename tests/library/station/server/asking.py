@@ -10,7 +10,9 @@ from pathlib import Path
 from typing import Any, cast
 
 from pluto_fleet.app import App
+from pluto_fleet.process.apart import Answers
 from pluto_fleet.station.config import StationConfig
+from pluto_fleet.station.flight_files import FlightFiles
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.preflight.forecast import without_runs
 from pluto_fleet.station.preflight.start import PlannedStart
@@ -23,6 +25,7 @@ from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 from tests.library.files.an_app import APP
+from tests.library.station.in_threads import InThreads
 from tests.library.station.jumping import run
 from tests.library.station.plan.drawing import FLEET
 
@@ -52,8 +55,10 @@ class AStation(Station):
         *,
         wrong: Exception | None = None,
         busy: Callable[[], Awaitable[object]] | None = None,
+        files: Answers[FlightFiles] | None = None,
     ) -> None:
-        super().__init__(app, config, MissionPlan(app, config.fleet, None, now=lambda: 0.0))
+        plan = MissionPlan(app, config.fleet, None, now=lambda: 0.0)
+        super().__init__(app, config, plan, files or InThreads(app, config))
         self.described = cast(AppData, {"name": "alfalfa"})
         self.wrong, self.busy, self.told = wrong, busy, 0
         self.done: list[tuple[str, Mapping[str, object]]] = []
