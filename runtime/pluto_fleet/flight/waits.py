@@ -33,9 +33,6 @@ STILL = 0.3
 NEAR = 1.0
 """Metres from its trip's target within which a drone acts, and does not wait."""
 
-SILENT = 3.0
-"""Seconds after which nothing is told of a drone but that it is not heard."""
-
 _UNDER_WAY = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _Key = tuple[str, str, str, object]
@@ -134,7 +131,8 @@ class Waits:
         is_docked = self._is_docked(id, drone)
         where = "in its dock" if is_docked else f"at {place(drone['at'])}"
         stands = f"{'stands' if drone['landed'] else 'hovers'} {where}"
-        if status in _UNDER_WAY and self._life.link.telemetry(id).silence > SILENT:
+        silence = self._life.link.telemetry(id).silence
+        if status in _UNDER_WAY and silence > self._life.fleet.silence:
             return Wait(what="word", reason=f"is not heard: it was last {where}")
         if status is DroneStatus.RECOVERING:
             then = "to be asked how it is" if is_docked else "to be brought home"

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from pluto_fleet.files.plan_waits import LONG
 from pluto_fleet.flight.waits import Waits
-from pluto_fleet.jobs.reports import Down
+from pluto_fleet.jobs.reports import SILENCE, Down
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import AfterTrip
@@ -37,10 +38,13 @@ app NAME {
 ).app
 
 
-def watched(*missions: Any, homes: int = 1, after: AfterTrip = AfterTrip.HOME) -> Living:
+def watched(
+    *missions: Any, homes: int = 1, after: AfterTrip = AfterTrip.HOME, silence: float = SILENCE
+) -> Living:
     """Return a flight whose waits are watched, as in real flights."""
     places = [(0.5 + x, 0.5, 0.0) for x in range(homes)]
-    living = Living(APP, *missions, on=apps.fleet(*places, after=after))
+    fleet = replace(apps.fleet(*places, after=after), silence=silence)
+    living = Living(APP, *missions, on=fleet)
     living.kernel.spawn(Waits(living.life).watch(), FLEET, "what waits")
     return living
 
@@ -131,6 +135,17 @@ def test_a_drone_that_does_a_long_action_does_not_wait() -> None:
     assert living.run() == ["COMPLETED"]
     assert living.kernel.now > 3 * LONG
     assert told(living) == []
+
+
+@pytest.mark.parametrize(("silence", "is_told"), [(4.0, True), (6.0, False)])
+def test_a_drone_is_not_heard_after_the_silence_that_its_fleet_allows(
+    monkeypatch: pytest.MonkeyPatch, silence: float, is_told: bool
+) -> None:
+    living = watched(mission("a", 6.0, action="look"), silence=silence)
+    telemetry = type(living.life.link.telemetry("cf1"))
+    monkeypatch.setattr(telemetry, "silence", 5.0, raising=False)
+    living.run()
+    assert any("is not heard" in line for line in told(living)) == is_told
 
 
 @pytest.mark.process
