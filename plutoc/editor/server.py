@@ -25,12 +25,10 @@ from plutoc.editor.session import Client, Session
 from plutoc.editor.static import PAGE, pages
 from plutoc.foreign_code import ENDING, Terminated
 from plutoc.source import LARGEST
-from plutoc_runtime.connections import take_in
+from plutoc_runtime.connections import LimitedConnection
 
 if TYPE_CHECKING:
     import socket
-
-    from uvicorn.protocols.http.h11_impl import RequestResponseCycle
 
 _LARGEST_HEAD = 16 * 1024
 _LARGEST_MESSAGE = 8 * LARGEST
@@ -210,8 +208,8 @@ async def _serve(
             task.result()
 
 
-class _Limited(H11Protocol):
-    """An HTTP connection that is closed when idle for too long, or when others need its place."""
+class _Connection(LimitedConnection, H11Protocol):
+    """An HTTP connection."""
 
     def __init__(self, knows: Callable[[HTTPConnection], bool], *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -219,27 +217,9 @@ class _Limited(H11Protocol):
 
     # uvicorn itself narrows the type of asyncio's argument
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Register the connection, and make room for it."""
-        self.began = self.loop.time()
-        others = [each for each in self.connections if isinstance(each, _Limited)]
+        """Register it, and make room for it."""
         super().connection_made(transport)
-        take_in(self, others)
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is one still: it was not closed, nor became a WebSocket."""
-        return self in self.connections
-
-    @property
-    def request(self) -> object:
-        """Its latest request; None: it has sent none."""
-        return self.cycle
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether no request is being handled."""
-        cycle: RequestResponseCycle | None = self.cycle
-        return cycle is None or cycle.response_complete
+        self.take_in()
 
     @property
     def has_token(self) -> bool:
@@ -247,18 +227,13 @@ class _Limited(H11Protocol):
         scope: Any = self.scope
         return scope is not None and self._knows(HTTPConnection(scope))
 
-    def let_go(self) -> None:
-        """Close it at once."""
-        self.connections.discard(self)
-        self.transport.abort()
-
 
 def _server(web: Web) -> uvicorn.Server:
     """Return a server without handlers of signals, logs and proxies."""
     config = uvicorn.Config(
         web.application,
         # it makes a protocol, and uvicorn's hints know but the class itself
-        http=partial(_Limited, web.knows),  # type: ignore[arg-type]
+        http=partial(_Connection, web.knows),  # type: ignore[arg-type]
         ws="websockets-sansio",
         lifespan="off",
         workers=1,

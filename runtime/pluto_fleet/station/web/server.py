@@ -20,7 +20,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from uvicorn.protocols.http.h11_impl import H11Protocol
 from uvicorn.protocols.websockets.websockets_sansio_impl import WebSocketsSansIOProtocol
 
-from ...shared.connections import take_in
+from ...shared.connections import LimitedConnection
 from . import refusals
 from .guard import Guard, bearer, role_by
 from .http import Closed, Reply, Request
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 
     from starlette.types import ASGIApp, Receive, Scope, Send
     from uvicorn._types import HTTPScope
-    from uvicorn.protocols.http.h11_impl import RequestResponseCycle
 
     from .api import Api
 
@@ -92,7 +91,7 @@ def _server(application: ASGIApp, guard: Guard) -> uvicorn.Server:
     config = uvicorn.Config(
         application,
         # it makes a protocol, and uvicorn's hints know but the class itself
-        http=partial(LimitedConnection, guard),  # type: ignore[arg-type]
+        http=partial(_Connection, guard),  # type: ignore[arg-type]
         ws=WebSocketsSansIOProtocol,
         lifespan="off",
         workers=1,
@@ -111,8 +110,8 @@ def _server(application: ASGIApp, guard: Guard) -> uvicorn.Server:
     return server
 
 
-class LimitedConnection(H11Protocol):
-    """An HTTP connection that is closed when idle for too long, or when others need its place."""
+class _Connection(LimitedConnection, H11Protocol):
+    """An HTTP connection."""
 
     def __init__(self, guard: Guard, *given: Any, **named: Any) -> None:
         super().__init__(*given, **named)
@@ -120,27 +119,9 @@ class LimitedConnection(H11Protocol):
 
     # uvicorn itself narrows the type of asyncio's argument
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Register the connection, and make room for it."""
-        self.began = self.loop.time()
-        others = [each for each in self.connections if isinstance(each, LimitedConnection)]
+        """Register it, and make room for it."""
         super().connection_made(transport)
-        take_in(self, others)
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is one still: it was not closed, nor became a WebSocket."""
-        return self in self.connections
-
-    @property
-    def request(self) -> object:
-        """Its latest request; None: it has sent none."""
-        return self.cycle
-
-    @property
-    def is_idle(self) -> bool:
-        """Whether no request is being handled."""
-        cycle: RequestResponseCycle | None = self.cycle
-        return cycle is None or cycle.response_complete
+        self.take_in()
 
     @property
     def has_token(self) -> bool:
@@ -149,11 +130,6 @@ class LimitedConnection(H11Protocol):
         headers = [] if scope is None else [*scope["headers"]]
         token = next((value for name, value in headers if name == b"authorization"), b"")
         return role_by(self._guard, bearer(token.decode("latin-1"))) is not None
-
-    def let_go(self) -> None:
-        """Close it at once."""
-        self.connections.discard(self)
-        self.transport.abort()
 
 
 @contextmanager
