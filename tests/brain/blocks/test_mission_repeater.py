@@ -56,7 +56,8 @@ def test_an_attempt_of_an_earlier_round_does_not_count_in_the_next() -> None:
 
 def test_what_an_evaluator_beside_it_sends_back_counts_anew_in_the_next_round_too() -> None:
     app = apps.loaded(FORKED, HOOKS).app
-    mission = app.mission(name="m", trips=[app.trip(name="A", action="take_photo", target=(2.0, 0.5, 1.2))])
+    trip = app.trip(name="A", action="take_photo", target=(2.0, 0.5, 1.2))
+    mission: Any = app.mission(name="m", trips=[trip])
     mission.repeat = 1
     living = Living(app, mission, on=apps.TWO)
     living.crash(9.0)  # it goes on from its journal
