@@ -41,6 +41,7 @@ home = [2, 0.8]
 """
 
 
+@pytest.mark.long
 @pytest.mark.process
 def test_a_flight_of_simulated_drones_ends_as_its_simulation(tmp_path: Path) -> None:
     """Missions that no battery is left for fail, and none is waited for that will never be full."""

@@ -58,6 +58,7 @@ async def _asked_meanwhile(files: Apart[FlightFiles], let_go: Callable[[], objec
     assert [(await one).status for one in hostile] == [200] * 32 + [503] * 8
 
 
+@pytest.mark.long
 @pytest.mark.process
 def test_when_the_process_that_reads_flights_dies_it_is_said_and_the_next_is_asked(
     monkeypatch: pytest.MonkeyPatch,
