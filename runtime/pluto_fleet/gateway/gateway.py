@@ -10,6 +10,7 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence
 from math import inf
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
+from ..drones.lag import Lag
 from ..drones.real_fleet import RealDrone
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down, DroneReport, FleetReport
@@ -39,6 +40,10 @@ T = TypeVar("T")
 
 Rehearse = Callable[[str, str, "str | None"], Coroutine[Any, Any, str]]
 TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
+
+
+LOOKS = 6
+"""How often it is looked, in the time that a brain may be silent, whether it is."""
 
 
 class Busy(RuntimeError):
@@ -314,6 +319,7 @@ class Gateway:
         """When the brain was heard of last."""
         self.patience = inf if patience is None else patience
         """Seconds of its own time without its brain, after which all drones land."""
+        self._lag = Lag()
         if patience is not None:
             self._watch()
 
@@ -393,15 +399,18 @@ class Gateway:
         return any(not known.landed for known in self.navigation.telemetry.values())
 
     def _watch(self) -> None:
-        """Land everything when the brain was silent for too long; else check again in time."""
+        """Land everything when the brain was silent for too long while it could be heard; look again."""
         if self._over:
             return
-        due = self.heard + self.patience
-        if self.kernel.now >= due:
-            due = self.kernel.now + self.patience
+        now = self.kernel.now
+        self._lag.called(now, now)
+        due = self.heard + self._lag.since(self.heard, now) + self.patience
+        if now >= due:
+            due = now + self.patience
             if self.descent is None and self.flies:
                 self.fail_safe(Down.LAND)
-        self.kernel.schedule(due, EventKind.CLOCK, FLEET, self._watch)
+        self._lag.due = min(due, now + self.patience / LOOKS)
+        self.kernel.schedule(self._lag.due, EventKind.CLOCK, FLEET, self._watch)
 
     def fail_safe(self, how: Down) -> Task[None]:
         """Bring all drones down without the brain, which is cut off."""

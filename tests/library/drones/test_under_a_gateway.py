@@ -19,7 +19,7 @@ from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.simulation.body import SimulatedDrone
-from tests.kit.drones import FakeDrone
+from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import settings
@@ -76,6 +76,24 @@ async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_pat
         lost.answers = True
         await flown.until(lambda: not lost.motors, 30)
         await flown.until(lambda: not gateway.flies, 1)
+
+
+async def test_while_the_gateway_is_held_up_its_brain_is_not_silent(tmp_path: Path) -> None:
+    """What it said meanwhile is still to be read; a brain that says nothing after that is silent."""
+    async with commanded(tmp_path, 1, PATIENCE) as (flown, gateway):
+        link, drone = gateway.link(1), flown.drones["cf1"]
+        await flown.do(link.fleet_report())
+        link.heartbeat()
+        await flown.do(flown.team.takeoff("cf1", 1.2))
+        link.heartbeat()
+        held_up = PATIENCE + 1.0
+        the_loop().call_later(1.0, the_loop().advance, held_up)
+        await asyncio.sleep(1.0 + held_up + 0.1)
+        assert gateway.is_commanded_by(link)
+        link.heartbeat()
+        seconds = await flown.until(lambda: not gateway.is_commanded_by(link))
+        assert seconds == pytest.approx(PATIENCE, abs=0.2)
+        await flown.until(lambda: not drone.motors)
 
 
 @pytest.mark.parametrize("back", [True, False])
