@@ -129,6 +129,10 @@ class Instant:
         """Return what is known of a drone."""
         return self._docked
 
+    def moves(self, drone: str) -> bool:
+        """It never does."""
+        return False
+
     def fly(self, job: Job, report: Callable[[object], object]) -> None:
         """Report what was measured: in real time at once, and as something that comes by itself."""
         kernel = self._kernel

@@ -82,10 +82,10 @@ class Waits:
             found["mission", name, wait.what, None] = wait
         is_wanted = any(wait.what == "drone" for wait in found.values())
         for id, drone in drones.items():
-            at = self._rests_at(id, drone["at"])
+            at = self._rests_at(id, drone)
             mission = flying.get(id)
             self._see_landing(id, drone, mission)
-            of_drone = self._of_drone(id, drone, mission, is_wanted, now)
+            of_drone = self._of_drone(id, {**drone, "at": at}, mission, is_wanted, now)
             if of_drone is not None:
                 found["drone", id, of_drone.what, at] = of_drone
         self._since = {key: self._since.get(key, now) for key in found}
@@ -116,10 +116,13 @@ class Waits:
 
     # Drones
 
-    def _rests_at(self, id: str, at: Sequence[float]) -> Point:
+    def _rests_at(self, id: str, drone: Mapping[str, Any]) -> Point:
+        """Return where a drone is; one that stands stays, though it may not know where it is."""
         known = self._places.get(id)
-        if known is None or dist(known, at) > STILL:
-            x, y, z = at
+        stood = self._landed.get(id, False)
+        stands = drone["landed"] and stood
+        if known is None or (not stands and (drone["landed"] or dist(known, drone["at"]) > STILL)):
+            x, y, z = drone["at"]
             self._places[id] = known = (x, y, z)
         return known
 
@@ -140,6 +143,8 @@ class Waits:
         if status is DroneStatus.BUSY and mission is None and drone["landed"]:
             return Wait(what="mission", reason=f"{stands} until its mission goes on")
         if status in _UNDER_WAY:
+            if self._life.link.moves(id):  # long legs begin and end slowly
+                return None
             if mission is not None and self._acts(mission, drone["at"]):
                 return None
             return Wait(what="way", reason=f"{stands} and waits for its way")

@@ -77,6 +77,10 @@ class Link:
         """Return a drone's telemetry, which is always current."""
         return self._navigation.telemetry[drone]
 
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command now."""
+        return self._gateway.moves(drone)
+
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. A job that was done already is reported again, and not flown."""
         if self._is_heard:
@@ -357,6 +361,10 @@ class Gateway:
         """Tell the brain in command, if there is one, how a command went."""
         if self.commander is not None and self.commander.flown is not None:
             self.commander.flown(command)
+
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command now, as far as that is measured."""
+        return self._measuring is not None and drone in self._measuring.moving
 
     def join(self, joining: Mapping[str, Any]) -> str:
         """Take a drone in, unless it is there already; return why that cannot be, or nothing."""

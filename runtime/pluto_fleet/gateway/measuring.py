@@ -32,6 +32,8 @@ class MeasuringControls(ForwardingControls):
         super().__init__(controls)
         self._kernel, self._hear = kernel, hear
         self._categories = {drone.id: drone.category for drone in drones}
+        self.moving: set[str] = set()
+        """The drones that carry out a command now."""
 
     def join(self, drone: FleetDrone) -> None:
         """Measure a drone that has joined, too."""
@@ -95,6 +97,7 @@ class MeasuringControls(ForwardingControls):
                 }
             )
 
+        self.moving.add(drone)
         try:
             result = await command
         except FlightFailed as error:
@@ -103,6 +106,8 @@ class MeasuringControls(ForwardingControls):
         except Cancelled:
             tell(BROKEN_OFF)
             raise
+        finally:
+            self.moving.discard(drone)
         tell(DONE)
         return result
 

@@ -31,16 +31,18 @@ GATEWAY_TIMEOUT = 5.0
 class RemoteTelemetry:
     """A drone's latest telemetry."""
 
-    __slots__ = ("_silent_since", "battery_level", "landed", "location")
+    __slots__ = ("_silent_since", "battery_level", "landed", "location", "moves")
 
     def __init__(self) -> None:
         self.location: Point = (0.0, 0.0, 0.0)
         self.battery_level, self.landed = 0.0, True
+        self.moves = False
+        """Whether it carries out a command."""
         self._silent_since: float | None = 0.0
 
     def take(self, told: Sequence[Any]) -> None:
         """Take over new telemetry."""
-        x, y, z, self.battery_level, self.landed, *since = told
+        x, y, z, self.battery_level, self.landed, self.moves, *since = told
         self.location = x, y, z
         self._silent_since = since[0] if since else None
 
@@ -199,6 +201,10 @@ class RemoteLink:
     def telemetry(self, drone: str) -> Telemetry:
         """Return what is known of a drone; the value stays current."""
         return self._drones[drone]
+
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command, as far as the gateway has told."""
+        return self._drones[drone].moves
 
     def fly(self, job: Job, report: Report) -> None:
         """Give a drone its job. One that was done already is not flown, but reported once more."""

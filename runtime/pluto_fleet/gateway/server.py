@@ -30,7 +30,7 @@ from .wire import (
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from ..jobs.telemetry import Publisher, Subscription
+    from ..jobs.telemetry import Publisher, Subscription, Telemetry
     from .gateway import Gateway, Link
 
 _PENDING = 10_000
@@ -133,6 +133,9 @@ class Connection:
         if self.link is not None:
             self._tell({"seen": changed})
 
+    def _seen(self, drone: str, telemetry: Telemetry) -> tuple[object, ...]:
+        return seen(telemetry, self._gateway.moves(drone))
+
     def _tell_no_telemetry(self) -> None:
         if self._telemetry is not None:
             self._telemetry.cancel()
@@ -211,7 +214,7 @@ class Connection:
         self.link.on_flown(lambda command: self._tell({"flown": command}))
         self._tell_no_telemetry()  # this connection may have been in command before
         self._telemetry = self._server.publisher.subscribe(
-            self._tell_seen, every=_EACH, view=seen, unchanged=_ALIVE
+            self._tell_seen, every=_EACH, view=self._seen, unchanged=_ALIVE
         )
         self._tell({"linked": self._changed()})
         self._server.say(f"a brain commands, number {epoch}")

@@ -97,8 +97,8 @@ def result_of(data: Message) -> object:
     return value_of(data["value"])
 
 
-def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
-    """Return a drone's telemetry in a compact form.
+def seen(telemetry: Telemetry, moves: bool) -> tuple[object, ...]:
+    """Return a drone's telemetry in a compact form, and whether it carries out a command.
 
     The last element is since when it is silent, in seconds since 1970; None if it is not, 0 if it has
     never sent anything.
@@ -106,7 +106,7 @@ def seen(drone: str, telemetry: Telemetry) -> tuple[object, ...]:
     silence, since = telemetry.silence, None
     if silence > STALE_AFTER:
         since = 0.0 if isinf(silence) else round(time.time() - silence)
-    return *telemetry.location, telemetry.battery_level, telemetry.landed, since
+    return *telemetry.location, telemetry.battery_level, telemetry.landed, moves, since
 
 
 def entry_data(entry: Entry) -> dict[str, object]:

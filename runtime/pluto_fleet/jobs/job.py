@@ -86,6 +86,10 @@ class CommandLink(Protocol):
         """Return a drone's telemetry, an object that is always current."""
         ...
 
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command that moves it, or acts; not while it waits for its way."""
+        ...
+
     def fly(self, job: Job, report: Report) -> None:
         """Take off, fly to the job's stops and do its action.
 

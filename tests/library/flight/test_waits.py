@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.app import App
 from pluto_fleet.files.plan_waits import LONG
 from pluto_fleet.flight.waits import Waits
 from pluto_fleet.jobs.reports import SILENCE, Down
@@ -39,12 +40,16 @@ app NAME {
 
 
 def watched(
-    *missions: Any, homes: int = 1, after: AfterTrip = AfterTrip.HOME, silence: float = SILENCE
+    *missions: Any,
+    homes: int = 1,
+    after: AfterTrip = AfterTrip.HOME,
+    silence: float = SILENCE,
+    of: App = APP,
 ) -> Living:
     """Return a flight whose waits are watched, as in real flights."""
     places = [(0.5 + x, 0.5, 0.0) for x in range(homes)]
     fleet = replace(apps.fleet(*places, after=after), silence=silence)
-    living = Living(APP, *missions, on=fleet)
+    living = Living(of, *missions, on=fleet)
     living.kernel.spawn(Waits(living.life).watch(), FLEET, "what waits")
     return living
 
@@ -113,6 +118,21 @@ def test_a_drone_that_lands_somewhere_and_waits_there_says_so() -> None:
     assert not [line for line in told(living) if "cf2 has landed" in line]
 
 
+def test_a_drone_that_stands_and_has_lost_its_place_waits_where_it_has_landed() -> None:
+    """Where it believes to be drifts away, and it does not."""
+    living = watched(mission("a", 6.0))
+    body = living.navigation.bodies["cf1"]
+    living.at(16.0, lambda: living.navigation.strike("cf1", Failure.BATTERY))
+    for after in range(20, 60):
+        here = (float(after), 0.5, 0.0)
+        living.at(after, lambda here=here: body.move(here, *[living.kernel.now] * 3))
+    living.kernel.run(living.kernel.spawn(living.kernel.sleep(40.0), FLEET, "time passes"))
+    landed, waits = [line for line in told(living) if "cf1" in line]
+    assert landed.split(" at ")[1].split(",")[:2] == waits.split(" at ")[1].split(" and")[0].split(
+        ","
+    )
+
+
 def test_a_drone_that_landed_as_it_was_told_to_is_not_told_of_though_it_is_to_fly_already() -> None:
     """It may have its next trip by the time it is looked at."""
     living = watched(mission("a", 4.0), mission("b", 5.0, delay=30.0), after=AfterTrip.STAY)
@@ -148,7 +168,16 @@ def test_a_drone_is_not_heard_after_the_silence_that_its_fleet_allows(
     assert any("is not heard" in line for line in told(living)) == is_told
 
 
+def test_a_drone_that_flies_so_slowly_that_it_seems_to_stay_does_not_wait() -> None:
+    """As one does that begins and ends a long leg gently."""
+    slow = replace(APP.categories[0], speed=0.02, flight_time=3_600.0)
+    living = watched(mission("a", 1.5), of=replace(APP, categories=(slow,)))
+    assert living.run() == ["COMPLETED"]
+    assert living.kernel.now > 8 * LONG
+    assert told(living) == []
+
+
 @pytest.mark.process
 @pytest.mark.long
 def test_no_wait_of_real_processes_goes_unsaid() -> None:
-    assert fly(0, load=0, crtp=False)[1] == []
+    assert fly(0, load=0, crtp=False).wrong == []
