@@ -47,6 +47,7 @@ CAMPAIGNS = (
     "python -m tests.flights_crazyflie.campaign",
     "python -m tests.flights_crazyflie.examples",
     "python -m tests.waits --flights 6 --load 8",
+    "python -m tests.waits --flights 6 --crtp --load 8 --stall 4",
     "python -m tests.areas --areas 1000",
     "python -m tests.batteries --apps 400",
     "python -m tests.calibrating --cases 100",
