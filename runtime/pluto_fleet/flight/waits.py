@@ -36,7 +36,7 @@ NEAR = 1.0
 _UNDER_WAY = (DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.RECOVERING)
 
 _Key = tuple[str, str, str, object]
-"""Of one wait: `mission` or `drone`, its name, for what it waits, and where the drone is."""
+"""Of one wait: `mission` or `drone`, its name, for what it waits, and how often the mission has flown, or where the drone is."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,7 +79,7 @@ class Waits:
         flying = {one["drone"]: name for name, one in where.items() if one["flies"]}
         found: dict[_Key, Wait] = {}
         for name, wait in _of_missions(life.records.missions, where, life.app.resumes, now):
-            found["mission", name, wait.what, None] = wait
+            found["mission", name, wait.what, life.records.missions[name]["attempts"]] = wait
         is_wanted = any(wait.what == "drone" for wait in found.values())
         for id, drone in drones.items():
             at = self._rests_at(id, drone)

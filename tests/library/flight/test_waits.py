@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import pytest
@@ -118,14 +119,27 @@ def test_a_drone_that_lands_somewhere_and_waits_there_says_so() -> None:
     assert not [line for line in told(living) if "cf2 has landed" in line]
 
 
+def test_who_has_flown_between_two_looks_waits_anew() -> None:
+    """A drone may lose its link as soon as it is launched."""
+    missions = [("a", 9.3), ("b", 15.3)]
+    flown = watched(*(mission(*one) for one in missions))
+    flown.run()
+    then = flown.times("trip.launched")[-1] + 0.01
+    living = watched(*(mission(*one) for one in missions))
+    living.at(then, lambda: living.navigation.strike("cf1", Failure.LINK))
+    living.run()
+    lines = [line for line in told(living) if "  b: waits for a drone" in line]
+    assert len(lines) == 2
+
+
 def test_a_drone_that_stands_and_has_lost_its_place_waits_where_it_has_landed() -> None:
     """Where it believes to be drifts away, and it does not."""
     living = watched(mission("a", 6.0))
     body = living.navigation.bodies["cf1"]
     living.at(16.0, lambda: living.navigation.strike("cf1", Failure.BATTERY))
     for after in range(20, 60):
-        here = (float(after), 0.5, 0.0)
-        living.at(after, lambda here=here: body.move(here, *[living.kernel.now] * 3))
+        here, then = (float(after), 0.5, 0.0), float(after)
+        living.at(then, partial(body.move, here, then, then, then))
     living.kernel.run(living.kernel.spawn(living.kernel.sleep(40.0), FLEET, "time passes"))
     landed, waits = [line for line in told(living) if "cf1" in line]
     assert landed.split(" at ")[1].split(",")[:2] == waits.split(" at ")[1].split(" and")[0].split(
