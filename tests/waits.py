@@ -179,9 +179,10 @@ def fly(number: int, *, load: int, crtp: bool, stall: float = 0.0) -> Came:
         lag=max(map(float, _STALLED.findall(log)), default=0.0),
     )
     came.wrong += [line for one in told if (line := str(line_of(one))) not in flight.told]
-    slack = 2.0 + (1.0 if crtp else SPEED) * ((2.0 if load else 0.5) + stall)
+    old = stall * (1.0 if crtp else SPEED)  # what is known of a drone, at most
+    slack = 2.0 + (1.0 if crtp else SPEED) * (2.0 if load else 0.5) + old
     came.wrong += _missions_unsaid(events, LONG + slack)
-    came.wrong += _drones_unsaid(events, LONG + slack)
+    came.wrong += _drones_unsaid(events, LONG + slack, LONG / 2 + old)
     for one in failed:
         why = fault.fails if crtp else _CHANCED
         is_struck = not crtp or one["drone"] in struck
@@ -260,7 +261,7 @@ def _missions_unsaid(events: Sequence[Event], long: float) -> Iterator[str]:
             yield from _silent("mission", name, since, told, t, long)
 
 
-def _drones_unsaid(events: Sequence[Event], long: float) -> Iterator[str]:
+def _drones_unsaid(events: Sequence[Event], long: float, busy: float) -> Iterator[str]:
     """Yield where a drone was under way for so long without any command, and without a word, or with a wrong one."""
     since: dict[str, float] = {}
     told: set[str] = set()
@@ -270,7 +271,7 @@ def _drones_unsaid(events: Sequence[Event], long: float) -> Iterator[str]:
         id = str(event.get("drone", ""))
         if kind == "drone.waits":
             yield from _said("drone", id, since, told, t, long)
-            if event["for"] == "way" and _commanded(events, id, t - LONG, t) > LONG / 2:
+            if event["for"] == "way" and _commanded(events, id, t - LONG, t) > busy:
                 yield f"drone {id} was said to wait at {t:.1f} s, and carried out a command"
         elif kind == "drone.landed" and id in since:
             yield from _silent("drone", id, since, told, t, long)
