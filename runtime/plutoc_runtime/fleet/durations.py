@@ -46,6 +46,8 @@ def busy(category: Category, request: Request) -> float:
 
 def free_again(drone: Drone, queue: Queue) -> tuple[float, Point]:
     """Return in about how many seconds a drone is free again, and where it is then."""
+    if drone.status is DroneStatus.RETURNING and drone in queue.homeward:
+        return _home_in(drone), drone.home
     now = queue.kernel.now
     then, place = queue.plans["until"].get(drone, (now, drone.location))
     if drone in queue.low and queue.low[drone][0] < inf:
@@ -54,6 +56,14 @@ def free_again(drone: Drone, queue: Queue) -> tuple[float, Point]:
         place = drone.location
     # one that is late will take as long again as it is late by now, for all one knows
     return abs(then - now), place
+
+
+def _home_in(drone: Drone) -> float:
+    """Return in about how many seconds a drone that flies home has landed there."""
+    kind = drone.category
+    (x, y, z), (home_x, home_y, ground) = drone.location, drone.home
+    way = kind.motion.flies(hypot(home_x - x, home_y - y), kind.speed)
+    return way + kind.motion.lands(abs(z - ground), kind.speed)
 
 
 def look_again(queue: Queue, key: object, seconds: float) -> None:

@@ -57,6 +57,7 @@ class Fleet:
     def engage(self, drone: Drone) -> None:
         """End what a drone does by itself: it is about to fly for a mission."""
         self.unready.pop(drone, None)
+        self.queue.homeward.discard(drone)
         if (errand := self.errands.pop(drone, None)) is not None:
             errand.cancel()
 
@@ -199,6 +200,7 @@ class Fleet:
         """Fly a drone home; one that lands beside its dock each time is lost there."""
         for _ in range(FLIGHTS_HOME):
             self._become(drone, DroneStatus.RETURNING)
+            self.queue.homeward.add(drone)
             try:
                 await self._orders.ask("home", drone.id)
             except FlightFailed as error:

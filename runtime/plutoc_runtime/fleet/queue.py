@@ -48,6 +48,7 @@ class Queue:
         self.low: dict[Drone, tuple[float, float]] = {}
         """The other free drones: too low for every request so far, until when, and what level they need."""
         self.plans: dict[object, Any] = {}  # what policies remember from one serving to the next
+        self.homeward: set[Drone] = set()  # those that were sent home since they flew a trip
         self.stay_out = True  # whether drones stay where a trip ends, but for those that are low
         self._one_is_lost = False  # since the requests were last checked
         self._recheck, self._recheck_at = Timer(int), inf

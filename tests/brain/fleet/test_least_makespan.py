@@ -125,3 +125,18 @@ def test_a_drone_that_is_busy_for_long_keeps_no_trip_waiting() -> None:
     ends = {str(e["mission"]): float(str(e["t"])) for e in apps.events(outcome, "mission.ended")}
     assert ends["other"] < 300.0
     assert ends["third"] < 300.0
+
+
+def test_a_drone_that_flies_home_is_free_there_and_no_trip_waits_for_it_where_another_is_free() -> None:
+    """It has flown when it was to; but as nothing waited then, it is on its way home."""
+    far, later = apps.mission("far", apps.trip("A", 15.0)), apps.trip("B", 14.0)
+    later.delay = 40.0
+    outcome = apps.flown(
+        far,
+        apps.mission("later", later),
+        on=apps.fleet((0.5, 0.5, 0.0), (1.5, 0.5, 0.0), after=AfterTrip.NEXT),
+        policy=least_makespan,
+        clock=True,
+    )
+    assert apps.times(outcome, "trip.completed")[0] < 40.0
+    assert apps.times(outcome, "trip.launched") == [0.0, 40.0]

@@ -14,12 +14,12 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES = 7_940
+MOST_LINES = 7_955
 MOST_FILES = 69
 MOST_OWN_LINES = 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 9_845
-LONGEST_FILE = 308
+MOST_LINES_OF_ANY = 9_860
+LONGEST_FILE = 310
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}
