@@ -127,7 +127,7 @@ def test_a_drone_that_is_busy_for_long_keeps_no_trip_waiting() -> None:
     assert ends["third"] < 300.0
 
 
-def test_a_drone_that_flies_home_is_free_there_and_no_trip_waits_for_it_where_another_is_free() -> None:
+def test_no_trip_waits_for_a_drone_that_flies_home_where_another_is_free() -> None:
     """It has flown when it was to; but as nothing waited then, it is on its way home."""
     far, later = apps.mission("far", apps.trip("A", 15.0)), apps.trip("B", 14.0)
     later.delay = 40.0
