@@ -29,7 +29,7 @@ def test_ci_runs_the_readmes_test_command_between_lint_and_the_long_tests() -> N
     lines = (ROOT / ".ci/run").read_text().splitlines()
     said = [line for line in lines if line and not line.startswith(("#", "set ", "cd ", "export "))]
     install, tests = command.rsplit(" && ", 1)
-    assert said == [".ci/browser &", install, "wait $!", ".ci/lint", tests, f"{tests} -m long"]
+    assert said == [".ci/system &", install, "wait $!", ".ci/lint", tests, f"{tests} -m long"]
 
 
 def test_every_page_that_the_readme_names_exists() -> None:
