@@ -9,6 +9,7 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from threading import Thread
 from types import FrameType
 
 from plutoc.foreign_code import ENDING, Terminated
@@ -58,15 +59,28 @@ def end_at_once_when_told(name: str) -> None:
     One that the caller has ignored stays so, as with `nohup`.
     """
 
-    def leave(number: int, _: FrameType | None) -> None:
+    ends = {one for one in (*ENDING, signal.SIGINT) if signal.getsignal(one) != signal.SIG_IGN}
+    heard, told = os.pipe()
+    os.set_blocking(told, False)
+
+    def leave() -> None:
+        number = 0
+        while number not in ends:
+            number = os.read(heard, 1)[0]
         what = "interrupted" if number == signal.SIGINT else "terminated"
         with suppress(OSError):
             os.write(2, f"{name}: {what}\n".encode())
         os._exit(128 + number)
 
-    for one in (*ENDING, signal.SIGINT):
-        if signal.getsignal(one) != signal.SIG_IGN:
-            signal.signal(one, leave)
+    for one in ends:
+        signal.signal(one, _note)
+    # the main thread may be about to wait, and would not run a handler before it is woken
+    signal.set_wakeup_fd(told)
+    Thread(target=leave, name="signals", daemon=True).start()
+
+
+def _note(number: int, _: FrameType | None) -> None:
+    """Do nothing: Python has written the signal's number to the pipe."""
 
 
 def end_if_told() -> None:
