@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from threading import Thread
@@ -60,13 +61,13 @@ def end_at_once_when_told(name: str) -> None:
     """
 
     ends = {one for one in (*ENDING, signal.SIGINT) if signal.getsignal(one) != signal.SIG_IGN}
-    heard, told = os.pipe()
-    os.set_blocking(told, False)
+    heard, told = socket.socketpair()  # Windows wakes up by nothing else
+    told.setblocking(False)
 
     def leave() -> None:
         number = 0
         while number not in ends:
-            number = os.read(heard, 1)[0]
+            number = heard.recv(1)[0]
         what = "interrupted" if number == signal.SIGINT else "terminated"
         with suppress(OSError):
             os.write(2, f"{name}: {what}\n".encode())
@@ -75,12 +76,12 @@ def end_at_once_when_told(name: str) -> None:
     for one in ends:
         signal.signal(one, _note)
     # the main thread may be about to wait, and would not run a handler before it is woken
-    signal.set_wakeup_fd(told)
+    signal.set_wakeup_fd(told.detach())
     Thread(target=leave, name="signals", daemon=True).start()
 
 
 def _note(number: int, _: FrameType | None) -> None:
-    """Do nothing: Python has written the signal's number to the pipe."""
+    """Do nothing: Python has sent the signal's number."""
 
 
 def end_if_told() -> None:

@@ -30,14 +30,11 @@ T_co = TypeVar("T_co", covariant=True)
 R = TypeVar("R")
 P = ParamSpec("P")
 
-AT_ONCE = 3
+PROCESSES = 3
 """The questions that are answered at the same time, each in a process of its own."""
 
 NICE = 5
 """The priority of these processes, as `nice` counts: less than that of what flies."""
-
-ANYTHING: tuple[type[Exception], ...] = (Exception,)
-"""What reading an answer raises that was cut off."""
 
 
 class Answers(Protocol[T_co]):
@@ -66,7 +63,7 @@ class Apart(Generic[T]):
             _wait(asked, what)
         asked.close()
         not_for_children(self._asked.fileno())
-        self._places = asyncio.Semaphore(AT_ONCE)
+        self._places = asyncio.Semaphore(PROCESSES)
         self._idle: list[_Copy] = []
 
     async def ask(
@@ -106,7 +103,7 @@ class _Copy:
         try:
             self._pipe.send(question)
             return await at_once(self._pipe.recv)
-        except ANYTHING as error:
+        except (EOFError, OSError) as error:
             raise Died("has ended before it answered") from error
         except asyncio.CancelledError:
             self._let_go()

@@ -153,10 +153,15 @@ class Keeper:
         finally:
             writer.of = None
 
+    def _writer(self) -> Writer | None:
+        """Return the hook that runs here, if it is one of the mission's."""
+        writer = _writer.get()
+        return writer if writer is not None and writer.of is self else None
+
     def must_edit(self, what: str) -> None:
         """Raise `AttributeError` unless it is a modifier of the mission that writes."""
-        writer = _writer.get()
-        if writer is None or writer.of is not self or not writer.edits:
+        writer = self._writer()
+        if writer is None or not writer.edits:
             raise AttributeError(f"{what}: that is for a modifier, while it runs{_ELSE}")
 
     def written(self, of: Kept, name: str, value: object) -> object:
@@ -164,8 +169,7 @@ class Keeper:
         what = f"{of._called}.{name}"
         field = self._fields.get((type(of), name))
         if field is not None:
-            writer = _writer.get()
-            if writer is None or writer.of is not self:
+            if self._writer() is None:
                 who = "a modifier, an evaluator or an action of its mission"
                 raise AttributeError(f"{what} cannot be set here: that is for {who}, while it runs")
             if wanted := field.wanted(value, self._evaluators):

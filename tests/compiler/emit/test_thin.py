@@ -18,7 +18,7 @@ MOST_LINES = 7_955
 MOST_FILES = 69
 MOST_OWN_LINES = 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 9_860
+MOST_LINES_OF_ANY = 9_865
 LONGEST_FILE = 310
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}

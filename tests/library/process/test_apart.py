@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.process.apart import AT_ONCE, Apart
+from pluto_fleet.process.apart import PROCESSES, Apart
 from pluto_fleet.process.beside import Died
 from pluto_fleet.shared.domain.errors import BadInput
 
@@ -98,7 +98,7 @@ def test_who_gives_an_answer_up_keeps_no_place() -> None:
 
     async def scene(apart: Apart[Sequence[str]]) -> None:
         for _ in range(3):
-            holds = [asyncio.ensure_future(apart.ask(held, reads)) for _ in range(AT_ONCE)]
+            holds = [asyncio.ensure_future(apart.ask(held, reads)) for _ in range(PROCESSES)]
             await asyncio.sleep(0)
             for one in holds:
                 one.cancel()

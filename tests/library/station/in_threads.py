@@ -1,9 +1,10 @@
-"""What reads the files of flights, in threads of this process: a station's own is tested as a process."""
+"""What reads the files of flights, in a thread of this process: a station's own is tested as a process."""
 
 from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from typing import Concatenate, ParamSpec, TypeVar
 
@@ -20,6 +21,7 @@ class InThreads:
 
     def __init__(self, app: App, config: StationConfig) -> None:
         self._files = FlightFiles(app, config)
+        self._thread = ThreadPoolExecutor(1, "files")
 
     async def ask(
         self,
@@ -30,4 +32,4 @@ class InThreads:
     ) -> R:
         """Answer a question."""
         call = partial(question, self._files, *given, **named)
-        return await asyncio.get_running_loop().run_in_executor(None, call)
+        return await asyncio.get_running_loop().run_in_executor(self._thread, call)

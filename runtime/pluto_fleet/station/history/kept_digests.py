@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import threading
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -33,37 +32,34 @@ FORMAT = 1
 
 
 class KeptDigests:
-    """Digests, also in a file, from which the next station takes them. Threads may share it."""
+    """Digests, also in a file, from which the next station takes them."""
 
     def __init__(self, app: App, folder: Path, file: Path) -> None:
         self._app, self._folder, self._file = app, folder, file
         self._known: dict[str, tuple[Stamp, Digest]] | None = None
         """By id: when and how large the journal was, and its digest."""
         self._in_file: dict[str, tuple[Stamp, Digest]] = {}
-        self._one_at_a_time = threading.Lock()
 
     def all(self) -> list[Digest]:
         """Return the digests of all journals there, the newest first."""
-        with self._one_at_a_time:
-            known = self._read() if self._known is None else self._known
-            found: dict[str, tuple[Stamp, Digest]] = {}
-            there = journals_in(self._folder)
-            for id, path in there.items():
-                with suppress(FileNotFoundError):  # it has just been deleted
-                    found[id] = self._digest(id, path, known.get(id))
-            if found != self._in_file:
-                self._keep(found)
-            self._known = found
+        known = self._read() if self._known is None else self._known
+        found: dict[str, tuple[Stamp, Digest]] = {}
+        there = journals_in(self._folder)
+        for id, path in there.items():
+            with suppress(FileNotFoundError):  # it has just been deleted
+                found[id] = self._digest(id, path, known.get(id))
+        if found != self._in_file:
+            self._keep(found)
+        self._known = found
         newest_first = sorted(found, key=lambda id: _when(*found[id]), reverse=True)
         return [self._present(found[id][1], there[id]) for id in newest_first]
 
     def of(self, id: str, path: Path) -> Digest:
         """Return the digest of one journal."""
-        with self._one_at_a_time:
-            known = self._read() if self._known is None else self._known
-            _, digest = known[id] = self._digest(id, path, known.get(id))
-            self._known = known
-            return self._present(digest, path)
+        known = self._read() if self._known is None else self._known
+        _, digest = known[id] = self._digest(id, path, known.get(id))
+        self._known = known
+        return self._present(digest, path)
 
     def _digest(
         self, id: str, path: Path, known: tuple[Stamp, Digest] | None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -46,7 +45,6 @@ class PastFlights:
         file = config.own_folder / DIGESTS_FILE
         self._digests = KeptDigests(app, config.folder, file)
         self._recordings: dict[Path, Recorded] = {}
-        self._one_at_a_time, self._one_export = threading.Lock(), threading.Lock()
 
     def flights(self) -> list[FlightSummary]:
         """Return a line for each flight, the newest first."""
@@ -69,9 +67,7 @@ class PastFlights:
 
     def mcap(self, id: str) -> bytes:
         """Return a flight as an MCAP file; raise `BadInput` if that cannot be written here."""
-        past, book = self._past(id), self._book(id)
-        with self._one_export:
-            return mcap_of(past, book)
+        return mcap_of(self._past(id), self._book(id))
 
     def console(self, id: str) -> str:
         """Return the console of a flight."""
@@ -115,18 +111,17 @@ class PastFlights:
 
     def _recorded(self, path: Path) -> tuple[Recorded | None, str]:
         """Return a recording as far as it is written now, and what is wrong with it."""
-        with self._one_at_a_time:
-            try:
-                known = self._recordings.pop(path, None)
-                if known is None:
-                    known = Recorded(path)
-                else:
-                    known.refresh()
-            except FileNotFoundError:
-                return None, ""
-            except (OSError, ValueError) as error:
-                return None, f"{path}: this recording cannot be read: {error}"
-            self._recordings[path] = known
-            while len(self._recordings) > RECORDINGS_OPEN:
-                del self._recordings[next(iter(self._recordings))]
-            return known, ""
+        try:
+            known = self._recordings.pop(path, None)
+            if known is None:
+                known = Recorded(path)
+            else:
+                known.refresh()
+        except FileNotFoundError:
+            return None, ""
+        except (OSError, ValueError) as error:
+            return None, f"{path}: this recording cannot be read: {error}"
+        self._recordings[path] = known
+        while len(self._recordings) > RECORDINGS_OPEN:
+            del self._recordings[next(iter(self._recordings))]
+        return known, ""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections import OrderedDict
 from contextlib import closing
 from dataclasses import dataclass
@@ -48,12 +47,11 @@ class FlightResults:
 
 
 class ResultsOfFlights:
-    """Reads the results of flights from the journals of a folder. Threads may share it."""
+    """Reads the results of flights from the journals of a folder."""
 
     def __init__(self, app: App, folder: Path, name_of: NameOf = nowhere) -> None:
         self._app, self._folder, self._name_of = app, folder, name_of
         self._known: OrderedDict[str, tuple[int, FlightResults]] = OrderedDict()
-        self._one_at_a_time = threading.Lock()
 
     @property
     def app(self) -> str:
@@ -70,16 +68,15 @@ class ResultsOfFlights:
     def of(self, flight: str) -> FlightResults:
         """Return the results of a flight, read anew if its journal was written since; may take a while."""
         journal = self.journal(flight)
-        with self._one_at_a_time:
-            at = written(journal)
-            known = self._known.get(flight)
-            if known is None or known[0] != at:
-                known = at, self._read(journal)
-            self._known[flight] = known
-            self._known.move_to_end(flight)
-            while len(self._known) > KEPT:
-                self._known.popitem(last=False)
-            return known[1]
+        at = written(journal)
+        known = self._known.get(flight)
+        if known is None or known[0] != at:
+            known = at, self._read(journal)
+        self._known[flight] = known
+        self._known.move_to_end(flight)
+        while len(self._known) > KEPT:
+            self._known.popitem(last=False)
+        return known[1]
 
     def _read(self, journal: Path) -> FlightResults:
         records, found = Records(), list[Brought]()

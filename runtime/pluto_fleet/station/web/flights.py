@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from math import isfinite
 from typing import Concatenate, ParamSpec
 
@@ -11,8 +11,7 @@ from ...shared.domain.errors import BadInput
 from ..commands import Malformed
 from ..flight_files import FlightFiles
 from . import refusals
-from .http import Reply, json_reply, text_reply
-from .http import said as in_words
+from .http import Reply, json_reply, said, text_reply
 from .refusals import Refused
 from .served import Asked
 
@@ -93,11 +92,16 @@ async def _read(
     *given: P.args,
     **named: P.kwargs,
 ) -> Reply:
-    """Read of a flight of the past; 404 if there is none of the id that was asked for."""
+    """Read of a flight of the past."""
+    return await or_404(asked.station.files.ask(question, *given, **named))
+
+
+async def or_404(found: Awaitable[Reply]) -> Reply:
+    """Return the answer; 404 if there is nothing of what was asked for."""
     try:
-        return await asked.station.files.ask(question, *given, **named)
-    except BadInput as error:
-        return in_words(404, str(error))
+        return await found
+    except BadInput as why:
+        return said(404, str(why))
     except Died:
         raise Refused(refusals.READER_ENDED) from None
 

@@ -2,15 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable
-
-from ...process.beside import Died
-from ...shared.domain.errors import BadInput
 from ..commands import Malformed
-from . import refusals
-from .flights import flight_in
-from .http import Reply, said, text_reply
-from .refusals import Refused
+from .flights import flight_in, or_404
+from .http import Reply, text_reply
 from .served import Asked
 from .strict_json import asked_number
 
@@ -26,7 +20,7 @@ async def results(asked: Asked) -> Reply:
         text = await asked.station.exports.results(flight)
         return Reply(status=200, body=text.encode(), headers=(_named("results.json"),))
 
-    return await _or_404(found(flight_in(asked)))
+    return await or_404(found(flight_in(asked)))
 
 
 async def results_table(asked: Asked) -> Reply:
@@ -35,7 +29,7 @@ async def results_table(asked: Asked) -> Reply:
     async def found(flight: str) -> Reply:
         return text_reply(await asked.station.exports.csv(flight), "results.csv", CSV)
 
-    return await _or_404(found(flight_in(asked)))
+    return await or_404(found(flight_in(asked)))
 
 
 async def results_on_map(asked: Asked) -> Reply:
@@ -45,7 +39,7 @@ async def results_on_map(asked: Asked) -> Reply:
         text = await asked.station.exports.geojson(flight)
         return text_reply(text, "results.geojson", GEOJSON)
 
-    return await _or_404(found(flight_in(asked)))
+    return await or_404(found(flight_in(asked)))
 
 
 async def pictures(asked: Asked) -> Reply:
@@ -55,7 +49,7 @@ async def pictures(asked: Asked) -> Reply:
         file = await asked.station.exports.archive(flight)
         return Reply(status=200, type=ZIP, headers=(_named("results.zip"),), file=file)
 
-    return await _or_404(found(flight_in(asked)))
+    return await or_404(found(flight_in(asked)))
 
 
 async def photo(asked: Asked) -> Reply:
@@ -70,16 +64,7 @@ async def photo(asked: Asked) -> Reply:
         content, kind = await exports.picture(flight, number, small=size == "thumb")
         return Reply(status=200, body=content, type=kind)
 
-    return await _or_404(found(flight_in(asked)))
-
-
-async def _or_404(found: Awaitable[Reply]) -> Reply:
-    try:
-        return await found
-    except BadInput as why:
-        return said(404, str(why))
-    except Died:
-        raise Refused(refusals.READER_ENDED) from None
+    return await or_404(found(flight_in(asked)))
 
 
 def _named(name: str) -> tuple[str, str]:
