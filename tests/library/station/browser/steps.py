@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from playwright.sync_api import Locator, Page, Route, expect
+from playwright.sync_api import TimeoutError as NotInTime
 
 from tests.library.station.browser.exercise import PLAN, Place
 
@@ -81,11 +82,18 @@ def card_of(page: Page, trip: int) -> Locator:
 def start(page: Page, button: str | re.Pattern[str] = START) -> None:
     """Hold Start down, as soon as it says how many missions it will start."""
     held = page.get_by_role("button", name=button)
-    expect(held).not_to_have_attribute("aria-disabled", "true")
-    held.hover()
-    with page.expect_request("**/api/start"):
-        page.mouse.down()
-    page.mouse.up()
+    for again in (True, False):
+        expect(held).not_to_have_attribute("aria-disabled", "true")
+        held.hover()
+        try:
+            with page.expect_request("**/api/start", timeout=10_000):
+                page.mouse.down()
+            return
+        except NotInTime:  # what came in above it has moved it away: a person presses again
+            if not again:
+                raise
+        finally:
+            page.mouse.up()
 
 
 def row_of(page: Page, mission: str) -> Locator:
