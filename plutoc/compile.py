@@ -135,6 +135,7 @@ def package_of(
     from plutoc.emit.errors import not_embeddable, place_of
     from plutoc.emit.modules import EmbedError
     from plutoc.emit.package import emit
+    from plutoc.report.graph_file import graph_file
     from plutoc.report.pictures import mermaid
 
     plan = planned(checked, optimise=optimise)
@@ -143,6 +144,7 @@ def package_of(
             plan,
             source_name=source_name,
             picture=mermaid(checked),
+            graph_data=graph_file(checked),
             carry=carry,
             former=former,
             for_all=for_all,

@@ -18,8 +18,9 @@ from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.names import is_well_formed, reserved
 from plutoc.project.hooks import HOOKS
 from plutoc.project.reading import UsageError, shown
+from plutoc.report.layout import Positions
 from plutoc.service.document import Document
-from plutoc.service.picture.positions import Positions, positions_file, positions_in
+from plutoc.service.picture.positions import positions_file, positions_in
 from plutoc.source import Source
 from plutoc.syntax.tree import BadStatement, BlockDecl
 

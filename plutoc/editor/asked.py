@@ -10,7 +10,8 @@ from typing import NoReturn
 
 from plutoc.editor.changes import Edit, Edits
 from plutoc.editor.history import File
-from plutoc.service.picture.positions import FARTHEST, MOST, Point
+from plutoc.report.layout import Point
+from plutoc.service.picture.positions import FARTHEST, MOST
 
 _DEEPEST = 32
 _LARGEST = 2**53

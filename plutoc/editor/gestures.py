@@ -13,10 +13,10 @@ from plutoc.editor.history import Change, File
 from plutoc.editor.wire import Wire
 from plutoc.edits import applied
 from plutoc.format.run import TooLarge, format_source
+from plutoc.report.layout import Point
 from plutoc.service.document import Document
 from plutoc.service.editing.edit import edit
 from plutoc.service.editing.operations import AddBlock, Operation, RemoveBlocks, Rename, operation
-from plutoc.service.picture.positions import Point
 from plutoc.service.reading.fixes import with_stub
 from plutoc.source import Source
 

@@ -15,7 +15,7 @@ from types import MappingProxyType
 
 from plutoc.editor.changes import Edits, Overlap, in_order, inverse, length, made, rebased
 from plutoc.editor.wire import NoSuchPlace, Wire, units
-from plutoc.service.picture.positions import Point, Positions
+from plutoc.report.layout import Point, Positions
 from plutoc.source import LARGEST
 
 TOGETHER = 1.0

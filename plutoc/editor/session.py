@@ -21,11 +21,11 @@ from plutoc.editor.questions import QUESTIONS, hook_function
 from plutoc.editor.wire import Wire
 from plutoc.mistake import traceback_of
 from plutoc.project.reading import UsageError
+from plutoc.report.layout import Positions
 from plutoc.service.document import Document
 from plutoc.service.editing.edit import CannotEdit
 from plutoc.service.editing.operations import NotAnOperation
 from plutoc.service.picture.palette import palette
-from plutoc.service.picture.positions import Positions
 from plutoc.service.picture.view import view
 from plutoc_runtime import output
 from plutoc_runtime.domain.text import said

@@ -41,11 +41,12 @@ def emit(
     *,
     source_name: str,
     picture: str,
+    graph_data: str,
     carry: bool = False,
     former: Mapping[str, str] = _NONE,
     for_all: frozenset[str] = frozenset(),
 ) -> Package:
-    """Return the package of a plan; `picture` is its graph in Mermaid, for the README.
+    """Return the package of a plan; `picture` is its graph in Mermaid, for the README, `graph_data` for pages.
 
     `carry`: with the library that flies inside it. `former` are hooks that the app does not declare
     any more, and hooks.py still defines, with their kinds: the lock remembers them. `for_all`: the
@@ -72,6 +73,7 @@ def emit(
         **{f"{app}/{name}": owned(text, source_name) for name, text in modules.items()},
         **{f"{app}/{path}": text for path, text in carried.items()},
         **{f"{app}/{path}": text for path, text in library.items()},
+        f"{app}/graph.json": graph_data,
         f"{app}/py.typed": "",
         "tests/test_flow.py": owned(flow_test(graph), source_name),
     }

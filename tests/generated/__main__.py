@@ -37,11 +37,15 @@ def sources() -> dict[str, str]:
 def written(folder: Path) -> None:
     """Write the packages."""
     for name, text in sources().items():
-        package = emit(plan_of(text), source_name="app.pluto", picture="flowchart TD\n")
+        package = emit(
+            plan_of(text), source_name="app.pluto", picture="flowchart TD\n", graph_data=""
+        )
         for path, file in {**package.owned, **package.once}.items():
             (folder / name / path).parent.mkdir(parents=True, exist_ok=True)
             (folder / name / path).write_text(file, encoding="utf-8")
-    plain = emit(plan_of(ODD_NAMES, optimise=False), source_name="app.pluto", picture="")
+    plain = emit(
+        plan_of(ODD_NAMES, optimise=False), source_name="app.pluto", picture="", graph_data=""
+    )
     for path, file in plain.owned.items():
         if not (folder / "odd_" / path).exists():
             (folder / "odd_" / path).write_text(file, encoding="utf-8")

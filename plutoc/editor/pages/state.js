@@ -6,9 +6,7 @@ import { pushes } from "./link.js";
 export const START = "start";
 export const END = "end";
 
-export const WIDTH = 176;
-export const HEIGHT = 52;
-const END_WIDTH = 96; // of start and end
+export { HEIGHT, WIDTH, widthOf } from "./canvas/routes.js";
 export const GRID = 8;
 export const snap = (value) => Math.round(value / GRID) * GRID;
 
@@ -80,8 +78,6 @@ export const only = () => (selection.blocks.size === 1 ? [...selection.blocks][0
 
 // The blocks that are selected; start and end are none.
 export const chosenBlocks = () => [...selection.blocks].filter((name) => !isEnd(name));
-
-export const widthOf = (node) => (node.terminal ? END_WIDTH : WIDTH);
 
 export const outOf = (name) => app.view.edges.filter((edge) => edge.source === name);
 export const into = (name) => app.view.edges.filter((edge) => edge.target === name);

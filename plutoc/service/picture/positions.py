@@ -7,10 +7,8 @@ delete it is always safe.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 
-Point = tuple[int, int]
-Positions = Mapping[str, Point]
+from plutoc.report.layout import Point, Positions
 
 _LINE = re.compile(
     r"([A-Za-z_][A-Za-z0-9_]{0,99})[ \t]+(-?[0-9]{1,6})[ \t]+(-?[0-9]{1,6})[ \t]*\r?"

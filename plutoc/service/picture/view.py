@@ -15,10 +15,9 @@ from plutoc.hooks.module import Definition
 from plutoc.hooks.module import read as read_hooks
 from plutoc.hooks.python import Unreadable
 from plutoc.report.block_page import first_line
+from plutoc.report.layout import Positions, laid_out
 from plutoc.service.document import Document
 from plutoc.service.picture.arguments import argument, arguments_of, parameter_of
-from plutoc.service.picture.layout import laid_out
-from plutoc.service.picture.positions import Positions
 from plutoc.service.symbols import Occurrence, Role, fields_of
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import (

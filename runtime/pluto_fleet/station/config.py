@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,7 +12,6 @@ from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
-from .graph.picture import app_graph, laid_out
 from .map.drawn import WITHOUT_A_FLEET_FILE
 from .results.meaning import SIMULATED_UNITS, Meanings
 
@@ -21,11 +21,17 @@ if TYPE_CHECKING:
     from ..shared.domain.actions import Action, Parameter
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
-    from .graph.picture import Graph
     from .map.drawn import DrawnMap
     from .sign import Logo
     from .wire import Layer
-    from .wire_app import ActionData, AppData, CategoryData, FieldData, ParameterData
+    from .wire_app import (
+        ActionData,
+        AppData,
+        CategoryData,
+        FieldData,
+        GraphData,
+        ParameterData,
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,7 +71,7 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
 
     `server` is this run of the station; what was drawn on the map may change.
     """
-    graph, space = app_graph(app), config.fleet.airspace
+    graph, space = _graph(app), config.fleet.airspace
     return {
         "name": app.name,
         "title": config.title or app.title or app.name,
@@ -95,7 +101,7 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
         },
         "retries": _retries(graph),
         "rounds": any(field.type is FieldType.ROUNDS for field in app.fields),
-        "graph": laid_out(graph) if graph is not None else None,
+        "graph": graph,
     }
 
 
@@ -154,9 +160,18 @@ def _category(category: Category) -> CategoryData:
     }
 
 
-def _retries(graph: Graph | None) -> bool:
+def _graph(app: App) -> GraphData | None:
+    """Return the graph in the package of an app; one that plutoc has not written has none."""
+    file = Path(app.flow.__code__.co_filename).with_name("graph.json")
+    if not file.is_file():
+        return None
+    graph: GraphData = json.loads(file.read_text("utf-8"))
+    return graph
+
+
+def _retries(graph: GraphData | None) -> bool:
     """Whether a failed trip may be retried: some edge of FAILED leads on."""
     if graph is None:
         return True
-    onward = {box.name for box in graph.boxes if box.shape == "block"}
-    return any("FAILED" in way.statuses and way.target in onward for way in graph.arrows)
+    onward = {one["name"] for one in graph["blocks"] if "kind" in one and "gate" not in one}
+    return any("FAILED" in one["statuses"] and one["target"] in onward for one in graph["edges"])

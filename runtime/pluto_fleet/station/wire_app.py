@@ -80,41 +80,36 @@ class MapShape(TypedDict):
     """The address of the floor plan."""
 
 
-class BlockBox(TypedDict):
-    """A block of the app's graph, as it is drawn: its upper left corner and its size."""
+class BlockData(TypedDict):
+    """A block of the app's graph, or its start or end, by its upper left corner."""
 
     name: str
-    kind: str
-    """Empty for `start` and `end`."""
-    doc: str
-    shape: str
-    """`start`, `end`, `gate` or `block`."""
+    kind: NotRequired[str]
+    """Start and end have none."""
+    gate: NotRequired[bool]
     x: float
     y: float
-    w: float
-    h: float
 
 
-class EdgeLine(TypedDict):
-    """An edge of the app's graph, as it is drawn."""
+class EdgeData(TypedDict):
+    """An edge of the app's graph, with the statuses that pass."""
 
     source: str
     target: str
     statuses: list[str]
-    fork: bool
-    dotted: bool
-    points: list[Point]
-    label: Point | None
-    """The middle of its label."""
+    fork: NotRequired[bool]
+    """Whether it is a branch of a fork."""
+    implicit: NotRequired[bool]
+    """Whether the app has no such edge: missions end there all the same."""
 
 
-class GraphDrawing(TypedDict):
-    """The app's graph, laid out."""
+class GraphData(TypedDict):
+    """The app's graph as plutoc has laid it out: the package's `graph.json`, as it is."""
 
-    width: float
-    height: float
-    blocks: list[BlockBox]
-    edges: list[EdgeLine]
+    kinds: dict[str, str]
+    """What blocks of each kind do."""
+    blocks: list[BlockData]
+    edges: list[EdgeData]
 
 
 class AppData(TypedDict):
@@ -143,7 +138,7 @@ class AppData(TypedDict):
     """Whether the graph flies a failed trip again."""
     rounds: bool
     """Whether missions may be flown in rounds."""
-    graph: GraphDrawing | None
+    graph: GraphData | None
 
 
 class ItemData(TypedDict):

@@ -107,7 +107,7 @@ def _flow(folder: Path, *, optimise: bool) -> Iterator[Flow]:
     """Write a package, import it, and yield its flow."""
     text = APP.format(number=next(NUMBERS))
     plan = planned(checked_of(text, blocks()), optimise=optimise)
-    package = emit(plan, source_name="app.pluto", picture="flowchart TD\n")
+    package = emit(plan, source_name="app.pluto", picture="flowchart TD\n", graph_data="")
     for path, text in {**package.owned, **package.once}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8")

@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.emit.package import emit
+from plutoc.report.graph_file import graph_file
 from plutoc.report.pictures import mermaid
 from tests.compiler.emit.plans import plan_of
 from tests.paths import CASES
@@ -22,7 +23,12 @@ FOLDERS = sorted(path.parent for path in CASES.glob("*/expected"))
 def package_of(folder: Path) -> dict[str, str]:
     """Return the files worth reading, and the names of all."""
     plan = plan_of((folder / "app.pluto").read_text(encoding="utf-8"))
-    package = emit(plan, source_name="app.pluto", picture=mermaid(plan.checked))
+    package = emit(
+        plan,
+        source_name="app.pluto",
+        picture=mermaid(plan.checked),
+        graph_data=graph_file(plan.checked),
+    )
     files = {**package.owned, **package.once}
     copied = [path for path in files if "/_runtime/" in path or path in ("LICENSE", "pluto.lock")]
     read = {path: text for path, text in files.items() if path not in copied}

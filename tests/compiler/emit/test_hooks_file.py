@@ -24,13 +24,15 @@ def test_nothing_is_to_be_said_of_stubs(app: str) -> None:
 
 def test_without_hooks_there_is_no_kit() -> None:
     """Nothing of it is carried, nor a file written to test with it."""
-    package = emit(plan_of(PLAIN), source_name="app.pluto", picture="")
+    package = emit(plan_of(PLAIN), source_name="app.pluto", picture="", graph_data="")
     assert not [path for path in {**package.owned, **package.once} if "testing" in path]
     assert list(package.once) == ["src/plain/hooks.py"]
 
 
 def test_left_over_hooks_keep_the_kit_that_their_tests_import() -> None:
     """The tests are the developer's, as hooks.py is: neither is written anew."""
-    package = emit(plan_of(PLAIN), source_name="app.pluto", picture="", former={"old": "policy"})
+    package = emit(
+        plan_of(PLAIN), source_name="app.pluto", picture="", graph_data="", former={"old": "policy"}
+    )
     assert "src/plain/testing.py" in package.owned
     assert list(package.once) == ["src/plain/hooks.py"]

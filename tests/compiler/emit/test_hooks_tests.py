@@ -23,7 +23,7 @@ EXPECTED = re.compile(r"  # (note|error): (.+)$")
 
 def written(text: str, folder: Path) -> Path:
     """Write an app's package as it is first compiled, and return its folder."""
-    package = emit(plan_of(text), source_name="app.pluto", picture="flowchart TD\n")
+    package = emit(plan_of(text), source_name="app.pluto", picture="flowchart TD\n", graph_data="")
     for path, file in {**package.owned, **package.once}.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(file, encoding="utf-8")

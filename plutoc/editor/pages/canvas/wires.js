@@ -3,7 +3,7 @@
 import { h, keyed, set, status, svg } from "../dom.js";
 import { edgeSaid } from "../operations.js";
 import { START, app, keyOf, selection, takes, worst } from "../state.js";
-import { route } from "./routes.js";
+import { apart, lanes, route } from "./routes.js";
 
 const TONES = ["UNEXECUTED", "RUNNING", "STANDBY", "COMPLETED", "FAILED", "many", "none", "chosen"];
 const BOTH = 4; // how far chips of two edges may be apart to be one upon the other
@@ -33,13 +33,12 @@ export function drawWires() {
     svg("g", { class: "edge", "data-edge": key }, svg("path", { class: "hit" }), svg("path", { class: "wire" })));
   const labels = keyed(chips, edges, ([key]) => key, ([key]) =>
     h("button", { type: "button", class: "chip", "data-edge": key, tabIndex: -1 }));
-  const ways = new Map();
+  const lane = lanes(app.view.edges, app.nodes);
   parts.clear();
   byNode = new Map();
-  for (const [key, edge] of edges) {
+  for (const [i, [key, edge]] of edges.entries()) {
     const [group, chip] = [groups.get(key), labels.get(key)];
-    const lane = laneOf(edge, ways);
-    parts.set(key, { path: group.lastChild, hit: group.firstChild, chip, edge, lane });
+    parts.set(key, { path: group.lastChild, hit: group.firstChild, chip, edge, lane: lane[i] });
     for (const name of [edge.source, edge.target]) {
       if (!byNode.has(name)) byNode.set(name, []);
       byNode.get(name).push(key);
@@ -55,15 +54,11 @@ export function drawWires() {
   markEdges();
 }
 
-// Wires that would lie upon each other: between the same two blocks, or back into the same one.
-function laneOf(edge, ways) {
-  const [source, target] = [app.nodes.get(edge.source), app.nodes.get(edge.target)];
-  const back = target.y - source.y < 72;
-  const way = back ? `back ${edge.target}` : `${edge.source} ${edge.target}`;
-  const lane = ways.get(way) ?? 0;
-  ways.set(way, lane + 1);
-  return lane;
-}
+// Where on the lower edge of its block an edge begins.
+const portOf = ({ when, otherwise, statuses }) => {
+  if (when.length === 1) return when[0];
+  return otherwise && statuses.length === 1 ? statuses[0] : "all";
+};
 
 function write(chip, edge) {
   const key = JSON.stringify([edge.statuses, edge.when, edge.otherwise, edge.known]);
@@ -84,33 +79,21 @@ function write(chip, edge) {
 export function moveWires(names = null) {
   const nodes = [...app.nodes.values()];
   const keys = names ? new Set([...names].flatMap((name) => byNode.get(name) ?? [])) : parts.keys();
-  for (const key of keys) {
-    const { path, hit, chip, edge, lane } = parts.get(key);
-    const { d, middle: [x, y], ends } = route(
-      app.nodes.get(edge.source), app.nodes.get(edge.target), edge, nodes, lane);
+  const moved = [...keys].map((key) => parts.get(key));
+  for (const part of moved) {
+    const { path, hit, chip, edge, lane } = part;
+    const { d, middle, points } = route(
+      app.nodes.get(edge.source), portOf(edge), app.nodes.get(edge.target), nodes, lane);
     path.setAttribute("d", d);
     hit.setAttribute("d", d);
+    const tall = 18 * Math.max(1, chip.childElementCount) + BOTH;
+    Object.assign(part, { middle, tall, ends: [points[0], points.at(-1)] });
+  }
+  if (!names) apart(moved);
+  for (const { chip, middle: [x, y] } of moved) {
     chip.style.transform = `translate(-50%, -50%) translate(${Math.round(x)}px, ${Math.round(y)}px)`;
-    Object.assign(parts.get(key), { middle: [x, y], ends });
   }
   placeHandles();
-  if (!names) apart();
-}
-
-// Chips that would cover each other are moved down a little.
-function apart() {
-  const taken = [];
-  for (const part of [...parts.values()].sort((a, b) => a.middle[1] - b.middle[1])) {
-    let [x, y] = part.middle;
-    const tall = 18 * Math.max(1, part.chip.childElementCount) + BOTH;
-    for (const [ox, oy, oh] of taken) {
-      if (Math.abs(ox - x) < 84 && Math.abs(oy - y) < (oh + tall) / 2) y = oy + (oh + tall) / 2;
-    }
-    taken.push([x, y, tall]);
-    if (y === part.middle[1]) continue;
-    part.middle = [x, y];
-    part.chip.style.transform = `translate(-50%, -50%) translate(${Math.round(x)}px, ${Math.round(y)}px)`;
-  }
 }
 
 function placeHandles() {

@@ -9,9 +9,9 @@ export type ActionShape = wire.ActionData;
 export type CategoryShape = wire.CategoryData;
 export type FleetDrone = wire.FleetDrone;
 export type MapShape = wire.MapShape;
-export type GraphShape = wire.GraphDrawing;
-export type BlockShape = wire.BlockBox;
-export type EdgeShape = wire.EdgeLine;
+export type GraphShape = wire.GraphData;
+export type BlockShape = wire.BlockData;
+export type EdgeShape = wire.EdgeData;
 export type PlanProblem = wire.ProblemData;
 /** A field of missions, trips or actions; `hint` and `wrong` are the page's own. */
 export type FieldShape = Omit<wire.FieldData, "label" | "default"> & {

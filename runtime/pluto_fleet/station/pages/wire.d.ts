@@ -57,7 +57,7 @@ export interface AppData {
   retries: boolean;
   /** Whether missions may be flown in rounds. */
   rounds: boolean;
-  graph: GraphDrawing | null;
+  graph: GraphData | null;
 }
 
 /** An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep. */
@@ -69,18 +69,14 @@ export interface AreaAsked {
   before?: number[];
 }
 
-/** A block of the app's graph, as it is drawn: its upper left corner and its size. */
-export interface BlockBox {
+/** A block of the app's graph, or its start or end, by its upper left corner. */
+export interface BlockData {
   name: string;
-  /** Empty for `start` and `end`. */
-  kind: string;
-  doc: string;
-  /** `start`, `end`, `gate` or `block`. */
-  shape: string;
+  /** Start and end have none. */
+  kind?: string;
+  gate?: boolean;
   x: number;
   y: number;
-  w: number;
-  h: number;
 }
 
 /** Say that a lost or retired drone can fly again. */
@@ -169,16 +165,15 @@ export interface DroneRow {
   ready_in?: number | null;
 }
 
-/** An edge of the app's graph, as it is drawn. */
-export interface EdgeLine {
+/** An edge of the app's graph, with the statuses that pass. */
+export interface EdgeData {
   source: string;
   target: string;
   statuses: string[];
-  fork: boolean;
-  dotted: boolean;
-  points: number[][];
-  /** The middle of its label. */
-  label: number[] | null;
+  /** Whether it is a branch of a fork. */
+  fork?: boolean;
+  /** Whether the app has no such edge: missions end there all the same. */
+  implicit?: boolean;
 }
 
 /** Where an example is to be added. */
@@ -293,12 +288,12 @@ export interface GoOn {
   mission?: string | null;
 }
 
-/** The app's graph, laid out. */
-export interface GraphDrawing {
-  width: number;
-  height: number;
-  blocks: BlockBox[];
-  edges: EdgeLine[];
+/** The app's graph as plutoc has laid it out: the package's `graph.json`, as it is. */
+export interface GraphData {
+  /** What blocks of each kind do. */
+  kinds: Record<string, string>;
+  blocks: BlockData[];
+  edges: EdgeData[];
 }
 
 /** Something that did not go as planned, or that was found. */

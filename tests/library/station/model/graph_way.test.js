@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { wayFinder } from "../../../../runtime/pluto_fleet/station/pages/monitor/graph_way.js";
 
 /** The graph of the example alfalfa, by its blocks and its edges with the statuses that pass. */
-const BLOCKS = { wait: "block", allocate: "block", launch: "block", watch: "block", timer: "block", first: "gate", judge: "block", again: "block", retry: "block" };
+const BLOCKS = ["wait", "allocate", "launch", "watch", "timer", "first", "judge", "again", "retry"];
 const EDGES = [
   ["wait", "allocate", "STANDBY UNEXECUTED"],
   ["allocate", "launch", "STANDBY UNEXECUTED"],
@@ -22,7 +22,7 @@ const EDGES = [
   ["retry", "end", "FAILED"],
 ];
 const GRAPH = {
-  blocks: Object.entries(BLOCKS).map(([name, shape]) => ({ name, shape })),
+  blocks: BLOCKS.map((name) => ({ name, gate: name === "first" })),
   edges: EDGES.map(([source, target, statuses]) => ({ source, target, statuses: statuses.split(" ") })),
 };
 

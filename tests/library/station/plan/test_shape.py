@@ -16,6 +16,7 @@ from pluto_fleet.station.config import StationConfig, described
 from pluto_fleet.station.map.drawn import DrawnMap
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from pluto_fleet.station.plan.shape import MOST_MISSIONS, MOST_TRIPS
+from tests.kit.apps import example
 from tests.library.files.an_app import OWN
 from tests.library.station.plan.drawing import Json, a_plan, mission, said, trip
 
@@ -117,3 +118,23 @@ def test_a_value_of_each_type_can_be_typed() -> None:
     assert (ready.patient, ready.margin, ready.share, ready.urgent) == ("Ada", 180.0, 0.4, True)
     (flown,) = ready.trips
     assert (flown.fragile, flown.warmth, flown.layers, flown.note) == (False, 294.15, 1, "")
+
+
+@pytest.mark.parametrize(("name", "retries"), [("alfalfa", True), ("drugs_distribution", False)])
+def test_a_page_is_told_the_graph_as_the_package_has_it(
+    name: str, retries: bool, tmp_path: Path
+) -> None:
+    """And whether a failed trip may lead on in it."""
+    made = example(name)
+    config = StationConfig(folder=tmp_path, fleet=made.fleet, faults={})
+    shown = described(made.app, config, DrawnMap(made.fleet.airspace, config.map_path), "x")
+    file = made.package / "src" / name / "graph.json"
+    assert shown["graph"] == json.loads(file.read_text(encoding="utf-8"))
+    assert shown["retries"] is retries
+
+
+def test_an_app_that_plutoc_did_not_write_has_no_graph(tmp_path: Path) -> None:
+    config = StationConfig(folder=tmp_path, fleet=OWN_FLEET, faults={})
+    assert (
+        described(OWN, config, DrawnMap(OWN_FLEET.airspace, config.map_path), "x")["graph"] is None
+    )

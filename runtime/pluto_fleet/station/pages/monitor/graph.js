@@ -8,30 +8,40 @@ import { t } from "../core/i18n.js";
 import { app, selection, selectMission } from "../core/station.js";
 import { toneOf } from "../ui/standing.js";
 import { blocksOf, leftWith, wayFinder } from "./graph_way.js";
+import { apart, HEIGHT, lanes, route, widthOf } from "./routes.js";
 
 /** @import { AppShape, BlockShape, EdgeShape, GraphShape } from "../app" */
 /** @import { MissionRow } from "../wire" */
 /** @import { World } from "../core/world.js" */
+/** @import { Node } from "./routes.js" */
 
 const LIT = 2500; // ms that an edge stays lit after a mission took it
 const SEATS = 6; // tokens at a block; of more, the others are counted
-const SIZE = 20; // pixels of a token
-const CORNER = 8; // pixels by which a bend is rounded
+const SIZE = 28; // pixels of a token
+const LINE = 18; // pixels of a status beside an edge
+const ROOM = 44; // pixels around the picture
 
-/** A line with rounded bends. @param {readonly (readonly number[])[]} points */
-function path(points) {
-  /** @param {readonly number[]} from @param {readonly number[]} to */
-  const near = ([x, y], [toX, toY]) => {
-    const length = Math.hypot(toX - x, toY - y) || 1;
-    const part = Math.min(CORNER, length / 2) / length;
-    return `${x + (toX - x) * part} ${y + (toY - y) * part}`;
-  };
-  return points.map((point, i) => {
-    if (!i) return `M${point.join(" ")}`;
-    const next = points[i + 1];
-    if (!next) return `L${point.join(" ")}`;
-    return `L${near(point, points[i - 1])}Q${point.join(" ")} ${near(point, next)}`;
-  }).join("");
+/** The lines of the edges, with what they say where there is something to choose, and what they cover. @param {GraphShape} graph */
+function drawn({ blocks, edges }) {
+  const choices = Map.groupBy(edges, ({ source }) => source);
+  const saying = edges.filter(({ source, statuses }) =>
+    choices.get(source)?.some((other) => `${other.statuses}` !== `${statuses}`));
+  const nodes = new Map(blocks.map((block) => [block.name, {
+    ...block, terminal: !block.kind,
+    emits: [...new Set(saying.flatMap(({ source, statuses }) => (source === block.name && statuses.length === 1 ? statuses : [])))],
+  }]));
+  const all = [...nodes.values()];
+  const lane = lanes(edges, nodes);
+  const ways = edges.map((edge, i) => {
+    const words = saying.includes(edge) ? edge.statuses : [];
+    const [source, target] = [edge.source, edge.target].map((name) => /** @type {Node} */ (nodes.get(name)));
+    const way = route(source, words.length === 1 ? words[0] : "all", target, all, lane[i]);
+    return { ...way, edge, words, tall: LINE * Math.max(1, words.length) };
+  });
+  apart(ways);
+  const across = [...all.flatMap((one) => [one.x, one.x + widthOf(one)]), ...ways.flatMap(({ points }) => points.map(([x]) => x))];
+  const [left, right] = [Math.min(...across) - ROOM, Math.max(...across) + ROOM];
+  return { ways, left, width: right - left, height: Math.max(...all.map(({ y }) => y)) + HEIGHT + ROOM };
 }
 
 /** @param {{ world: World }} props */
@@ -41,30 +51,31 @@ export function Graph({ world }) {
   const read = useSignal(/** @type {BlockShape | null} */ (null));
   const scale = useSignal(1);
   const here = useMemo(() => computed(() => standing(graph, world.missions.all())), [graph, world]);
+  const { ways, left, width, height } = useMemo(() => drawn(graph), [graph]);
   const lit = useLit(graph, world);
   const id = useId();
   useEffect(() => {
-    const measured = new ResizeObserver(([{ contentRect: { width } }]) => {
-      if (width) scale.value = Math.max(0.35, Math.min(width / graph.width, 1.25));
+    const measured = new ResizeObserver(([{ contentRect }]) => {
+      if (contentRect.width) scale.value = Math.max(0.35, Math.min(contentRect.width / width, 1.25));
     });
     measured.observe(/** @type {HTMLDivElement} */ (room.current));
     return () => measured.disconnect();
-  }, [graph, scale]);
+  }, [width, scale]);
   const { value: block } = read;
   const names = block ? (here.value.get(block.name) ?? []).map(({ name }) => name) : [];
   return h("div", { class: "graph-view" },
-    h("div", { ref: room, class: "graph-room", style: { height: `${graph.height * scale.value + 8}px` } },
-      h("div", { class: "graph-stage", style: { transform: `scale(${scale.value})`, width: `${graph.width}px`, height: `${graph.height}px` } },
-        h("svg", { width: graph.width, height: graph.height, "aria-hidden": true },
+    h("div", { ref: room, class: "graph-room", style: { height: `${height * scale.value + 8}px` } },
+      h("div", { class: "graph-stage", style: { transform: `scale(${scale.value}) translate(${-left}px)` } },
+        h("svg", { "aria-hidden": true },
           h("defs", null, h("marker", {
-            id, orient: "auto", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 8, markerHeight: 8, markerUnits: "userSpaceOnUse",
+            id, orient: "auto", viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 11, markerHeight: 11, markerUnits: "userSpaceOnUse",
           }, h("path", { d: "M0 0L8 4L0 8z" }))),
-          graph.edges.map((edge, at) => h(Edge, { key: at, edge, head: id, lit }))),
+          ways.map((way, at) => h(Edge, { key: at, way, head: id, lit }))),
         graph.blocks.map((one) => h(Block, {
-          key: one.name, block: one, rows: here.value.get(one.name) ?? [], onRead: (yes) => { read.value = yes ? one : null; },
+          key: one.name, block: one, doc: graph.kinds[one.kind ?? ""] ?? "", rows: here.value.get(one.name) ?? [], onRead: (yes) => { read.value = yes ? one : null; },
         })))),
     h("p", { class: "caption" }, block
-      ? [h("strong", null, block.name), ` ${block.doc} `, names.length > 0 && t("graph.here", { n: names.length, names })]
+      ? [h("strong", null, block.name), ` ${graph.kinds[block.kind ?? ""] ?? ""} `, names.length > 0 && t("graph.here", { n: names.length, names })]
       : t("graph.hint")));
 }
 
@@ -116,26 +127,27 @@ function useLit(graph, world) {
   return lit;
 }
 
-/** @param {{ edge: EdgeShape, head: string, lit: import("@preact/signals").Signal<ReadonlySet<EdgeShape>> }} props */
-const Edge = ({ edge, head, lit }) => h("g", { class: lit.value.has(edge) ? "lit" : "" },
+/** @param {{ way: ReturnType<typeof drawn>["ways"][number], head: string, lit: import("@preact/signals").Signal<ReadonlySet<EdgeShape>> }} props */
+const Edge = ({ way: { d, edge, words, middle: [x, y] }, head, lit }) => h("g", { class: lit.value.has(edge) ? "lit" : "" },
   h("path", {
-    class: `edge ${edge.fork ? "fork" : ""} ${edge.dotted ? "dotted" : ""}`, d: path(edge.points),
+    class: `edge ${edge.fork ? "fork" : ""} ${edge.implicit || !edge.statuses.length ? "dotted" : ""}`, d,
     "marker-end": `url(#${head})`,
   }),
-  edge.label && h("text", { x: edge.label[0], y: edge.label[1], "text-anchor": "middle" },
-    edge.statuses.join(", ").toLowerCase()));
+  h("text", { x, y: y + LINE * (0.8 - words.length / 2), "text-anchor": "middle" },
+    words.map((word, i) => h("tspan", { key: word, x, dy: i && LINE }, word.toLowerCase()))));
 
-/** @param {{ block: BlockShape, rows: MissionRow[], onRead: (yes: boolean) => void }} props */
-function Block({ block, rows, onRead }) {
-  const { name, kind, shape, doc, x, y, w, h: height } = block;
+/** @param {{ block: BlockShape, doc: string, rows: MissionRow[], onRead: (yes: boolean) => void }} props */
+function Block({ block, doc, rows, onRead }) {
+  const { name, kind = "", gate, x, y } = block;
   const words = kind.replaceAll(/([a-z])([A-Z])/g, "$1 $2");
+  const width = `${widthOf({ terminal: !kind })}px`;
   const chosen = selection.value.mission;
   const seated = rows.slice(0, SEATS);
   const picked = rows.find((row) => row.name === chosen);
   if (picked && !seated.includes(picked)) seated[SEATS - 1] = picked;
-  return h("div", { class: "graph-block", style: { transform: `translate(${x}px, ${y}px)`, width: `${w}px` } },
+  return h("div", { class: "graph-block", style: { transform: `translate(${x}px, ${y}px)`, width } },
     h("button", {
-      type: "button", class: `block ${shape}-block`, style: { width: `${w}px`, height: `${height}px` },
+      type: "button", class: `block ${kind ? "" : "end-block"} ${gate ? "gate-block" : ""}`, style: { width, height: `${HEIGHT}px` },
       "aria-label": t("graph.block", { name, doc, missions: many("many.missions", rows.length) }),
       onPointerEnter: () => onRead(true), onFocus: () => onRead(true), onClick: () => onRead(true),
       onPointerLeave: () => onRead(false), onBlur: () => onRead(false),

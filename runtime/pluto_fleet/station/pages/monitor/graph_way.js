@@ -11,7 +11,7 @@
  * @returns {(from: string[], status: string, to: string, final: string) => EdgeShape[]}
  */
 export function wayFinder({ blocks, edges }) {
-  const gates = new Set(blocks.filter(({ shape }) => shape === "gate").map(({ name }) => name));
+  const gates = new Set(blocks.filter(({ gate }) => gate).map(({ name }) => name));
   return (from, status, to, final) => {
     /** @type {Map<string, { block: string, status: string, way: EdgeShape[] }>} */
     const found = new Map(from.map((block) => [`${block} ${status}`, { block, status, way: [] }]));

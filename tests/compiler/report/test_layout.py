@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from plutoc.report.layout import GRID, HEIGHT, WIDTH, Point, laid_out
 from plutoc.service.document import Document
-from plutoc.service.picture.layout import GRID, HEIGHT, WIDTH, laid_out
-from plutoc.service.picture.positions import Point, positions_file, positions_in
+from plutoc.service.picture.positions import positions_file, positions_in
 from tests.paths import ROOT
 
 EXAMPLES = sorted((ROOT / "examples").glob("*/app.pluto"))

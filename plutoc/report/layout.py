@@ -1,4 +1,4 @@
-"""Where blocks stand that were not moved by hand: layers from top to bottom, with few crossings.
+"""Where blocks stand that were not moved by hand, in the editor and the station: layers from top to bottom, with few crossings.
 
 Blocks are wide and low, so a window shows twice as many layers one below the other as side by side.
 
@@ -13,8 +13,12 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 
+import networkx as nx
+
 from plutoc.graph.model import END, START
-from plutoc.service.picture.positions import Point, Positions
+
+Point = tuple[int, int]
+Positions = Mapping[str, Point]
 
 WIDTH, HEIGHT, GRID = 176, 52, 8
 """A block's size, and what positions are multiples of."""
@@ -64,29 +68,18 @@ def _beside(spot: Point, boxes: Iterable[Point]) -> Point:
     return x, y
 
 
-def _parts(names: Sequence[str], ways: Ways) -> Iterator[list[str]]:
-    """Yield what edges join, `start` and `end` always together, in the order of the source.
+def _parts(names: Sequence[str], ways: Ways) -> list[list[str]]:
+    """Return what edges join, `start` and `end` always together, in the order of the source.
 
     What hangs on nothing comes last, all in one part.
     """
-    joined: defaultdict[str, list[str]] = defaultdict(list)
-    for source, target in (*ways, (START, END)):
-        joined[source].append(target)
-        joined[target].append(source)
-    met: set[str] = set()
-    for first in names:
-        if first in met or first not in joined:
-            continue
-        part, waiting = {first}, [first]
-        while waiting:
-            new = [other for other in joined[waiting.pop()] if other not in part]
-            part.update(new)
-            waiting += new
-        met |= part
-        yield [name for name in names if name in part]
-    loose = [name for name in names if name not in met]
-    if loose:
-        yield loose
+    joined = nx.DiGraph()
+    joined.add_nodes_from(names)
+    joined.add_edges_from([*ways, (START, END)])
+    parts = list(nx.weakly_connected_components(joined))
+    loose = [name for part in parts if len(part) == 1 for name in part]
+    found = [[name for name in names if name in part] for part in parts if len(part) > 1]
+    return [*found, loose] if loose else found
 
 
 def _placed(part: Sequence[str], ways: Ways, left: int) -> tuple[dict[str, Point], int]:
@@ -114,40 +107,19 @@ def _placed(part: Sequence[str], ways: Ways, left: int) -> tuple[dict[str, Point
 
 
 def _layers(part: Sequence[str], ways: Ways) -> dict[str, int]:
-    """Return each box's layer: every edge leads to a later one, but for those that lead back.
-
-    Deep graphs are walked without recursion.
-    """
-    leaving: defaultdict[str, list[str]] = defaultdict(list)
+    """Return each box's layer: every edge leads to a later one, but for those that lead back."""
     entered = {target for _, target in ways}
-    for source, target in ways:
-        leaving[source].append(target)
-    begun: set[str] = set()
-    done: dict[str, None] = {}
-    forward: defaultdict[str, list[str]] = defaultdict(list)
     roots = [name for name in part if name not in entered and name != END]
-    for root in (*roots, *part):
-        if root in begun:
-            continue
-        begun.add(root)
-        stack = [(root, iter(leaving[root]))]
-        while stack:
-            box, targets = stack[-1]
-            for target in targets:
-                if target not in begun:
-                    begun.add(target)
-                    forward[box].append(target)
-                    stack.append((target, iter(leaving[target])))
-                    break
-                if target in done:
-                    forward[box].append(target)
-            else:
-                done[box] = None
-                stack.pop()
+    joined = nx.DiGraph()
+    joined.add_nodes_from([*roots, *part])
+    joined.add_edges_from(ways)
+    order = [*nx.dfs_postorder_nodes(joined)][::-1]
+    place = {box: number for number, box in enumerate(order)}
     layer = dict.fromkeys(part, 0)
-    for box in reversed(done):
-        for target in forward[box]:
-            layer[target] = max(layer[target], layer[box] + 1)
+    for box in order:
+        for target in joined[box]:
+            if place[target] > place[box]:
+                layer[target] = max(layer[target], layer[box] + 1)
     if END in layer:  # nothing stands behind it
         layer[END] = max(layer[END], max(layer.values()), 1)
         if any(other == layer[END] for name, other in layer.items() if name != END):
