@@ -1,12 +1,14 @@
-"""Types for argparse: numbers within bounds."""
+"""Types for argparse: numbers within bounds, deadlines and probabilities."""
 
 from __future__ import annotations
 
 from argparse import ArgumentTypeError
 from collections.abc import Callable
+from dataclasses import dataclass
 from math import isfinite
 
-from .shared.domain.quantities import typed, whole
+from .shared.domain.fields import time_of_day
+from .shared.domain.quantities import Type, parse_quantity, time_from, typed, whole
 from .shared.domain.text import quoted
 
 
@@ -38,3 +40,34 @@ def positive_number(most: float) -> Callable[[str], float]:
         return number
 
     return read
+
+
+@dataclass(frozen=True, slots=True)
+class Deadline:
+    """When missions must be completed."""
+
+    text: str
+    seconds: float
+    """Since midnight, or since the first mission begins."""
+    is_time_of_day: bool
+
+
+def deadline(text: str) -> Deadline:
+    """Read 08:30, or a time such as 20min."""
+    if ":" not in text:
+        return Deadline(text, time_from(text), False)
+    try:
+        return Deadline(text, time_of_day(text.strip()), True)
+    except ValueError as error:
+        raise ValueError(f"{quoted(text)} {error}") from None
+
+
+def confidence(text: str) -> float:
+    """Read 99%, or 0.99."""
+    try:
+        share = parse_quantity(text, Type.PERCENT)
+    except ValueError as error:
+        raise ValueError(f"{quoted(text)} {error}") from None
+    if not 0.5 <= share <= 0.9999:
+        raise ValueError(f"{quoted(text)} is not between 50 % and 99.99 %: write it like 99%")
+    return share

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from functools import partial
+from importlib import import_module
 
 from ..process.exit_code import BAD_INPUT, INTERNAL, ExitCode
 from ..shared import output
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from typing import Any, NoReturn
 
     from ..app import App
+
+_MODULES = {"check": "plans", "decide": "tell", "resume": "fly"}
+"""Where a command is whose module is not called as it is."""
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 """Commands that need only an app's name: a Stop must work even if hooks.py does not."""
@@ -104,48 +108,6 @@ def _command(app: App, argv: Sequence[str] | None) -> int:
     from .plans import take_fleet_beside
 
     take_fleet_beside(options)
-    match options.command:
-        case "simulate":
-            from .simulate import simulate
-
-            return simulate(app, options)
-        case "size":
-            from .size import size
-
-            return size(app, options)
-        case "fly" if options.dry_run:
-            from .dry_run import dry_run
-
-            return dry_run(app, options)
-        case "fly":
-            from .fly import fly
-
-            return fly(app, options)
-        case "serve":
-            from .serve import serve
-
-            return serve(app, options)
-        case "tell":
-            from .tell import tell
-
-            return tell(app, options)
-        case "decide":
-            from .tell import decide
-
-            return decide(app, options)
-        case "resume":
-            from .fly import resume
-
-            return resume(app, options)
-        case "drones":
-            from .drones import drones
-
-            return drones(app, options)
-        case "journal":
-            from .journal import journal
-
-            return journal(app, options)
-        case _:
-            from .plans import check
-
-            return check(app, options)
+    name = "dry_run" if options.dry_run else options.command
+    module = import_module(f".{_MODULES.get(name, name)}", __package__)
+    return int(getattr(module, name)(app, options))

@@ -80,7 +80,8 @@ def fly(app: App, options: Options) -> int:
     if not options.supervised:
         output.tell(f"journal: {printable(str(journal))}")
     if options.supervise:
-        return supervised(app, options, journal, _words(options, journal))
+        words = options.supervised_words("--journal", str(journal))
+        return supervised(app, options, journal, again.command(app.package, *words))
     store = Store.create(journal, begun)
     flight = FlightSetup(
         app=plan.app,
@@ -94,15 +95,6 @@ def fly(app: App, options: Options) -> int:
         crtp=options.crtp_sim is not None,
     )
     return see_through(flight, store)
-
-
-def _words(options: Options, journal: Path) -> list[str]:
-    """Return the command line of the flight that is supervised."""
-    fleet = ["--fleet", str(options.fleet)] if options.fleet else []
-    faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
-    chance = ["--seed", str(options.seed), *(["--fail", faults] if faults else [])]
-    how = options.drone_flags
-    return ["fly", str(options.missions), *fleet, *how, *chance, "--journal", str(journal)]
 
 
 def resume(app: App, options: Options) -> int:
@@ -194,9 +186,7 @@ def supervised(app: App, options: Options, journal: Path, first: Sequence[str] |
     return supervise(
         Supervised(
             name=app.name,
-            first=(
-                on if first is None else again.command(app.package, *first, *speed, "--supervised")
-            ),
+            first=first or on,
             again=lambda: on if journal.exists() else None,
             finished=lambda: finished(records_in(app, journal)) if journal.exists() else 0,
             over=partial(_is_over, app, journal),

@@ -1,34 +1,58 @@
-"""The commands and their flags."""
+"""The commands, and one table of all their options, from which the command line is read."""
 
 from __future__ import annotations
 
-from argparse import Action, ArgumentParser
+import sys
+from argparse import SUPPRESS, Action, ArgumentParser
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..arguments import whole_number
+from ..arguments import Deadline, confidence, deadline, positive_number, whole_number
+from ..jobs.job import MISHAPS
 from ..shared import output
 from ..shared.alone.faults import FAULTS, shares
 from ..shared.command import add_beginning
 from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
 from ..shared.domain.quantities import time_from, typed
-from .flags import add_drones, add_dry_run, add_flights, add_station, how_it_flies
-from .size_flags import Deadline, add_size
 
 if TYPE_CHECKING:
     from ..app import App
 
-MOST_JOBS = 256
+COMMANDS = {
+    "simulate": "Fly the missions in virtual time, with simulated drones.",
+    "size": "Say how many drones the missions need, to be sure of them.",
+    "check": "Say whether the fleet can fly the missions; nothing flies.",
+    "fly": "Fly the missions in real time.",
+    "serve": "Open the ground station: draw, fly and watch missions in a browser.",
+    "resume": "Go on after a stop or a crash.",
+    "tell": "Tell a running app to stop, or a mission of it to wait, go on or end.",
+    "decide": "Say what only a person can know; alone, list what is asked.",
+    "drones": "Say which real drones answer, and whether each is ready to fly.",
+    "journal": "Print what happened, as it was written down.",
+}
+
+ACTIONS = (
+    *("stop", "pause", "go-on", "skip", "cancel", "prioritise", "change-trips"),
+    *("retire", "bring-back", "join", "mishap", "cut-motors"),
+)
+"""The commands of `tell`."""
+
+ANSWERS = ("done", "not-done", "go-on", "cancel")
+"""The answers of `decide` for a mission that waits."""
+
+HOST, PORT = "127.0.0.1", 8765
 
 
 @dataclass
 class Options:
-    """The parsed command line. No slots: argparse sets further attributes."""
+    """The parsed command line, with what is not said in it. No slots: argparse sets further attributes."""
 
+    words: Sequence[str] = ()
+    """The command line itself."""
     command: str = ""
     missions: Path = field(default_factory=Path)
     fleet: Path | None = None
@@ -68,8 +92,8 @@ class Options:
     everyone: bool = False
     answer: str | None = None
     plan: Path | None = None
-    host: str = ""
-    port: int = 0
+    host: str = HOST
+    port: int = PORT
     names: list[str] = field(default_factory=list)
     title: str | None = None
     logo: Path | None = None
@@ -101,12 +125,10 @@ class Options:
         """Whether real drones are meant, or Crazyflies that are simulated down to the radio."""
         return self.command in ("fly", "serve") and not self.sim
 
-    @property
-    def drone_flags(self) -> list[str]:
-        """The flags that select the drones, for another process's command line."""
-        if self.crtp_sim is not None:
-            return ["--crtp-sim", str(self.crtp_sim)]
-        return ["--sim"] if self.sim else []
+    def supervised_words(self, *first: str) -> list[str]:
+        """Return the same command line for the process that is supervised, with more options."""
+        command, *others = (word for word in self.words if word != "--supervise")
+        return [command, "--supervised", *first, *others]
 
     def refuse_what_is_simulated(self) -> None:
         """Raise `BadInput` if flags for simulated drones are combined with real ones."""
@@ -121,65 +143,338 @@ class Options:
                 raise BadInput(f"{flag} is for simulated drones: it goes with --sim")
 
 
+@dataclass(frozen=True, slots=True)
+class Option:
+    """A row of the table: an option or an argument, as it is typed, and which commands take it."""
+
+    commands: str
+    typed: str
+    help: str
+    how: dict[str, Any]
+    """What argparse must know beside."""
+    only_with: str = ""
+    """The option beside which it makes sense, where its command has that one."""
+    apart: str = ""
+    """Of all that a command has with the same word here, one may be given."""
+
+
+_READ: dict[str, Any] = {
+    **dict.fromkeys(("J", "M.toml", "F.toml", "P.toml", "FILE", "D"), Path),
+    "TIME": typed(time_from),
+}
+"""What reads a value that is called so, if the row does not say it."""
+
+
+def row(
+    commands: str, typed: str, help: str, only_with: str = "", apart: str = "", **how: Any
+) -> Option:
+    """Return a row; an option without a value is a switch."""
+    name, _, metavar = typed.partition(" ")
+    if metavar:
+        how = {"metavar": metavar, "type": _READ.get(metavar), **how}
+    elif name.startswith("-") and "choices" not in how:
+        how["action"] = "store_true"
+    return Option(commands, name, help, how, only_with, apart)
+
+
+TABLE = (
+    row("simulate size check fly", "missions M.toml", "the missions file"),
+    row("resume journal", "journal J", "the journal; default: the newest", nargs="?"),
+    row("tell", "journal J", "the journal that the app keeps"),
+    row("decide", "journal J", "the journal"),
+    row("tell", "action WHAT", ", ".join(ACTIONS), choices=ACTIONS),
+    row(
+        "tell",
+        "mission MISSION",
+        "which one; default: all, where that makes sense. For retire, bring-back, join, mishap and"
+        " cut-motors: the drone",
+        nargs="?",
+    ),
+    row("decide", "mission MISSION", "which one waits", nargs="?"),
+    row(
+        "tell",
+        "trip TRIP",
+        "which one to skip, default: the next; or to give a priority",
+        nargs="?",
+    ),
+    row(
+        "decide",
+        "answer ANSWER",
+        "done or not-done: whether its action was done; go-on; cancel",
+        nargs="?",
+        choices=ANSWERS,
+        default=None,
+    ),
+    row(
+        "drones",
+        "who DRONE",
+        "only these: a drone of the fleet file, or a uri; default: the fleet file's, or all that can"
+        " be found",
+        nargs="*",
+    ),
+    row(
+        "simulate size check fly serve",
+        "--fleet F.toml",
+        "the map and the drones; default: the fleet.toml beside the missions, or else five drones on"
+        " a plain of 20 × 20 m; real drones need it",
+    ),
+    row("drones", "--fleet F.toml", "the fleet file whose drones are asked"),
+    row(
+        "fly serve resume",
+        "--sim",
+        "with simulated drones instead of the real ones",
+        apart="drones",
+    ),
+    row(
+        "fly serve resume",
+        "--crtp-sim N",
+        "with N simulated Crazyflies, flown as real ones are, through cflib",
+        apart="drones",
+        type=whole_number(1, 50),
+    ),
+    row(
+        "fly serve resume",
+        "--speed N",
+        "let time pass N times as fast",
+        only_with="--sim",
+        type=positive_number(1000.0),
+    ),
+    row("fly serve resume", "--supervise", "start the app again if it crashes"),
+    row("fly serve resume", "--supervised", SUPPRESS),  # so it is then called
+    row(
+        "simulate size fly serve",
+        "--seed N",
+        "what chance depends on (default 0)",
+        only_with="--sim",
+        type=whole_number(),
+    ),
+    row(
+        "simulate size fly serve",
+        "--fail WHAT=SHARE,…",
+        f"let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
+        only_with="--sim",
+        type=typed(shares),
+    ),
+    row(
+        "simulate",
+        "--no-spread",
+        "let every leg and action take exactly as long as expected, as --dry-run does",
+    ),
+    row(
+        "simulate",
+        "--runs N",
+        "simulate N times, with N seeds from --seed on",
+        type=whole_number(1),
+    ),
+    row(
+        "simulate size",
+        "--jobs N",
+        "how many runs at once, each in a process of its own; default: one for each core",
+        type=whole_number(1, 256),
+    ),
+    row(
+        "simulate", "--plot FILE", "draw how the runs lie, into an .svg or a .png; needs matplotlib"
+    ),
+    row("simulate", "--until TIME", 'stop at this simulated time, such as "2 h"'),
+    row("simulate", "--trace FILE", "write every event there, a JSON object a line"),
+    row(
+        "size",
+        "--by TIME",
+        'by when all missions must be completed: how long after the first begins, such as "20 min",'
+        " or a time of day, such as 08:30; default: no matter when",
+        type=typed(deadline),
+    ),
+    row(
+        "size",
+        "--confidence SHARE",
+        "how probable that shall be (default 99%%)",
+        type=typed(confidence),
+    ),
+    row(
+        "size",
+        "--runs N",
+        "how often a fleet is simulated at most; default: as often as the confidence takes",
+        type=whole_number(1, 1_000_000),
+    ),
+    row(
+        "size",
+        "--max N",
+        "how many drones at most; default: four for each mission, and four more",
+        dest="most",
+        type=whole_number(1, 1000),
+    ),
+    row("size", "--swap TIME", "batteries are swapped in this time instead of charged in the dock"),
+    row("size", "--write F.toml", "write the fleet into a new fleet file"),
+    row(
+        "size",
+        "--plot FILE",
+        "draw how sure fleets of each size are, into an .svg or a .png; needs matplotlib",
+    ),
+    row(
+        "check",
+        "--write P.toml",
+        "write the missions into a new file, with plain trips instead of areas and lists",
+    ),
+    row(
+        "fly",
+        "--journal J",
+        "where to write down what happens; default: a new file in the user's own folder",
+    ),
+    row(
+        "fly",
+        "--dry-run",
+        "print every command that the drones would be given; none is reached, nothing flies",
+    ),
+    row(
+        "fly", "--until TIME", 'no further than to this time, such as "2 h"', only_with="--dry-run"
+    ),
+    row("serve", "--missions M.toml", "the plan that an empty station begins with", dest="plan"),
+    row(
+        "serve",
+        "--host H",
+        f"the address to listen at; default {HOST}: this computer alone. Any other needs the token"
+        " that is printed",
+    ),
+    row("serve", "--port N", f"default {PORT}; 0: any that is free", type=whole_number(0, 65_535)),
+    row(
+        "serve",
+        "--name HOST",
+        "another name that browsers may use for it, such as that of a proxy before it",
+        dest="names",
+        action="append",
+    ),
+    row("serve", "--folder D", "where plan and journals are kept; default: the user's own folder"),
+    row("serve", "--title TEXT", "what it is called; default: as the app"),
+    row("serve", "--logo FILE", "a picture for the head of its pages and their tab"),
+    row("serve", "--open", "open it in a browser"),
+    row("serve", "--going-on", SUPPRESS),  # after a crash
+    row(
+        "tell",
+        "--to N",
+        "prioritise: the trip's new priority",
+        dest="priority",
+        type=whole_number(),
+    ),
+    row(
+        "tell",
+        "--from F.toml",
+        "change-trips: a missions file with the trips that the mission shall fly from now on; join: a"
+        " fleet file with the drone",
+        dest="given",
+    ),
+    row(
+        "tell",
+        "--kind",
+        "mishap: what happens to a simulated drone, to rehearse it",
+        choices=MISHAPS,
+    ),
+    row("tell", "--land", "stop: land where the drones are (the default)", apart="how"),
+    row("tell", "--rtl", "stop: fly home first", apart="how"),
+    row("tell", "--all", "cut-motors: those of all drones", apart="how", dest="everyone"),
+    row("drones", "--scan", "with --fleet: find those, too, that it does not have"),
+    row(
+        "drones",
+        "--navigation NAME",
+        "how drones are reached that no fleet file has (default crazyflie)",
+    ),
+    row(
+        "drones",
+        "--address A",
+        "find those at this radio address, not at E7E7E7E7E7; may be given several times",
+        dest="addresses",
+        action="append",
+    ),
+    row(
+        "drones",
+        "--identify DRONE",
+        "let one show which it is, by its lights: a drone of the fleet file, or a uri",
+        apart="what",
+    ),
+    row("drones", "--save F.toml", "write a fleet file of those that answer", apart="what"),
+    row("simulate size", "--json", "print one JSON object instead"),
+    row("drones", "--json", "print one JSON object instead", apart="what"),
+    row("journal", "--follow", "go on with what comes, as it comes", apart="how"),
+    row(
+        "journal",
+        "--mend",
+        "make a whole journal of what can be read of a damaged one",
+        apart="how",
+    ),
+    row("journal", "--json", "print a JSON object for each event"),
+)
+
+BEGINNINGS = {
+    "simulate": ("midnight",),
+    "size": ("midnight",),
+    "check": ("what is promised by a time of day is not checked",),
+    "fly": ("now; midnight of a day that is named", "today"),
+}
+"""The defaults of --start and --date, of the commands that take these and --zone."""
+
+_NEEDS = {
+    ("simulate", "jobs"): ("runs", "--jobs is for many runs: it goes with --runs"),
+    ("simulate", "plot"): ("runs", "--plot draws many runs: it goes with --runs"),
+    ("fly", "until"): ("dry_run", "--until goes with --dry-run: to end a flight, stop it"),
+    **dict.fromkeys(
+        [("fly", "start"), ("fly", "date"), ("fly", "zone")],
+        ("dry_run", "--start, --date and --zone go with --dry-run: a flight begins now"),
+    ),
+}
+"""By command and option: which other one it needs, and what is said without that."""
+
+
 def parse(app: App, argv: Sequence[str] | None) -> Options:
     """Read the command line; raise SystemExit, as argparse does, after help or an error."""
+    words = list(sys.argv[1:] if argv is None else argv)
+    parser, commands = all_commands(app)
+    options = parser.parse_args(words, namespace=Options(words=words))
+    refuse = commands[options.command].error
+    if options.trace is not None and options.runs is not None:
+        refuse("--trace writes down one run: it does not go with --runs")
+    for (command, name), (other, sentence) in _NEEDS.items():
+        given = getattr(options, name) is not None
+        if command == options.command and given and not getattr(options, other):
+            refuse(sentence)
+    return options
+
+
+def all_commands(app: App) -> tuple[ArgumentParser, dict[str, ArgumentParser]]:
+    """Return what reads command lines, and what reads those of each command."""
     parser = _plain(CommandLine(prog=app.name, description=app.title, allow_abbrev=False))
     what = "say which app this is, which seam it speaks, and by which library it flies"
     parser.add_argument("--version", action=_Version, app=app, nargs=0, help=what)
-    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    adding = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    commands = {
+        name: _plain(
+            adding.add_parser(
+                name,
+                help=what,
+                description=what,
+                allow_abbrev=False,
+                argument_default=SUPPRESS,  # `Options` has the defaults
+            )
+        )
+        for name, what in COMMANDS.items()
+    }
+    for name, command in commands.items():
+        _describe(name, command)
+    return parser, commands
 
-    def command(name: str, what: str) -> ArgumentParser:
-        return _plain(commands.add_parser(name, help=what, description=what, allow_abbrev=False))
 
-    simulate = command("simulate", "Fly the missions in virtual time, with simulated drones.")
-    _files(simulate)
-    _simulation(simulate)
-    size = command("size", "Say how many drones the missions need, to be sure of them.")
-    _files(size)
-    _chance(size)
-    _jobs(size)
-    add_size(size, typed(time_from))
-    add_beginning(size.add_argument, "midnight")
-    check = command("check", "Say whether the fleet can fly the missions; nothing flies.")
-    _files(check)
-    add_beginning(check.add_argument, "what is promised by a time of day is not checked")
-    check.add_argument(
-        "--write",
-        metavar="P.toml",
-        type=Path,
-        help="write the missions into a new file, with plain trips instead of areas and lists",
-    )
-    fly = command("fly", "Fly the missions in real time.")
-    _files(fly)
-    how_it_flies(fly)
-    _chance(fly, "with --sim: ")
-    fly.add_argument(
-        "--journal",
-        metavar="J",
-        type=Path,
-        help="where to write down what happens; default: a new file in the user's own folder",
-    )
-    add_dry_run(fly, typed(time_from))
-    serve = command("serve", "Open the ground station: draw, fly and watch missions in a browser.")
-    _fleet(serve)
-    how_it_flies(serve)
-    _chance(serve, "with --sim: ")
-    add_station(serve)
-    add_flights(command)
-    add_drones(command)
-    _journal(command("journal", "Print what happened, as it was written down."))
-    options = parser.parse_args(argv, namespace=Options())
-    if options.trace is not None and options.runs is not None:
-        simulate.error("--trace writes down one run: it does not go with --runs")
-    if options.command == "fly" and options.until is not None and not options.dry_run:
-        fly.error("--until goes with --dry-run: to end a flight, stop it")
-    if options.command == "fly" and options.says_when and not options.dry_run:
-        fly.error("--start, --date and --zone go with --dry-run: a flight begins now")
-    if options.jobs is not None and options.runs is None and options.command == "simulate":
-        simulate.error("--jobs is for many runs: it goes with --runs")
-    if options.command == "simulate" and options.plot is not None and options.runs is None:
-        simulate.error("--plot draws many runs: it goes with --runs")
-    return options
+def _describe(name: str, parser: ArgumentParser) -> None:
+    """Add what the table has of a command."""
+    rows = [one for one in TABLE if name in one.commands.split()]
+    known = {one.typed for one in rows}
+    groups: dict[str, Any] = {"": parser}
+    for one in rows:
+        title = f"with {one.only_with}" if one.only_with in known else ""
+        if title not in groups:
+            groups[title] = parser.add_argument_group(title)
+        if one.apart and one.apart not in groups:
+            groups[one.apart] = parser.add_mutually_exclusive_group()
+        groups[one.apart or title].add_argument(one.typed, help=one.help, **one.how)
+    if name in BEGINNINGS:
+        add_beginning(groups.get("with --dry-run", parser).add_argument, *BEGINNINGS[name])
 
 
 class _Version(Action):
@@ -199,91 +494,3 @@ class _Version(Action):
 def _plain(parser: ArgumentParser) -> ArgumentParser:
     vars(parser)["color"] = False  # from Python 3.14 on it would be True
     return parser
-
-
-def _files(parser: ArgumentParser) -> None:
-    parser.add_argument("missions", metavar="M.toml", type=Path, help="the missions file")
-    _fleet(parser)
-
-
-def _fleet(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--fleet",
-        metavar="F.toml",
-        type=Path,
-        help="the map and the drones; default: the fleet.toml beside the missions, or else five drones"
-        " on a plain of 20 × 20 m; real drones need it",
-    )
-
-
-def _journal(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "journal", metavar="J", type=Path, nargs="?", help="the journal; default: the newest"
-    )
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument("--follow", action="store_true", help="go on with what comes, as it comes")
-    how.add_argument(
-        "--mend",
-        action="store_true",
-        help="make a whole journal of what can be read of a damaged one",
-    )
-    parser.add_argument("--json", action="store_true", help="print a JSON object for each event")
-
-
-def _chance(parser: ArgumentParser, only: str = "") -> None:
-    parser.add_argument(
-        "--seed",
-        metavar="N",
-        type=whole_number(),
-        default=0,
-        help=f"{only}what chance depends on (default 0)",
-    )
-    parser.add_argument(
-        "--fail",
-        metavar="WHAT=SHARE,…",
-        type=typed(shares),
-        default={},
-        help=f"{only}let flights go wrong: {', '.join(FAULTS)}; such as crash=2%%,link=1%%",
-    )
-
-
-def _jobs(parser: ArgumentParser) -> None:
-    parser.add_argument(
-        "--jobs",
-        metavar="N",
-        type=whole_number(1, MOST_JOBS),
-        help="how many runs at once, each in a process of its own; default: one for each core",
-    )
-
-
-def _simulation(parser: ArgumentParser) -> None:
-    _chance(parser)
-    parser.add_argument(
-        "--no-spread",
-        action="store_true",
-        help="let every leg and action take exactly as long as expected, as --dry-run does",
-    )
-    parser.add_argument(
-        "--runs",
-        metavar="N",
-        type=whole_number(1),
-        help="simulate N times, with N seeds from --seed on",
-    )
-    _jobs(parser)
-    parser.add_argument(
-        "--plot",
-        metavar="FILE",
-        type=Path,
-        help="draw how the runs lie, into an .svg or a .png; needs matplotlib",
-    )
-    parser.add_argument(
-        "--until",
-        metavar="TIME",
-        type=typed(time_from),
-        help='stop at this simulated time, such as "2 h"',
-    )
-    add_beginning(parser.add_argument, "midnight")
-    parser.add_argument(
-        "--trace", metavar="FILE", type=Path, help="write every event there, a JSON object a line"
-    )
-    parser.add_argument("--json", action="store_true", help="print one JSON object instead")

@@ -123,9 +123,10 @@ def take_fleet_beside(options: Options) -> None:
     fleet = missions.parent / FLEET
     if os.path.lexists(fleet):
         options.fleet = fleet
-        output.tell(
-            f"fleet: {printable(os.fspath(fleet))}, beside the missions; or name one: --fleet"
-        )
+        if not options.supervised:
+            output.tell(
+                f"fleet: {printable(os.fspath(fleet))}, beside the missions; or name one: --fleet"
+            )
 
 
 def _missions(options: Options) -> Path | None:

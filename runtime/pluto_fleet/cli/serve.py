@@ -277,7 +277,7 @@ def _alone(config: StationConfig) -> Iterator[None]:
 
 def _supervised(app: App, options: Options, config: StationConfig) -> int:
     """Serve in another process, and restart it when it crashes."""
-    first = again.command(app.package, *_words(options))
+    first = again.command(app.package, *options.supervised_words())
 
     def done() -> int:
         journal = place.newest_in(config.folder)
@@ -295,22 +295,3 @@ def _supervised(app: App, options: Options, config: StationConfig) -> int:
             how_to_go_on=HOW_TO_GO_ON,
         )
     )
-
-
-def _words(options: Options) -> list[str]:
-    """Return the command line of the station that is supervised."""
-    faults = ",".join(f"{what}={share}" for what, share in options.fail.items())
-    optional = {
-        "--fleet": options.fleet,
-        "--missions": options.plan,
-        "--folder": options.folder,
-        "--speed": options.speed,
-        "--fail": faults or None,
-        "--title": options.title,
-        "--logo": options.logo,
-    }
-    given = [word for flag, value in optional.items() if value for word in (flag, str(value))]
-    names = [word for name in options.names for word in ("--name", name)]
-    where = ["--host", options.host, "--port", str(options.port), "--seed", str(options.seed)]
-    opens = ["--open"] if options.open else []
-    return ["serve", *options.drone_flags, "--supervised", *where, *names, *given, *opens]

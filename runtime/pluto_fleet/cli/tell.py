@@ -113,35 +113,37 @@ def _request(app: App, options: Options) -> dict[str, object]:
 def _wrong(options: Options) -> str:
     """Return what is invalid in a command, or nothing."""
     action, mission, trip = options.action, options.mission, options.trip
-    priority = options.priority is not None
-    if action != "stop" and (options.land or options.rtl):
-        return f"--land and --rtl go with stop, not with {action}"
-    if action != "prioritise" and priority:
-        return f"--to goes with prioritise, not with {action}"
-    if action == "stop" and mission is not None:
-        return "stop brings all drones down; to end one mission, cancel it, or pause it"
-    if action == "skip" and mission is None:
-        return "skip needs the name of a mission"
-    if action != "cut-motors" and options.everyone:
-        return f"--all goes with cut-motors, not with {action}"
-    if action == "cut-motors" and (mission is None) is not options.everyone:
-        return "cut-motors lets a drone fall: name the drone, or say --all"
-    if action in ("retire", "bring-back") and mission is None:
-        return f"{action} needs the name of a drone"
-    if action == "change-trips" and (mission is None or options.given is None):
-        return "change-trips needs a mission, and --from with a missions file that has its trips"
-    if action == "join" and (mission is None or options.given is None):
-        return "join needs the name of a drone, and --from with a fleet file that has it"
-    if action not in ("change-trips", "join") and options.given is not None:
-        return f"--from goes with change-trips and join, not with {action}"
-    if action == "mishap" and (mission is None or options.kind is None):
-        return f"mishap needs the name of a drone, and --kind: {', '.join(MISHAPS)}"
-    if action != "mishap" and options.kind is not None:
-        return f"--kind goes with mishap, not with {action}"
-    if action == "prioritise" and (mission is None or trip is None or not priority):
-        return "prioritise needs a mission, a trip of it, and --to N"
-    if action not in ("skip", "prioritise") and trip is not None:
-        return f"{action} takes no trip; only skip and prioritise do"
+    only = (
+        ("--land and --rtl go", options.land or options.rtl, ("stop",)),
+        ("--to goes", options.priority is not None, ("prioritise",)),
+        ("--all goes", options.everyone, ("cut-motors",)),
+        ("--from goes", options.given is not None, ("change-trips", "join")),
+        ("--kind goes", options.kind is not None, ("mishap",)),
+    )
+    for flag, is_given, actions in only:
+        if is_given and action not in actions:
+            return f"{flag} with {' and '.join(actions)}, not with {action}"
+    match action:
+        case "stop" if mission is not None:
+            return "stop brings all drones down; to end one mission, cancel it, or pause it"
+        case "skip" if mission is None:
+            return "skip needs the name of a mission"
+        case "cut-motors" if (mission is None) is not options.everyone:
+            return "cut-motors lets a drone fall: name the drone, or say --all"
+        case "retire" | "bring-back" if mission is None:
+            return f"{action} needs the name of a drone"
+        case "change-trips" if mission is None or options.given is None:
+            return (
+                "change-trips needs a mission, and --from with a missions file that has its trips"
+            )
+        case "join" if mission is None or options.given is None:
+            return "join needs the name of a drone, and --from with a fleet file that has it"
+        case "mishap" if mission is None or options.kind is None:
+            return f"mishap needs the name of a drone, and --kind: {', '.join(MISHAPS)}"
+        case "prioritise" if mission is None or trip is None or options.priority is None:
+            return "prioritise needs a mission, a trip of it, and --to N"
+        case _ if trip is not None and action not in ("skip", "prioritise"):
+            return f"{action} takes no trip; only skip and prioritise do"
     return ""
 
 

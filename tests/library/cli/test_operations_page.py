@@ -7,8 +7,7 @@ import shlex
 
 import pytest
 
-from pluto_fleet.cli.flags import ACTIONS, ANSWERS
-from pluto_fleet.cli.options import parse
+from pluto_fleet.cli.options import ACTIONS, ANSWERS, parse
 from pluto_fleet.cli.supervise import GIVES_UP_AFTER
 from tests.library.files.an_app import APP
 from tests.paths import ROOT
