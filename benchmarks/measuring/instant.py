@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
 
 from pluto_fleet.app import described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.jobs.job import Job
-from pluto_fleet.jobs.reports import Down, DroneReport, FleetReport
+from pluto_fleet.jobs.link import Link, Message, Order
+from pluto_fleet.jobs.reports import DroneReport, FleetReport, fleet_report_data
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain import model
 from pluto_fleet.shared.domain.actions import BUILT_IN
@@ -118,10 +117,11 @@ class Docked:
     silence: float = 0.0
 
 
-class Instant:
+class Instant(Link):
     """A gateway whose drones are there, and back, as soon as they are told to go."""
 
     def __init__(self, kernel: Kernel, drones: int) -> None:
+        super().__init__()
         self._kernel, self._docked = kernel, Docked()
         self._drones = {f"cf{n}": n for n in range(drones)}
 
@@ -133,66 +133,44 @@ class Instant:
         """It never does."""
         return False
 
-    def fly(self, job: Job, report: Callable[[object], object]) -> None:
+    def send(self, order: Order) -> None:
+        """Do what is ordered: a flight measures something, and all else is done at once."""
+        if order["do"] == "fly":
+            self._fly(order["drone"], {"done": order["id"], "value": 21.5})
+        elif order["do"] == "call":
+            report = FleetReport(drones=dict(map(_report, self._drones)), jobs={})
+            self._tell({"done": order["id"], "value": fleet_report_data(report)})
+        elif order["do"] == "recover":
+            self._tell({"done": order["id"], "value": True})
+        elif "id" in order:
+            self._tell({"done": order["id"], "value": None})
+
+    def _fly(self, drone: str, message: Message) -> None:
         """Report what was measured: in real time at once, and as something that comes by itself."""
         kernel = self._kernel
         if isinstance(kernel, RealTime):
-            asyncio.get_running_loop().call_soon(kernel.post, report, 21.5)
+            asyncio.get_running_loop().call_soon(kernel.post, self.take, message)
         else:
             when = (
-                kernel.now + SECONDS + self._drones[job.drone] / 1000
+                kernel.now + SECONDS + self._drones[drone] / 1000
             )  # each at an instant of its own
-            kernel.schedule(when, EventKind.FLIGHT, FLEET, lambda: report(21.5))
+            kernel.schedule(when, EventKind.FLIGHT, FLEET, partial(self.take, message))
 
-    def break_off(self, drone: str) -> None:
-        """There is nothing to break off."""
+    def _tell(self, message: Message) -> None:
+        now = self._kernel.now
+        self._kernel.schedule(now, EventKind.FLIGHT, FLEET, partial(self.take, message))
 
-    async def hold(self, drone: str) -> None:
-        """Hover."""
 
-    async def read(self, drone: str, name: str) -> float:
-        """Measure nothing."""
-        return 0.0
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set nothing."""
-
-    async def home(self, drone: str) -> None:
-        """Fly home."""
-
-    async def land(self, drone: str) -> None:
-        """Land."""
-
-    def mended(self, drone: str) -> None:
-        """Do nothing: no drone is ever lost."""
-
-    async def recover(self, drone: str) -> bool:
-        """Come home."""
-        return True
-
-    async def drone_report(self, drone: str) -> DroneReport:
-        """Say that nothing has happened."""
-        return DroneReport(
-            drone=drone,
-            reached=True,
-            location=HOME,
-            landed=True,
-            battery_level=1.0,
-            boot=1,
-            carrying=None,
-            done={},
-        )
-
-    async def fleet_report(self) -> FleetReport:
-        """Ask every drone."""
-        drones: Mapping[str, Any] = {name: await self.drone_report(name) for name in self._drones}
-        return FleetReport(drones=drones, jobs={})
-
-    def attach(self, id: str, report: Callable[[object], object]) -> None:
-        """Nothing was given before."""
-
-    def forget(self, id: str) -> None:
-        """Nothing is remembered."""
-
-    async def bring_down(self, how: Down) -> None:
-        """All are down."""
+def _report(drone: str) -> tuple[str, DroneReport]:
+    """Return that nothing has happened."""
+    report = DroneReport(
+        drone=drone,
+        reached=True,
+        location=HOME,
+        landed=True,
+        battery_level=1.0,
+        boot=1,
+        carrying=None,
+        done={},
+    )
+    return drone, report

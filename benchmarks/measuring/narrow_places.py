@@ -148,7 +148,7 @@ async def _flies(sky: Sky, drone: str, trips: Sequence[Trip], flights: list[Flig
         await sky.pause(trip.stays)
         if trip.returns:
             asked = now()
-            await sky.link.home(drone)
+            await sky.commander.home(drone)
             flights.append(Flight(drone, number, False, asked, now(), 0.0))
 
 

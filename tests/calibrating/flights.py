@@ -73,7 +73,6 @@ def flown(
         moving(planned, fleet.motion), fleet, kernel, link, disk, Records(), epoch=1
     )
     disk.life = life
-    link.on_flown(life.flown)
     kernel.run(life.start(missions))
     life.recorder.finish()
     told = header(app, missions="", fleet=fleet_text(fleet), sim=True, seed=seed)

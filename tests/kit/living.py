@@ -183,7 +183,6 @@ class Living:
             charges=fleet.charges_at_home,
         )
         disk.life = life
-        link.on_flown(life.flown)  # as in real flights: nothing may follow from it
         return life
 
     def _is_done(self, task: Future[float]) -> None:

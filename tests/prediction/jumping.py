@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -20,7 +21,6 @@ from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.files.crtp_fleet import as_crtp_fleet
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.driver import Driver, begun
-from pluto_fleet.flight.orders import Dispatcher
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.app import moving
@@ -108,11 +108,9 @@ async def _flown(
         seen.update(new)
         return new
 
-    keys = {one.id: one.index + 1 for one in crafts}
-    dispatcher = Dispatcher(kernel, link, keys)
-    driver = Driver(kernel, brain, obey=dispatcher.obey, motions=news, hear=events.append)
-    dispatcher.tell = driver.tell
-    heart = asyncio.ensure_future(_beats(link.heartbeat, driver.look))
+    driver = Driver(kernel, brain, obey=link.send, motions=news, hear=events.append)
+    link.hear = driver.tell
+    heart = asyncio.ensure_future(_beats(partial(link.send, {"do": "heartbeat"}), driver.look))
     began = kernel.time()
     kernel.post(driver.call, lambda now: brain.begin(begun(app, missions), now))
     over = await kernel.run(driver.done)

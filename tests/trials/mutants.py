@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.flight import reconcile, recovery, suspending
 from pluto_fleet.flight.reconcile import Outcome, outcome_of
-from pluto_fleet.gateway.gateway import Gateway, Link
+from pluto_fleet.gateway.gateway import Gateway, Line
 from pluto_fleet.gateway.jobs import Jobs
 from pluto_fleet.jobs.reports import JobState
 from pluto_fleet.journal.fold import Records
@@ -109,7 +109,7 @@ def priority_is_lost_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
 def an_old_brain_still_commands(patch: pytest.MonkeyPatch) -> None:
     patch.setattr(Gateway, "cut", lambda self: setattr(self, "commander", None))
     patch.setattr(Gateway, "is_commanded_by", lambda self, link: True)
-    patch.setattr(Link, "cut", lambda self: None)
+    patch.setattr(Line, "cut", lambda self: None)
 
 
 @mutant("before it was asked")

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..arguments import Deadline, confidence, deadline, positive_number, whole_number
-from ..jobs.job import MISHAPS
+from ..jobs.link import MISHAPS
 from ..shared import output
 from ..shared.alone.faults import FAULTS, shares
 from ..shared.command import add_beginning

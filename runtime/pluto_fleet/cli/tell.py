@@ -13,7 +13,7 @@ from ..flight import offline
 from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
 from ..gateway.starting import cut_directly, stop_directly
-from ..jobs.job import MISHAPS
+from ..jobs.link import MISHAPS
 from ..jobs.reports import Down
 from ..journal.errors import missing
 from ..journal.lock import holder

@@ -12,7 +12,7 @@ from functools import partial
 from math import dist, inf, isfinite
 from typing import TYPE_CHECKING, Any, SupportsFloat
 
-from ..jobs.job import motors_cut
+from ..jobs.reports import motors_cut
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.model import Photo

@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..jobs.controls import FleetDrone
-    from ..jobs.job import Job
     from ..jobs.telemetry import Subscription, Telemetry
     from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
@@ -166,7 +165,7 @@ class Team:
         """Return why a drone's hardware cannot do a built-in action, or None."""
         return commands.why_not(self.vehicles[drone], action, parameters)
 
-    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+    def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Begin a flight; raise `FlightFailed` if the drone takes no commands."""
         self.vehicles[drone].check()
 

@@ -11,7 +11,7 @@ from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
 from typing import Protocol
 
-from ..jobs.job import MISHAPS
+from ..jobs.link import MISHAPS
 from ..jobs.reports import Down
 from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening

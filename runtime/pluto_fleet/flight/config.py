@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..files.fleet import FleetFile
-    from ..jobs.job import GatewayLink
+    from ..jobs.link import Link
     from ..jobs.reports import Down
     from ..journal.fold import Records
     from ..process.realtime import RealTime
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 
-    Connect = Callable[[RealTime, FleetFile, int, Callable[[], object]], Awaitable[GatewayLink]]
+    Connect = Callable[[RealTime, FleetFile, int, Callable[[], object]], Awaitable[Link]]
     Joining = Callable[[FleetFile], Awaitable[Mapping[str, object]]]
 
 

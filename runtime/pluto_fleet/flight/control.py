@@ -11,7 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
-from ..jobs.job import UNCERTAIN
+from ..jobs.link import UNCERTAIN
 from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status

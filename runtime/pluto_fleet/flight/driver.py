@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 from ..shared.hooks.plain_data import mission_data
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind
-from .orders import Message, Order
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..jobs.link import Message, Order
     from ..shared.brain import Brain
     from ..shared.domain.model import Mission, Point
     from ..shared.domain.trace import Event

@@ -14,7 +14,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
-from ..jobs.job import UNCERTAIN
+from ..jobs.link import UNCERTAIN
 from ..jobs.reports import Down
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
@@ -30,7 +30,7 @@ from .recorded_flight import RecordedFlight
 from .waits import Waits
 
 if TYPE_CHECKING:
-    from ..jobs.job import GatewayLink
+    from ..jobs.link import Link
     from ..journal.fold import Records
     from ..journal.store import Store
     from ..shared.domain.trace import Event
@@ -60,7 +60,7 @@ class LiveFlight:
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
         self._stops: Stops | None = None
-        self._link: GatewayLink | None = None
+        self._link: Link | None = None
         self._watcher: Callable[[], object] | None = None
         self.life: RecordedFlight | None = None
         """The recorded flight, once the gateway is connected."""
@@ -76,7 +76,7 @@ class LiveFlight:
         lost = partial(self._end.set, End.LOST)
         fleet = with_joined(setting.app, setting.fleet, self._records.joined)
         self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
-        link.on_telemetry(self._seen)
+        link.seen = self._seen
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
             setting.app,
@@ -94,7 +94,6 @@ class LiveFlight:
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
-        link.on_flown(life.flown)
         life.patient, life.carried_home = setting.patient, setting.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
@@ -251,7 +250,7 @@ class LiveFlight:
             if self._setting.joining is None:
                 raise BadInput("no drone can join this flight")
             joining = await self._setting.joining(life.control.fleet_with(entry))
-            await self._asked(link.join(joining), "a drone joins")
+            await self._asked(link.ask("join", joining=joining), "a drone joins")
         match request:
             case {"command": "mishap"} if not self._setting.sim:
                 raise BadInput("mishaps happen to drones that --sim simulates, and to no others")

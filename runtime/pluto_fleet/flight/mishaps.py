@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..jobs.job import UNCERTAIN
+from ..jobs.link import UNCERTAIN
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..shared.time.kernel import FLEET, EventKind
@@ -37,7 +37,7 @@ class Mishaps:
 
     async def happen(self, drone: str, kind: str) -> str:
         """Let a mishap happen to a drone in the air; return why it cannot, or nothing."""
-        return await self._run.link.mishap(drone, kind, None)
+        return str(await self._run.link.ask("mishap", drone=drone, kind=kind, job=None))
 
     def arm(self, drone: str) -> str:
         """Let no report come of the action that a drone is about to do; raise `BadInput` if none would ask."""
@@ -66,7 +66,7 @@ class Mishaps:
 
     async def _forgets(self, name: str, drone: str, id: str) -> None:
         """Wait until a drone has done its job's action and forgotten it."""
-        await self._run.link.mishap(drone, UNCERTAIN, id)
+        await self._run.link.ask("mishap", drone=drone, kind=UNCERTAIN, job=id)
         del self._armed[name]
         self._look_into(name, self._run.records.missions[name])
 

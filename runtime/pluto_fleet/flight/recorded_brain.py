@@ -1,4 +1,4 @@
-"""A brain and its journal: what it says is durable before it has any effect outside.
+"""The durability layer of a flight: what a brain says is on the disk before it has any effect outside.
 
 An order to fly waits until the row of its launch is on the disk; orders that bring drones down do not.
 """
@@ -11,7 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import BESIDE, FLEW
-from ..jobs.reports import reported_result
+from ..jobs.reports import result_data
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
@@ -21,7 +21,6 @@ from ..shared.time.kernel import FLEET, Kernel
 from .acts_beside import acts_beside
 from .driver import Driver
 from .mission_status import aside, in_order
-from .orders import Dispatcher, Order, outcome
 from .outcome import drones_of
 from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
 
@@ -29,7 +28,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.flown import Flown
-    from ..jobs.job import CommandLink
+    from ..jobs.link import Link, Message, Order
     from ..journal.fold import Record, Records
     from ..process.wall_clock import WallClock
     from ..shared.domain.model import Drone, Mission
@@ -47,7 +46,7 @@ class RecordedBrain:
         app: App,
         fleet: FleetFile,
         kernel: Kernel,
-        link: CommandLink,
+        link: Link,
         sink: Sink,
         records: Records,
         *,
@@ -75,11 +74,10 @@ class RecordedBrain:
         self._listeners, self._watcher = tuple(listeners), watcher
         keys = {drone.id: FLEET + 1 + index for index, drone in enumerate(fleet.drones)}
         self._keys = keys
-        self._dispatcher = Dispatcher(kernel, link, keys)
         self.driver = Driver(
             kernel, self.brain, obey=self._obey, motions=self._news, hear=self._hear
         )
-        self._dispatcher.tell = self.driver.tell
+        link.hear = self.told
         self.driver.pumped = self.look_for_the_end
         self._seen: dict[str, tuple[object, ...]] = {}
         """The telemetry that the brain was told last, by drone."""
@@ -154,6 +152,13 @@ class RecordedBrain:
         """Record such an event, given as a mapping."""
         self._take({"t": round(self.kernel.now, 6), **event})
 
+    def told(self, message: Message) -> None:
+        """Called with what the gateway tells."""
+        if "flown" in message:
+            self.flown(message["flown"])
+        else:
+            self.driver.tell(message)
+
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""
         if command["what"] == BESIDE:
@@ -167,7 +172,7 @@ class RecordedBrain:
 
     def interrupted(self, mission: str, flight: Record) -> None:
         """Take back a flight whose action was not done: its trip is flown again, under the same id."""
-        self.link.forget(id_of(mission, flight))
+        self._forget(id_of(mission, flight))
         self.note("trip.interrupted", mission=mission, trip=flight["trip"])
 
     def _hear(self, event: Event) -> None:
@@ -197,10 +202,7 @@ class RecordedBrain:
     def _take(self, event: Event) -> None:
         self.recorder.take(event)
         if event["event"] in ("trip.completed", "trip.failed"):
-            # it is durable in the journal: the gateway's ledger need not remember it
-            self.recorder.when_durable(
-                partial(self.link.forget, id_of(str(event["mission"]), event))
-            )
+            self.recorder.when_durable(partial(self._forget, id_of(str(event["mission"]), event)))
         for listener in self._listeners:
             listener(event)
         if self._watcher is not None:
@@ -222,7 +224,7 @@ class RecordedBrain:
                 self.recorder.when_durable(partial(self._let_fly, order))
             case "break_off":
                 held = self._held.pop(drone, None)
-                self.link.break_off(drone)
+                self.link.send(order)
                 if order.get("settle") is not None:
                     self.kernel.spawn(
                         self._settle(order, held is not None),
@@ -232,12 +234,12 @@ class RecordedBrain:
             case "probed":
                 self.probed(order["flight"], order["value"])
             case _:
-                self._dispatcher.obey(order)
+                self.link.send(order)
 
     def _let_fly(self, order: Order) -> None:
         if self._held.get(order["drone"]) is order:
             del self._held[order["drone"]]
-            self._dispatcher.obey(order)
+            self.link.send(order)
 
     async def _settle(self, order: Order, was_held: bool) -> None:
         """Report what came of a flight that was called off: its action may be done by now."""
@@ -248,14 +250,15 @@ class RecordedBrain:
         what = outcome_of(entry, self.repeat_of(record), begun=False)
         if what is Outcome.UNKNOWN:
             self.doubted(mission, id)
-        elif what is Outcome.FLIES_ON and entry is not None:
-            if entry.flies:
-                self.link.attach(id, lambda result: self.driver.tell(outcome(number, result)))
-            else:
-                self.driver.tell(outcome(number, reported_result(entry)))
+        elif what is Outcome.FLIES_ON:
+            self.link.send({"do": "attach", "id": number, "flight": id})
         else:
             failed = FlightFailed(Failure.REFUSED, "it was broken off")
-            self.driver.tell(outcome(number, failed))
+            self.driver.tell({"failed": number, **result_data(failed)})
+
+    def _forget(self, flight: str) -> None:
+        """Have the gateway forget a flight: it is durable in the journal, or its id is used again."""
+        self.link.send({"do": "forget", "flight": flight})
 
     def repeat_of(self, record: Record) -> str:
         """Return whether the action of a mission's flight may be repeated: `safe`, `once` or `ask`."""

@@ -9,8 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from ..gateway.wire import result_data
-from ..jobs.reports import reported_result
+from ..jobs.reports import reported_result, result_data
 from ..shared.domain.fields import Entity
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.status import Status
@@ -52,7 +51,7 @@ class Recovery:
     def ask_the_mended(self) -> None:
         """Ask those drones anew that were repaired, and not back when the earlier run ended."""
         for drone in self._records.mended:
-            self._link.mended(drone)
+            self._link.send({"do": "mended", "drone": drone})
 
     async def find_out(self) -> None:
         """Find out the outcome of each flight that had not ended.
@@ -107,7 +106,7 @@ class Recovery:
                 return
             what = ANSWERS[answer]
         else:
-            self._link.break_off(flight["drone"])
+            self._link.send({"do": "break_off", "drone": flight["drone"]})
         if what is Outcome.DONE:
             self._run.take(ended(name, flight))
         else:
@@ -141,7 +140,7 @@ class Recovery:
     def _call_off(self, record: Record) -> None:
         flight = in_flight(record)
         if flight is not None:
-            self._link.break_off(flight["drone"])
+            self._link.send({"do": "break_off", "drone": flight["drone"]})
 
     # For the brain
 
@@ -181,7 +180,7 @@ class Recovery:
         for drone, report in self._report.drones.items():
             told[drone] = drone_told(report)
             if drone in at_work:  # the earlier run could not abort its job any more
-                self._link.break_off(drone)
+                self._link.send({"do": "break_off", "drone": drone})
                 told[drone]["landed"] = False  # it may take off before it receives that
         return told
 

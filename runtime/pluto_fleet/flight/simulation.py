@@ -15,14 +15,13 @@ from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
 from .acts_beside import acts_beside
 from .driver import Driver, Stands, begun, take_up
-from .orders import Dispatcher
 from .outcome import SimulationResult, result_of
 
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.controls import Controls
-    from ..jobs.flown import Flown
+    from ..jobs.link import Message
     from ..process.hook_runner import RealHooks
     from ..shared.alone.faults import Faults
     from ..shared.domain.model import Mission
@@ -78,16 +77,13 @@ class Simulation:
         """The drones whose motion has changed since the brain was told."""
         for drone, body in bodies.items():
             body.on_change = partial(self._changed.__setitem__, drone, None)
-        keys = {drone: body.key for drone, body in bodies.items()}
         self.brain = app.new_brain(fleet_data(fleet), space=fleet.airspace, hooks=hooks)
         link = gateway.link(1)
-        link.on_flown(self._flown)
+        link.hear = self._told
         self._listener = listener
-        dispatcher = Dispatcher(kernel, link, keys)
         self._driver = driver = Driver(
-            kernel, self.brain, obey=dispatcher.obey, motions=self._motions, hear=listener
+            kernel, self.brain, obey=link.send, motions=self._motions, hear=listener
         )
-        dispatcher.tell = driver.tell
         if hooks is not None:
             hooks.ended = lambda number: driver.tell({"hook": number})
             hooks.stir = driver.pump
@@ -114,9 +110,12 @@ class Simulation:
         self.brain.close()
         self._kernel.close()
 
-    def _flown(self, told: Flown) -> None:
-        """Note where an action is done that is done beside its target."""
-        event = acts_beside(self.brain, told)
+    def _told(self, message: Message) -> None:
+        """Tell the brain, or note where an action is done that is done beside its target."""
+        if "flown" not in message:
+            self._driver.tell(message)
+            return
+        event = acts_beside(self.brain, message["flown"])
         if event is not None:
             self._listener({"t": round(self._kernel.now, 6), **event})
 

@@ -1,4 +1,4 @@
-"""Executes jobs and single commands with the drones' controls: the `Navigation` of every gateway."""
+"""The traffic's layer: when a drone flies, and which way, so that drones keep apart and off no-fly areas."""
 
 from __future__ import annotations
 
@@ -8,20 +8,21 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..jobs.flown import is_beside
-from ..jobs.job import motors_cut
+from ..jobs.flown import ACTION, LAND, LEG, TAKE_OFF, is_beside
+from ..jobs.reports import motors_cut
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
+from ..shared.hooks.plain_data import item_of, point_of
 from ..shared.time.kernel import FLEET, Kernel, Task
-from .envelope import Envelope
 from .ledger import CutMotors
+from .measuring import Measuring
 from .traffic.way_back import way_back, way_from
 from .traffic.ways import Section
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls, FleetDrone
     from ..jobs.flown import Flown
-    from ..jobs.job import Job
+    from ..jobs.link import Order
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
@@ -44,7 +45,7 @@ def _nothing() -> None:
 
 
 class Executor:
-    """Executes jobs: finds routes, checks the geofence, and keeps drones apart."""
+    """Flies jobs, and obeys single commands, with the drones' own controls."""
 
     def __init__(
         self,
@@ -55,17 +56,20 @@ class Executor:
         traffic: Traffic | None = None,
         ledger: Ledger | None = None,
         leaving: Leaving | None = None,
-        hear: Callable[[Flown], object] | None = None,
+        beside: Callable[[Flown], object] | None = None,
+        flown: Callable[[Flown], object] | None = None,
     ) -> None:
-        """`hear` is told where an action is done that is done beside its target."""
+        """`beside` is told where an action is done beside its target, `flown` how each command went."""
         self._kernel, self._controls, self._airspace = kernel, controls, airspace
-        self._hear = hear
+        self._beside = beside
         self._leaving: Leaving = leaving or nullcontext
         """Writes down which drone takes off; in a simulation that is not needed after a crash."""
         self._traffic = traffic
         """Keeps drones apart; None: they are not kept apart."""
-        self._envelope = Envelope(airspace)
         self._drones = {drone.id: drone for drone in drones}
+        self._measuring: Measuring | None = None
+        if flown is not None:
+            self._measuring = Measuring(kernel, controls.telemetry, self._drones, flown)
         self._jobs: dict[str, Task[None]] = {}
         """The jobs in progress, by the drones' ids."""
         self._rescues: dict[str, Task[bool]] = {}
@@ -80,50 +84,67 @@ class Executor:
 
     # Jobs
 
-    def fly(self, job: Job, report: Callable[[object], object]) -> None:
-        """Take off, fly to the job's stops and do its action; then report.
+    def fly(
+        self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
+    ) -> None:
+        """Take off, fly to the order's stops and do its action; then report.
 
-        Of jobs that are given at one instant the first goes first, as those of a brain elsewhere do,
-        which come one by one.
+        `begins` is called right before the action. Of jobs that are given at one instant the first goes
+        first, as those of a brain elsewhere do, which come one by one.
         """
-        name = f"{job.drone} flies {job.id}"
-        self._jobs[job.drone] = self._kernel.spawn(self._done(job, report), FLEET, name)
+        drone = order["drone"]
+        name = f"{drone} flies {order['flight']}"
+        self._jobs[drone] = self._kernel.spawn(self._done(order, begins, report), FLEET, name)
 
-    async def _done(self, job: Job, report: Callable[[object], object]) -> None:
+    async def _done(
+        self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
+    ) -> None:
+        drone = order["drone"]
         try:
-            result = await self._flown(job)
+            result = await self._flown(order, begins)
         except FlightFailed as error:
-            result = motors_cut(job.drone) if job.drone in self._cut else error
-        del self._jobs[job.drone]
+            result = motors_cut(drone) if drone in self._cut else error
+        del self._jobs[drone]
         report(result)
 
-    async def _flown(self, job: Job) -> object:
-        controls, airspace, drone = self._controls, self._airspace, job.drone
+    async def _flown(self, order: Order, begins: Callable[[], object]) -> object:
+        controls, airspace = self._controls, self._airspace
+        drone, flight, action = order["drone"], order["flight"], order["action"]
+        stops = [point_of(stop) for stop in order["stops"]]
         self._refuse_if_cut(drone)
-        self._check(job)
-
-        def begins() -> None:
-            here, category = controls.telemetry[drone].location, self._drones[drone].category
-            seconds = flight_seconds(category, airspace, here, job.stops, job.seconds)
-            controls.begins(drone, job, seconds)
-
-        plan = partial(self._to, drone, job.stops)
-        way = await self.travels(drone, plan, begins, beside=job.beside)
-        if way.target is not None and self._hear is not None:
-            here = controls.telemetry[drone].location
-            self._hear(is_beside(drone, job.id, way.target, here))
-        if job.action is None:
-            return None
-        job.begins()
-        action = controls.act(drone, job.action, job.parameters, job.item, job.id)
-        return await self._noticed(drone, action)
-
-    def _check(self, job: Job) -> None:
-        """Refuse what the hardware cannot do, before it takes off."""
-        if job.action is not None:
-            why = self._controls.why_not(job.drone, job.action, job.parameters)
+        if action is not None:  # refuse what the hardware cannot do before it takes off
+            why = controls.why_not(drone, action, order["parameters"])
             if why is not None:
                 raise FlightFailed(Failure.REFUSED, why)
+
+        def leaves() -> None:
+            here, category = controls.telemetry[drone].location, self._drones[drone].category
+            seconds = flight_seconds(category, airspace, here, stops, order["seconds"])
+            controls.begins(drone, flight, seconds)
+
+        plan = partial(self._to, drone, stops)
+        way = await self.travels(drone, plan, leaves, beside=order["beside"])
+        if way.target is not None and self._beside is not None:
+            here = controls.telemetry[drone].location
+            self._beside(is_beside(drone, flight, way.target, here))
+        if action is None:
+            return None
+        begins()
+        item = item_of(order["item"])
+        acting = controls.act(drone, action, order["parameters"], item, flight)
+        return await self._noticed(drone, self._told(drone, ACTION, acting, action=action))
+
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command now, as far as that is measured."""
+        return self._measuring is not None and drone in self._measuring.moving
+
+    def _told(
+        self, drone: str, what: str, command: Coroutine[Any, Any, T], **more: Any
+    ) -> Coroutine[Any, Any, T]:
+        """Return a command that is measured, if commands are."""
+        if self._measuring is None:
+            return command
+        return self._measuring.measured(drone, what, command, **more)
 
     # Commands
 
@@ -146,22 +167,6 @@ class Executor:
         """Begin a flight without a job."""
         self._refuse_if_cut(drone)
         self._controls.begins(drone, None, 0.0)
-
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height; does nothing for a drone that flies."""
-        begins = partial(self.begins, drone)
-        if self._controls.telemetry[drone].landed:
-            await self.travels(drone, partial(self._up, drone, height), begins)
-        else:
-            begins()
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        self._refuse_if_cut(drone)
-        if self._controls.telemetry[drone].landed:
-            await self._controls.go_to(drone, target)  # raises the reason
-        else:
-            await self.travels(drone, partial(self._straight, drone, target))
 
     async def land(self, drone: str) -> None:
         """Land here, or beside it where another stands."""
@@ -325,16 +330,18 @@ class Executor:
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
             with self._leaving(drone):
-                await controls.takeoff(drone, points[0][2])
+                height = points[0][2]
+                rises = controls.takeoff(drone, height)
+                await self._told(drone, TAKE_OFF, rises, height=height)
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)
         for point in points:
-            await controls.go_to(drone, point)
+            await self._told(drone, LEG, controls.go_to(drone, point), to=point)
             if traffic is not None:
                 traffic.passed(drone)
         if section.lands:
-            await controls.land(drone)
+            await self._told(drone, LAND, controls.land(drone), height=0.0)
 
     def _to(self, drone: str, stops: Sequence[Point]) -> Section:
         """To all stops, and hover at the last."""
@@ -342,17 +349,6 @@ class Executor:
         for stop in stops:
             points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
-
-    def _up(self, drone: str, height: float) -> Section:
-        """Straight up."""
-        points, stands = self._start(drone, height)
-        return Section(drone, tuple(points), stands, False)
-
-    def _straight(self, drone: str, target: Point) -> Section:
-        """Straight to a point; above its dock, a drone is about to land."""
-        points, stands = self._start(drone, self._airspace.cruise_height)
-        points += self._envelope.straight(points[-1], target)
-        return Section(drone, tuple(points), stands, False, self._tail(drone, target))
 
     def _tail(self, drone: str, target: Point) -> tuple[Point, ...]:
         """Return where it goes from there: down, if that is above its dock and no other is in it."""

@@ -1,45 +1,51 @@
-"""The gateway: all commands of the brain pass through it, and may outlive the brain.
+"""The gateway: all orders of the brain pass through it, and may outlive the brain.
 
-A brain commands through a `Link`. When another brain connects, or the brain's heartbeat is missing, the
-old link is cut: its commands are ignored, and it gets no reports.
+A brain commands through a `Line`. When another brain connects, or the brain's heartbeat is missing, the
+old line is cut: its orders are ignored, and it is told nothing.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
+from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..drones.lag import Lag
 from ..drones.real_fleet import RealDrone
 from ..jobs.controls import FleetDrone
-from ..jobs.reports import Down, DroneReport, FleetReport
-from ..shared.domain.errors import BadInput, Cancelled, Failure, FlightFailed
-from ..shared.time.future import Future
+from ..jobs.link import Link
+from ..jobs.reports import (
+    Down,
+    DroneReport,
+    FleetReport,
+    drone_report_data,
+    fleet_report_data,
+    result_data,
+)
+from ..shared.domain.errors import BadInput, Cancelled, FlightFailed
+from ..shared.hooks.plain_data import value_data
 from ..shared.time.kernel import FLEET, EventKind, Kernel, Task
 from ..simulation.body import SimulatedDrone
 from .descent import Descent
-from .envelope import Envelope
 from .executor import Executor, Leaving
 from .jobs import Jobs
-from .measuring import MeasuringControls
 from .settings import joining_of
 from .traffic.traffic import Traffic
 
 if TYPE_CHECKING:
     from ..jobs.controls import Controls
     from ..jobs.flown import Flown
-    from ..jobs.job import Job, Report
+    from ..jobs.link import Message, Order
     from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point
+    from .jobs import Report
     from .ledger import Ledger
 
 
-T = TypeVar("T")
-
 Rehearse = Callable[[str, str, "str | None"], Coroutine[Any, Any, str]]
 TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
+Answered = Callable[["Gateway", "Order"], Coroutine[Any, Any, object]]
 
 
 LOOKS = 6
@@ -47,216 +53,129 @@ LOOKS = 6
 
 
 class Busy(RuntimeError):
-    """A drone was given a second command at once: a bug of the brain, not a failed flight."""
-
-    @property
-    def as_failure(self) -> FlightFailed:
-        """Return it as a failure, for a brain in another process."""
-        return FlightFailed(Failure.REFUSED, str(self))
+    """A drone was given a second order at once: a bug of the brain, not a failed flight."""
 
 
-class Link:
-    """The `Navigation` of a brain, served by the gateway until the link is cut.
+class Line(Link):
+    """A brain's link inside the gateway's process: the one place that obeys its orders, until it is cut.
 
-    After a cut no command ever returns: a caller must not mistake a lost link for a failed flight.
-    The same holds from `bring_down` until `fleet_report`.
+    After a cut nothing is told any more: a caller must not mistake a lost line for a failed flight.
+    The same holds from `down` until `call`.
     """
 
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
-        self._gateway, self._navigation, self._lost = gateway, gateway.navigation, lost
-        self.flown: Callable[[Flown], object] | None = None
-        """Called with each command that a drone has flown, while this link is in command."""
-        self._line = gateway.line
+        super().__init__()
+        self.gateway, self._lost = gateway, lost
+        self._report = self.take if gateway.line is None else gateway.line(self.take)
         self._is_heard = gateway.descent is None
-        self._under_way: dict[str, None] = {}
-        """The commands in progress, by drone."""
-
-    # The navigation protocol
+        self.under_way: dict[object, Task[Any]] = {}
+        """The orders that are answered when they are done, by their ids."""
+        self._busy: dict[str, None] = {}
+        """The drones that carry one of those out."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return a drone's telemetry, which is always current."""
-        return self._navigation.telemetry[drone]
+        return self.gateway.navigation.telemetry[drone]
 
     def moves(self, drone: str) -> bool:
         """Return whether a drone is carrying out a command now."""
-        return self._gateway.moves(drone)
+        return self.gateway.navigation.moves(drone)
 
-    def fly(self, job: Job, report: Report) -> None:
-        """Give a drone its job. A job that was done already is reported again, and not flown."""
+    def send(self, order: Order) -> None:
+        """Obey an order, unless another brain is obeyed; raise `Busy` if its drone does something else."""
+        do, gateway = order["do"], self.gateway
+        if gateway.is_commanded_by(self):
+            gateway.heard = gateway.kernel.now
+        if not self._is_obeyed(do):
+            return
+        if do in _AT_ONCE:
+            _AT_ONCE[do](self, order)
+        else:
+            self._begin(order, _ANSWERED[do])
+
+    def _is_obeyed(self, do: str) -> bool:
+        return self._is_heard or (do in _ALWAYS and self.gateway.is_commanded_by(self))
+
+    def fly(self, order: Order) -> None:
+        """Give a drone its job; one that was done already is reported again, and not flown."""
+        drone = order["drone"]
+        if drone in self._busy:
+            raise Busy(f"{drone} was told to fly while it does something for itself")
+        self.gateway.jobs.fly(order, partial(self._reported, order["id"]))
+
+    def attach(self, order: Order) -> None:
+        """Register for the report of an earlier job."""
+        self.gateway.attach(order["flight"], partial(self._reported, order["id"]))
+
+    def cancel(self, order: Order) -> None:
+        """Call off what was begun; it needs no answer any more."""
+        task = self.under_way.get(order["order"])
+        if task is not None:
+            task.cancel()
+
+    def _begin(self, order: Order, answered: Answered) -> None:
+        """Begin what is answered when it is done."""
+        do, drone, gateway = order["do"], order.get("drone", ""), self.gateway
+        if do in _ONE_AT_A_TIME:
+            if drone in self._busy or gateway.jobs.is_flown_by(drone):
+                raise Busy(f"{drone} was told to do something while it does something else")
+            self._busy[drone] = None
+            if do != "hold":
+                gateway.jobs.moves_on(drone)
+        if do == "down":
+            self._is_heard = False
+        key = gateway.keys.get(drone, FLEET)
+        task = gateway.kernel.spawn(answered(gateway, order), key, f"{drone} is told to {do}")
+        self.under_way[order["id"]] = task
+        task.over = partial(self._ended, order)
+
+    def _ended(self, order: Order, task: Task[Any]) -> None:
+        do, number, error = order["do"], order["id"], task.error
+        del self.under_way[number]
+        if do in _ONE_AT_A_TIME:
+            self._busy.pop(order["drone"], None)
+        if do == "call" and error is None and self.gateway.is_commanded_by(self):
+            self._is_heard = True
+        if error is None:
+            self._tell(do, {"done": number, "value": task.result()})
+        elif isinstance(error, FlightFailed):
+            self._tell(do, {"failed": number, **result_data(error)})
+        elif not isinstance(error, Cancelled):
+            self.gateway.kernel.crash(error)
+
+    def _tell(self, do: str, message: Message) -> None:
+        if self._is_obeyed(do):
+            self.take(message)
+
+    def _reported(self, number: int, result: object) -> None:
+        """Tell what came of a job."""
+        said = "failed" if isinstance(result, FlightFailed) else "done"
         if self._is_heard:
-            if job.drone in self._under_way:
-                raise Busy(f"{job.drone} was told to fly while it does something for itself")
-            self._gateway.jobs.fly(job, report if self._line is None else self._line(report))
+            self._report({said: number, **result_data(result)})
 
-    def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover."""
-        if self._is_heard:
-            self._gateway.break_off(drone)
+    def leave(self) -> None:
+        """Handle the end of its connection: jobs go on, all else is called off."""
+        self._call_off()
+        if self.gateway.is_commanded_by(self):
+            self.gateway.cut()
 
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes."""
-        await self._command(drone, self._navigation.hold(drone), stays=True)
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone, also while it flies."""
-        return await self._asked(self._navigation.read(drone, name))
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone, also while it flies."""
-        await self._asked(self._navigation.write(drone, name, value))
-
-    async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
-        """Ask a drone; there is no answer once the link is cut."""
-        if not self._is_heard:
-            question.close()
-            await _for_ever()
-        try:
-            answer = await question
-        except FlightFailed:
-            if self._is_heard:
-                raise
-            await _for_ever()
-        return answer
-
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height."""
-        self._gateway.envelope.check_height(height)
-        await self._command(drone, self._navigation.takeoff(drone, height))
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        self._gateway.envelope.check(target)
-        await self._command(drone, self._navigation.go_to(drone, target))
-
-    async def join(self, joining: Mapping[str, Any]) -> str:
-        """Take a drone into the fleet; return why that cannot be, or nothing."""
-        if not self._gateway.is_commanded_by(self):
-            await _for_ever()
-        return self._gateway.join(joining)
-
-    async def mishap(self, drone: str, kind: str, job: str | None) -> str:
-        """Have a mishap happen to a simulated drone; return why it cannot, or nothing."""
-        if not self._gateway.is_commanded_by(self):
-            await _for_ever()
-        why = await self._gateway.mishap(drone, kind, job)
-        if not self._is_heard:
-            await _for_ever()
-        return why
-
-    async def home(self, drone: str) -> None:
-        """Fly to its dock, and land there."""
-        await self._command(drone, self._navigation.home(drone))
-
-    async def land(self, drone: str) -> None:
-        """Land here."""
-        await self._command(drone, self._navigation.land(drone))
-
-    def mended(self, drone: str) -> None:
-        """Called when a lost drone has been repaired: it can be recovered again."""
-        if self._is_heard:
-            self._navigation.mended(drone)
-
-    async def recover(self, drone: str) -> bool:
-        """Bring a drone home after a failed flight."""
-        return await self._command(drone, self._gateway.recover(drone))
-
-    async def drone_report(self, drone: str) -> DroneReport:
-        """Ask a drone where it is and what it has done."""
-        report = await self._gateway.ask(drone)
-        if not self._is_heard:
-            await _for_ever()
-        return report
-
-    async def _command(
-        self, drone: str, command: Coroutine[Any, Any, T], *, stays: bool = False
-    ) -> T:
-        """Run a command, and return when it is done; never, once the link is cut."""
-        if not self._is_heard:
-            command.close()
-            await _for_ever()
-        if drone in self._under_way or self._gateway.jobs.is_flown_by(drone):
-            command.close()
-            raise Busy(f"{drone} was told to do something while it does something else")
-        self._under_way[drone] = None
-        if not stays:
-            self._gateway.jobs.moves_on(drone)
-        try:
-            return await self._asked(command)
-        finally:
-            self._under_way.pop(drone, None)
-
-    # Beyond the navigation protocol
-
-    async def fleet_report(self) -> FleetReport:
-        """Query all drones and the ledger; from now on this link is in command.
-
-        If the drones are being brought down, that is completed first.
-        """
-        gateway = self._gateway
-        while gateway.descent is not None:
-            await gateway.descent.ended()
-        fleet_report = await gateway.fleet_report()
-        if not gateway.is_commanded_by(self):
-            await _for_ever()
-        self._is_heard = True
-        return fleet_report
-
-    def attach(self, id: str, report: Report) -> None:
-        """Register for the report of an earlier job: called when it ends, or now if it has."""
-        if self._is_heard:
-            if id in self._gateway.jobs.beside:
-                self._gateway.flown(self._gateway.jobs.beside[id])
-            self._gateway.jobs.attach(id, report if self._line is None else self._line(report))
-
-    def forget(self, id: str) -> None:
-        """Forget a job: its id may be used again."""
-        if self._is_heard:
-            self._gateway.jobs.forget(id)
-
-    def on_flown(self, hear: Callable[[Flown], object]) -> None:
-        """Call this with each command that a drone has flown."""
-        self.flown = hear
-
-    def heartbeat(self) -> None:
-        """Signal that the brain is alive."""
-        if self._gateway.is_commanded_by(self):
-            self._gateway.heard = self._gateway.kernel.now
-
-    async def bring_down(self, how: Down) -> None:
-        """Abort everything and bring all drones down; return when all that can have landed.
-
-        This goes on even if the brain ends.
-        """
-        gateway = self._gateway
-        if not gateway.is_commanded_by(self):
-            await _for_ever()
-        self._is_heard = False
-        gateway.bring_down(how)
-        while gateway.descent is not None:
-            await gateway.descent.ended()
-        if not gateway.is_commanded_by(self):
-            await _for_ever()
-
-    # Called by the gateway
+    def _call_off(self) -> None:
+        for task in list(self.under_way.values()):
+            task.cancel()
 
     def cut(self) -> None:
-        """Ignore it from now on, and notify its brain."""
+        """Obey it no more, and notify its brain."""
         self._is_heard = False
-        for drone in list(self._under_way):
-            self._navigation.break_off(drone)
+        for drone in list(self._busy):
+            self.gateway.navigation.break_off(drone)
+        self._call_off()
         if self._lost is not None:
-            kernel = self._gateway.kernel
+            kernel = self.gateway.kernel
             kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
 def _take_in_none(drone: SimulatedDrone, _: RealDrone | None) -> NoReturn:
     raise BadInput(f"{drone.id} cannot join: these drones are all that there are")
-
-
-async def _for_ever() -> NoReturn:
-    """Never return."""
-    await Future[None]()
-    raise AssertionError
 
 
 class Gateway:
@@ -287,10 +206,6 @@ class Gateway:
         """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
         self.rehearse: Rehearse | None = None
         """Has mishaps happen to simulated drones; None: they are real."""
-        self._measuring: MeasuringControls | None = None
-        if measures:
-            self._measuring = MeasuringControls(kernel, controls, drones, self.flown)
-            controls = self._measuring
         self.traffic: Traffic | None = None
         """Keeps drones apart, if configured."""
         if apart > 0:
@@ -304,14 +219,22 @@ class Gateway:
                 max_airborne=max_airborne,
             )
         self.navigation = Executor(
-            kernel, controls, drones, airspace, self.traffic, ledger, leaving, self._acts_beside
+            kernel,
+            controls,
+            drones,
+            airspace,
+            self.traffic,
+            ledger,
+            leaving,
+            self._acts_beside,
+            self.flown if measures else None,
         )
-        self.envelope = Envelope(airspace)
         self.drones, self._airspace = tuple(drones), airspace
-        self._keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
-        self.jobs = Jobs(kernel, self.navigation.fly, self._keys, self.envelope, ledger)
-        self.commander: Link | None = None
-        """The link in command."""
+        self.keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
+        """The keys of their events in the kernel."""
+        self.jobs = Jobs(kernel, self.navigation.fly, self.keys, airspace, ledger)
+        self.commander: Line | None = None
+        """The line of the brain in command."""
         self.line: Callable[[Report], Report] | None = None
         """Wraps the listeners of reports, to simulate a lossy line to the brain."""
         self._epoch = 0
@@ -329,28 +252,28 @@ class Gateway:
 
     # The link in command
 
-    def link(self, epoch: int, lost: Callable[[], object] | None = None) -> Link:
+    def link(self, epoch: int, lost: Callable[[], object] | None = None) -> Line:
         """Put a brain in command, instead of the one before.
 
-        `lost` is called, once, when this link is cut in turn.
+        `lost` is called, once, when this line is cut in turn.
         """
         if epoch < self._epoch:
             raise BadInput("another run of this app has taken over the drones meanwhile")
         self.cut()
         self._epoch, self.heard = epoch, self.kernel.now
-        self.commander = link = Link(self, lost)
-        return link
+        self.commander = line = Line(self, lost)
+        return line
 
     def cut(self) -> None:
-        """Cut the link of the brain. Jobs go on; the brain's single commands are aborted."""
-        link, self.commander = self.commander, None
-        if link is not None:
+        """Cut the line of the brain. Jobs go on; the brain's single commands are aborted."""
+        line, self.commander = self.commander, None
+        if line is not None:
             self.jobs.mute()
-            link.cut()
+            line.cut()
 
-    def is_commanded_by(self, link: Link) -> bool:
-        """Return whether this link is in command."""
-        return link is self.commander
+    def is_commanded_by(self, line: Line) -> bool:
+        """Return whether this line is in command."""
+        return line is self.commander
 
     def _acts_beside(self, told: Flown) -> None:
         """Tell where an action is done beside its target, now and to each brain that asks for the job."""
@@ -359,18 +282,14 @@ class Gateway:
 
     def flown(self, command: Flown) -> None:
         """Tell the brain in command, if there is one, how a command went."""
-        if self.commander is not None and self.commander.flown is not None:
-            self.commander.flown(command)
-
-    def moves(self, drone: str) -> bool:
-        """Return whether a drone is carrying out a command now, as far as that is measured."""
-        return self._measuring is not None and drone in self._measuring.moving
+        if self.commander is not None:
+            self.commander.take({"flown": command})
 
     def join(self, joining: Mapping[str, Any]) -> str:
         """Take a drone in, unless it is there already; return why that cannot be, or nothing."""
         try:
             drone, real = joining_of(joining)
-            if drone.id in self._keys:
+            if drone.id in self.keys:
                 return ""
             self.take_in(drone, real)
         except BadInput as error:
@@ -378,11 +297,11 @@ class Gateway:
         except (KeyError, TypeError, ValueError) as error:
             return f"that is no drone: {type(error).__name__}: {error}"
         self.drones = (*self.drones, drone)
-        self._keys[drone.id] = FLEET + 1 + drone.index  # its jobs have the same mapping
+        self.keys[drone.id] = FLEET + 1 + drone.index  # its jobs have the same mapping
         self.jobs.boots[drone.id] = 0
-        for part in (self.navigation, self.traffic, self._measuring):
-            if part is not None:
-                part.join(drone)
+        self.navigation.join(drone)
+        if self.traffic is not None:
+            self.traffic.join(drone)
         return ""
 
     async def mishap(self, drone: str, kind: str, job: str | None) -> str:
@@ -393,6 +312,12 @@ class Gateway:
         if not why and job is not None:
             self.break_off(drone)  # what has been done is not reported
         return why
+
+    def attach(self, id: str, report: Report) -> None:
+        """Register for the report of an earlier job: called when it ends, or now if it has."""
+        if id in self.jobs.beside:
+            self.flown(self.jobs.beside[id])
+        self.jobs.attach(id, report)
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""
@@ -449,9 +374,9 @@ class Gateway:
         """Query every drone, and settle the outcome of every job by that."""
         spawn = self.kernel.spawn
         asked = [
-            spawn(self.ask(drone), key, f"{drone} is asked") for drone, key in self._keys.items()
+            spawn(self.ask(drone), key, f"{drone} is asked") for drone, key in self.keys.items()
         ]
-        drones = {drone: await task for drone, task in zip(self._keys, asked, strict=True)}
+        drones = {drone: await task for drone, task in zip(self.keys, asked, strict=True)}
         return FleetReport(drones=drones, jobs=self.jobs.settle(drones, self._epoch > 1))
 
     async def ask(self, drone: str) -> DroneReport:
@@ -488,3 +413,71 @@ class Gateway:
             self.descent = None
         if task.error is not None and not isinstance(task.error, Cancelled):
             self.kernel.crash(task.error)
+
+
+async def _read(gateway: Gateway, order: Order) -> object:
+    return value_data(await gateway.navigation.read(order["drone"], order["name"]))
+
+
+async def _write(gateway: Gateway, order: Order) -> None:
+    await gateway.navigation.write(order["drone"], order["name"], order["value"])
+
+
+async def _recover(gateway: Gateway, order: Order) -> bool | str:
+    """Bring a drone home; if it is lost, return what it says of that itself."""
+    if await gateway.recover(order["drone"]):
+        return True
+    return "; ".join((await gateway.ask(order["drone"])).problems)
+
+
+async def _report(gateway: Gateway, order: Order) -> object:
+    return drone_report_data(await gateway.ask(order["drone"]))
+
+
+async def _call(gateway: Gateway, _: Order) -> object:
+    """Query all; if the drones are being brought down, that is completed first."""
+    while gateway.descent is not None:
+        await gateway.descent.ended()
+    return fleet_report_data(await gateway.fleet_report())
+
+
+async def _join(gateway: Gateway, order: Order) -> str:
+    return gateway.join(order["joining"])
+
+
+async def _down(gateway: Gateway, order: Order) -> None:
+    """Bring all down, which goes on even if the brain ends."""
+    gateway.bring_down(Down(order["how"]))
+    while gateway.descent is not None:
+        await gateway.descent.ended()
+
+
+# How each order is obeyed
+
+_AT_ONCE: Mapping[str, Callable[[Line, Order], object]] = {
+    "fly": Line.fly,
+    "attach": Line.attach,
+    "cancel": Line.cancel,
+    "heartbeat": lambda line, order: None,
+    "break_off": lambda line, order: line.gateway.break_off(order["drone"]),
+    "mended": lambda line, order: line.gateway.navigation.mended(order["drone"]),
+    "forget": lambda line, order: line.gateway.jobs.forget(order["flight"]),
+}
+_ANSWERED: Mapping[str, Answered] = {
+    "hold": lambda gateway, order: gateway.navigation.hold(order["drone"]),
+    "home": lambda gateway, order: gateway.navigation.home(order["drone"]),
+    "land": lambda gateway, order: gateway.navigation.land(order["drone"]),
+    "recover": _recover,
+    "read": _read,
+    "write": _write,
+    "report": _report,
+    "call": _call,
+    "join": _join,
+    "mishap": lambda gateway, order: gateway.mishap(order["drone"], order["kind"], order["job"]),
+    "down": _down,
+}
+"""What is answered when it is done."""
+_ONE_AT_A_TIME = frozenset({"hold", "home", "land", "recover"})
+"""What a drone does only while it does nothing else."""
+_ALWAYS = frozenset({"call", "join", "mishap", "down", "cancel"})
+"""What is also obeyed while all drones are brought down."""

@@ -1,11 +1,11 @@
-"""The jobs of the drones, identified by their ids, so that no action is done twice."""
+"""The ledger's layer: an order to fly is obeyed once by the id of its flight, so that no action is done twice."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
 from ..shared.domain.errors import Failure, FlightFailed
@@ -13,122 +13,14 @@ from ..shared.time.kernel import EventKind, Kernel, Key
 
 if TYPE_CHECKING:
     from ..jobs.flown import Flown
-    from ..jobs.job import Job, Report
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item
-    from .envelope import Envelope
+    from ..jobs.link import Order
+    from ..shared.domain.airspace import Airspace
     from .ledger import Ledger
 
-
-class AssignedJob:
-    """A job that was given to a drone; passed to navigation instead of the brain's own."""
-
-    __slots__ = (
-        "_job",
-        "_jobs",
-        "action",
-        "beside",
-        "boot",
-        "drone",
-        "failure",
-        "id",
-        "listener",
-        "reason",
-        "state",
-        "stops",
-        "value",
-    )
-
-    def __init__(self, jobs: Jobs, job: Job, listener: Report, boot: int) -> None:
-        self._jobs, self.boot = jobs, boot
-        self._job: Job | None = job
-        self.listener: Report | None = listener
-        self.id, self.drone, self.stops, self.action = job.id, job.drone, job.stops, job.action
-        self.beside = job.beside
-        self.state = JobState.FLYING
-        self.value: object = None
-        self.failure = self.reason = ""
-
-    @property
-    def parameters(self) -> Mapping[str, Plain]:
-        """The parameters of the action."""
-        return self._known.parameters
-
-    @property
-    def item(self) -> Item | None:
-        """The item to pick or release."""
-        return self._known.item
-
-    @property
-    def seconds(self) -> float:
-        """The expected duration of the action."""
-        return self._known.seconds
-
-    @property
-    def _known(self) -> Job:
-        if self._job is None:
-            raise RuntimeError(f"the job {self.id} is over")
-        return self._job
-
-    @property
-    def flies(self) -> bool:
-        """Whether navigation is executing it, and will report."""
-        return self._job is not None
-
-    @property
-    def hovers(self) -> bool:
-        """Whether its drone has arrived, and hovers there for an action of the app's own."""
-        return self.action is None and self.state is JobState.DONE
-
-    def begins(self) -> None:
-        """Called right before the action is done: records that first."""
-        job = self._known
-        self.state = JobState.BEGUN
-        try:
-            self._jobs.write(self.entry)
-        except OSError as error:
-            self.state = JobState.FLYING
-            reason = f"{self.action} was not begun: it cannot be written down before: {error}"
-            raise FlightFailed(Failure.REFUSED, reason) from error
-        job.begins()
-
-    def report(self, result: object) -> None:
-        """Called with its outcome, which is passed on to the listener."""
-        if self._job is None:
-            return
-        self._job, begun = None, self.state is JobState.BEGUN
-        if isinstance(result, FlightFailed):
-            self.state, self.failure = JobState.FAILED, result.failure.name
-            self.reason = str(result)
-        else:
-            self.state, self.value = JobState.DONE, result
-        self._jobs.ended(self, begun)
-        if self.listener is not None:
-            self.listener(result)
-
-    def leave(self) -> None:
-        """Ignore further reports."""
-        self._job = self.listener = None
-
-    def break_off(self) -> None:
-        """Abort it; an action that has begun may have been done, or not."""
-        self.leave()
-        if self.state is JobState.FLYING or self.hovers:
-            self.state = JobState.BROKEN_OFF
-
-    @property
-    def entry(self) -> Entry:
-        """Its entry in the ledger."""
-        return Entry(
-            id=self.id,
-            drone=self.drone,
-            state=self.state,
-            boot=self.boot,
-            flies=self.flies,
-            value=self.value,
-            failure=self.failure,
-            reason=self.reason,
-        )
+Report = Callable[[Any], object]
+"""Called with the action's result, or the `FlightFailed` that ended the job."""
+Fly = Callable[["Order", Callable[[], object], Report], object]
+"""Flies an order; it calls the second right before the action is done, which raises if it must not be."""
 
 
 class Jobs:
@@ -137,21 +29,23 @@ class Jobs:
     def __init__(
         self,
         kernel: Kernel,
-        fly: Callable[[Job, Report], None],
+        fly: Fly,
         keys: Mapping[str, Key],
-        envelope: Envelope,
+        airspace: Airspace,
         ledger: Ledger | None,
     ) -> None:
         self._kernel, self._fly, self._keys = kernel, fly, keys
-        self._envelope, self._ledger = envelope, ledger
-        self._known: dict[str, AssignedJob | Entry] = {}
-        """By their ids; an `Entry` is finished, or from an earlier run of the gateway."""
+        self._airspace, self._ledger = airspace, ledger
+        self._known: dict[str, Entry] = {}
+        """By the ids of their flights."""
         if ledger is not None:
             self._known.update((entry.id, entry) for entry in ledger.entries())
+        self._listeners: dict[str, Report] = {}
+        """What to call with the end of a job."""
         self._remembered: dict[str, DroneReport] = {}
         """The drone that reports a job as done, by the job's id: it may be the only record."""
-        self._current: dict[str, AssignedJob] = {}
-        """The current job of each drone, by the drones' ids."""
+        self._current: dict[str, Entry] = {}
+        """The job of each drone that flies one, or hovers after it for an action of the app's own."""
         self.beside: dict[str, Flown] = {}
         """What was told of those whose action is done beside its target, by their ids."""
         self.boots = dict.fromkeys(keys, 0)
@@ -159,24 +53,26 @@ class Jobs:
 
     # Requests of the brain
 
-    def fly(self, job: Job, report: Report) -> None:
+    def fly(self, order: Order, report: Report) -> None:
         """Give a drone its job, unless its action was done before, or may have been."""
-        drone = job.drone
-        given = AssignedJob(self, job, report, self.boots[drone])
-        known = self._known.get(given.id)
-        if known is None and given.id in self._remembered:
-            known = self._known[given.id] = _done(given.id, self._remembered[given.id])
+        id, drone = order["flight"], order["drone"]
+        known = self._known.get(id)
+        if known is None and id in self._remembered:
+            known = self._known[id] = _done(id, self._remembered[id])
         if known is not None and known.state not in _MAY_FLY:
             self._repeated(known, report)
             return
-        problem = self._problem(given)
+        problem = self._problem(order)
         if problem is not None:
             self._post(drone, partial(report, FlightFailed(Failure.REFUSED, problem)))
             return
-        self._known[given.id] = self._current[drone] = given
-        self._fly(given, given.report)
+        job = Entry(id=id, drone=drone, state=JobState.FLYING, boot=self.boots[drone], flies=True)
+        self._known[id] = self._current[drone] = job
+        self._listeners[id] = report
+        begins = partial(self._begins, job, order["action"])
+        self._fly(order, begins, partial(self._ended, job, order["action"] is None))
 
-    def _repeated(self, known: AssignedJob | Entry, report: Report) -> None:
+    def _repeated(self, known: Entry, report: Report) -> None:
         """Answer a repeated job by what is known of it, never by a flight."""
         if known.state is JobState.BEGUN and not known.flies:
             reason = f"it cannot be told whether the action of {known.id} was done"
@@ -184,19 +80,24 @@ class Jobs:
         else:
             self.attach(known.id, report)
 
-    def _problem(self, job: AssignedJob) -> str | None:
-        other = self._current.get(job.drone)
+    def _problem(self, order: Order) -> str | None:
+        """Return why an order must not be obeyed, whatever the brain believes."""
+        drone = order["drone"]
+        other = self._current.get(drone)
         if other is not None and other.flies:
-            return f"{job.drone} flies already, for {other.id}"
-        return self._envelope.problem(job.stops)
+            return f"{drone} flies already, for {other.id}"
+        problems = map(self._airspace.problem, order["stops"])
+        return next((problem for problem in problems if problem is not None), None)
 
     def attach(self, id: str, report: Report) -> None:
         """Call a listener when a job ends, or now if it has; unknown jobs are ignored."""
         known = self._known.get(id)
-        if isinstance(known, AssignedJob) and known.flies:
-            known.listener = report
-        elif known is not None and known.state in _ENDED:
-            self._post(known.drone, partial(report, reported_result(_entry(known))))
+        if known is None:
+            return
+        if known.flies:
+            self._listeners[id] = report
+        elif known.state in _ENDED:
+            self._post(known.drone, partial(report, reported_result(known)))
 
     def forget(self, id: str) -> None:
         """Drop a job that does not fly: its id may be used again."""
@@ -214,9 +115,16 @@ class Jobs:
         """Abort a drone's job, if it has one: it is not reported any more."""
         job = self._current.pop(drone, None)
         if job is not None:
-            job.break_off()
+            self._break_off(job)
             if self._ledger is None:
                 self._known.pop(job.id, None)
+
+    def _break_off(self, job: Entry) -> None:
+        """Abort a job; an action that has begun may have been done, or not."""
+        job.flies = False
+        self._listeners.pop(job.id, None)
+        if job.state is not JobState.BEGUN:
+            job.state = JobState.BROKEN_OFF
 
     def is_flown_by(self, drone: str) -> bool:
         """Return whether a drone flies a job now."""
@@ -226,38 +134,61 @@ class Jobs:
     def moves_on(self, drone: str) -> None:
         """Called when a drone leaves the place where it hovered for an action of the app's own."""
         job = self._current.get(drone)
-        if job is not None and job.hovers:
+        if job is not None and not job.flies:
             del self._current[drone]
-            job.break_off()
+            self._break_off(job)
 
     # Listeners
 
     def mute(self) -> None:
         """Drop all listeners; the jobs go on."""
-        for job in self._current.values():
-            job.listener = None
+        self._listeners.clear()
 
     def leave(self) -> None:
         """Record nothing any more: the gateway has ended."""
+        self.mute()
         for job in self._current.values():
-            job.leave()
+            job.flies = False
 
-    # Called by jobs
+    # What comes of them
+
+    def _begins(self, job: Entry, action: str) -> None:
+        """Called right before an action is done: records that first."""
+        job.state = JobState.BEGUN
+        try:
+            self.write(job)
+        except OSError as error:
+            job.state = JobState.FLYING
+            reason = f"{action} was not begun: it cannot be written down before: {error}"
+            raise FlightFailed(Failure.REFUSED, reason) from error
+
+    def _ended(self, job: Entry, hovers: bool, result: object) -> None:
+        """Called with the outcome; if no action had begun, that need not be durable."""
+        if not job.flies:
+            return
+        job.flies, begun = False, job.state is JobState.BEGUN
+        if isinstance(result, FlightFailed):
+            job.state = JobState.FAILED
+            job.failure = result.failure.name
+            job.reason = str(result)
+        else:
+            job.state = JobState.DONE
+            job.value = result
+        listener = self._listeners.pop(job.id, None)
+        if self._ledger is None:
+            self._known.pop(job.id, None)
+            self.beside.pop(job.id, None)
+        elif begun:
+            self._keep(job)
+        if not (hovers and job.state is JobState.DONE):
+            self._current.pop(job.drone, None)
+        if listener is not None:
+            listener(result)
 
     def write(self, job: Entry) -> None:
         """Record a job's state durably."""
         if self._ledger is not None:
             self._ledger.write(job)
-
-    def ended(self, job: AssignedJob, begun: bool) -> None:
-        """Called when a job has ended; if no action had begun, that need not be durable."""
-        if self._ledger is None:
-            self._known.pop(job.id, None)
-            self.beside.pop(job.id, None)
-        elif begun:
-            self._keep(job.entry)
-        if not job.hovers:
-            self._current.pop(job.drone, None)
 
     # Reports of drones
 
@@ -274,9 +205,9 @@ class Jobs:
         for id, job in self._known.items():
             if job.state is JobState.BEGUN and not job.flies:
                 self._known[id] = self._settled(job, drones.get(job.drone))
-        return {id: _entry(job) for id, job in self._known.items()}
+        return self._known
 
-    def _settled(self, job: AssignedJob | Entry, drone: DroneReport | None) -> AssignedJob | Entry:
+    def _settled(self, job: Entry, drone: DroneReport | None) -> Entry:
         if drone is None or drone.done is None:
             return job
         if job.id in drone.done:
@@ -308,10 +239,6 @@ class Jobs:
 def _done(id: str, drone: DroneReport) -> Entry:
     value = (drone.done or {})[id]
     return Entry(id=id, drone=drone.drone, state=JobState.DONE, boot=drone.boot, value=value)
-
-
-def _entry(job: AssignedJob | Entry) -> Entry:
-    return job.entry if isinstance(job, AssignedJob) else job
 
 
 _MAY_FLY = frozenset({JobState.FAILED, JobState.BROKEN_OFF})

@@ -10,10 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from zlib import crc32
 
-from ..jobs.reports import Entry, JobState
+from ..jobs.reports import Entry, entry_data, entry_of
 from ..shared.domain.errors import FlightFailed
-from ..shared.hooks.plain_data import value_of
-from .wire import entry_data
 
 
 class Ledger:
@@ -140,7 +138,7 @@ class FileLedger(Ledger):
         elif "motors" in data:
             super().write_cut(str(data["motors"]), data["cut"] is True)
         else:
-            super().write(_entry(data))
+            super().write(entry_of(data))
 
     def _compact(self, spare: int) -> None:
         """Rewrite the file if most of it is obsolete; a damaged one is kept for inspection."""
@@ -174,29 +172,6 @@ class FileLedger(Ledger):
 
 def _motors(drone: str, is_cut: bool) -> dict[str, object]:
     return {"motors": drone, "cut": is_cut}
-
-
-def _entry(data: Mapping[str, object]) -> Entry:
-    match data:
-        case {
-            "id": str(id),
-            "drone": str(drone),
-            "state": str(state),
-            "boot": int(boot),
-            "value": value,
-            "failure": str(failure),
-            "reason": str(reason),
-        }:
-            return Entry(
-                id=id,
-                drone=drone,
-                state=JobState(state),
-                boot=boot,
-                value=value_of(value),
-                failure=failure,
-                reason=reason,
-            )
-    raise ValueError("that is no entry")
 
 
 def _line(data: Mapping[str, object]) -> bytes:

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from ..shared.time.kernel import FLEET, EventKind
 
 if TYPE_CHECKING:
-    from ..jobs.job import Report
-    from .gateway import Gateway, Link
+    from .gateway import Gateway, Line
+    from .jobs import Report
 
 LOST = -1.0
 """The delay of a report that is lost."""
@@ -39,12 +39,12 @@ class LossyLine:
             self._gateway.cut()
         elif seconds > 0:
             self.late += 1
-            kernel, link = self._gateway.kernel, self._gateway.commander
-            arrives = partial(self._arrive, link, report, result)
+            kernel, line = self._gateway.kernel, self._gateway.commander
+            arrives = partial(self._arrive, line, report, result)
             kernel.schedule(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
         else:
             report(result)
 
-    def _arrive(self, link: Link | None, report: Report, result: object) -> None:
-        if link is not None and self._gateway.is_commanded_by(link):
+    def _arrive(self, line: Line | None, report: Report, result: object) -> None:
+        if line is not None and self._gateway.is_commanded_by(line):
             report(result)

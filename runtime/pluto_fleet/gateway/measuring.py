@@ -2,84 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..jobs.controls import ForwardingControls
-from ..jobs.flown import ACTION, BROKEN_OFF, DONE, FAILED, LAND, LEG, TAKE_OFF
+from ..jobs.flown import BROKEN_OFF, DONE, FAILED, TAKE_OFF
 from ..shared.domain.errors import Cancelled, Failure, FlightFailed
 
 if TYPE_CHECKING:
-    from ..jobs.controls import Controls, FleetDrone
+    from ..jobs.controls import FleetDrone
     from ..jobs.flown import Flown
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
+    from ..jobs.telemetry import Telemetry
+    from ..shared.domain.model import Point
     from ..shared.time.kernel import Kernel
 
 T = TypeVar("T")
 
 
-class MeasuringControls(ForwardingControls):
-    """Controls that tell how each command went that moves a flying drone, or acts with it."""
+class Measuring:
+    """Tells how each command went that moves a flying drone, or acts with it."""
 
     def __init__(
         self,
         kernel: Kernel,
-        controls: Controls,
-        drones: Sequence[FleetDrone],
+        telemetry: Mapping[str, Telemetry],
+        drones: Mapping[str, FleetDrone],
         hear: Callable[[Flown], object],
     ) -> None:
-        super().__init__(controls)
-        self._kernel, self._hear = kernel, hear
-        self._categories = {drone.id: drone.category for drone in drones}
+        """`drones` is kept up to date by its owner."""
+        self._kernel, self._telemetry, self._drones = kernel, telemetry, drones
+        self._hear = hear
         self.moving: set[str] = set()
         """The drones that carry out a command now."""
 
-    def join(self, drone: FleetDrone) -> None:
-        """Measure a drone that has joined, too."""
-        self._categories[drone.id] = drone.category
-
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height."""
-        x, y, _ = self.telemetry[drone].location
-        category, command = self._categories[drone], self._controls.takeoff(drone, height)
-        battery = {"flight_time": category.flight_time, "charge_time": category.charge_time}
-        await self._measured(drone, TAKE_OFF, (x, y, height), command, **battery)
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        await self._measured(drone, LEG, target, self._controls.go_to(drone, target))
-
-    async def land(self, drone: str) -> None:
-        """Land here."""
-        x, y, _ = self.telemetry[drone].location
-        await self._measured(drone, LAND, (x, y, 0.0), self._controls.land(drone))
-
-    async def act(
-        self,
-        drone: str,
-        action: str,
-        parameters: Mapping[str, Plain],
-        item: Item | None,
-        job: str | None,
-    ) -> object:
-        """Do a built-in action here, and return its result."""
-        command = self._controls.act(drone, action, parameters, item, job)
-        here = self.telemetry[drone].location
-        return await self._measured(drone, ACTION, here, command, action=action)
-
-    async def _measured(
+    async def measured(
         self,
         drone: str,
         what: str,
-        to: Point,
         command: Coroutine[Any, Any, T],
+        *,
+        to: Point | None = None,
+        height: float | None = None,
         **more: object,
     ) -> T:
-        telemetry, category = self.telemetry[drone], self._categories[drone]
+        """Carry out a command `to` a point, or to a `height` here, and tell how that went."""
+        telemetry, category = self._telemetry[drone], self._drones[drone].category
         if telemetry.landed is not (what == TAKE_OFF):
             return await command  # it is refused, or there is nothing to do
         begun, start, level = self._kernel.now, telemetry.location, telemetry.battery_level
+        end = to or (start if height is None else (*start[:2], height))
+        if what == TAKE_OFF:
+            more = {"flight_time": category.flight_time, "charge_time": category.charge_time}
 
         def tell(ended: str) -> None:
             self._hear(
@@ -88,7 +60,7 @@ class MeasuringControls(ForwardingControls):
                     "category": category.name,
                     "what": what,
                     "from": list(start),
-                    "to": list(to),
+                    "to": list(end),
                     "speed": category.speed,
                     "seconds": round(self._kernel.now - begun, 4),
                     "battery": [round(level, 5), round(telemetry.battery_level, 5)],
@@ -110,25 +82,3 @@ class MeasuringControls(ForwardingControls):
             self.moving.discard(drone)
         tell(DONE)
         return result
-
-    # What is not measured
-
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes."""
-        await self._controls.hold(drone)
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone."""
-        return await self._controls.read(drone, name)
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone."""
-        await self._controls.write(drone, name, value)
-
-    def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover."""
-        self._controls.break_off(drone)
-
-    async def cut(self, drone: str) -> None:
-        """Switch its motors off."""
-        await self._controls.cut(drone)

@@ -1,37 +1,29 @@
-"""Serves brains in other processes; no message can break it.
+"""Serves brains in other processes, whose orders it passes on; no message can break it.
 
-One connection is one link. Without `link`, a client may only send `stop` and `cut-motors`: anyone who may
+One connection is one brain's. Without `link`, a client may only send `stop` and `cut-motors`: anyone who may
 open the socket may land the drones, whether the brain answers or not.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..jobs.reports import Down
 from ..process.ipc import Message, line, message_in
-from ..shared.domain.errors import BadInput, Cancelled, FlightFailed
-from ..shared.domain.text import quoted, shown
+from ..shared.domain.errors import BadInput, Failure
+from ..shared.domain.text import quoted
 from ..shared.time.kernel import FLEET, Task
 from .gateway import Busy
-from .wire import (
-    MAX_COMMAND,
-    drone_report_data,
-    fleet_report_data,
-    job_of,
-    result_data,
-    seen,
-)
+from .wire import MAX_COMMAND, order_of, seen
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
     from ..jobs.telemetry import Publisher, Subscription, Telemetry
-    from .gateway import Gateway, Link
+    from .gateway import Gateway, Line
 
 _PENDING = 10_000
 """Concurrent commands of one brain."""
@@ -60,7 +52,7 @@ class Server:
     @property
     def has_a_brain(self) -> bool:
         """Whether a brain is in command."""
-        return any(one.link is not None and not one.leaves for one in self.connected)
+        return any(one.line is not None and not one.leaves for one in self.connected)
 
     async def serve(self, reader: StreamReader, writer: StreamWriter) -> None:
         """Serve a connection, until it ends."""
@@ -83,10 +75,9 @@ class Connection:
 
     def __init__(self, server: Server, writer: StreamWriter) -> None:
         self._server, self._writer, self._gateway = server, writer, server.gateway
-        self.link: Link | None = None
+        self.line: Line | None = None
+        """How it commands, if it is a brain's."""
         self._was_cut = False
-        self._under_way: dict[int, Task[Any]] = {}
-        """Commands in progress, by their numbers."""
         self._telemetry: Subscription[tuple[object, ...]] | None = None
         """None: it was never in command."""
         self.leaves = False
@@ -111,12 +102,10 @@ class Connection:
             self.hang_up()
 
     def _leave(self) -> None:
-        """Handle the end of the connection: jobs go on, single commands are aborted."""
-        link, self.link = self.link, None
-        for task in self._under_way.values():
-            _call_off(task)
-        if link is not None and self._gateway.is_commanded_by(link):
-            self._gateway.cut()
+        line, self.line = self.line, None
+        if line is not None:
+            line.hear = _ignore
+            line.leave()
 
     def _tell(self, message: Message) -> None:
         """Send a message; a client that does not read is disconnected."""
@@ -130,11 +119,11 @@ class Connection:
     # Telemetry
 
     def _tell_seen(self, changed: Message, late: float) -> None:
-        if self.link is not None:
+        if self.line is not None:
             self._tell({"seen": changed})
 
     def _seen(self, drone: str, telemetry: Telemetry) -> tuple[object, ...]:
-        return seen(telemetry, self._gateway.moves(drone))
+        return seen(telemetry, self._gateway.navigation.moves(drone))
 
     def _tell_no_telemetry(self) -> None:
         if self._telemetry is not None:
@@ -171,13 +160,13 @@ class Connection:
                 self._cut_motors([self._in_the_fleet(drone)])
             case {"do": "cut-motors", "all": True}:
                 self._cut_motors([drone.id for drone in self._gateway.drones])
-            case {"do": "link", "epoch": int(epoch)} if self.link is None:
+            case {"do": "link", "epoch": int(epoch)} if self.line is None:
                 self._link(epoch)
                 self._pass_at(message.get("speed"))
-            case {"do": "link"} if self.link is not None:
+            case {"do": "link"} if self.line is not None:
                 raise BadInput("this connection commands already")
-            case {"do": str(what)} if self.link is not None:
-                self._command(self.link, what, message)
+            case {"do": str()} if self.line is not None:
+                self._obey(self.line, message)
             case {"do": str()} if self._was_cut:
                 pass  # it was in transit
             case _:
@@ -210,8 +199,8 @@ class Connection:
         return drone
 
     def _link(self, epoch: int) -> None:
-        self.link = self._gateway.link(epoch, self._lost)
-        self.link.on_flown(lambda command: self._tell({"flown": command}))
+        self.line = self._gateway.link(epoch, self._lost)
+        self.line.hear = self._told
         self._tell_no_telemetry()  # this connection may have been in command before
         self._telemetry = self._server.publisher.subscribe(
             self._tell_seen, every=_EACH, view=self._seen, unchanged=_ALIVE
@@ -226,124 +215,31 @@ class Connection:
             change(speed)
 
     def _lost(self) -> None:
-        if self.link is None:  # it has disconnected
+        if self.line is None:  # it has disconnected
             return
         self._server.say("the brain that commanded is cut off")
-        self.link, self._was_cut = None, True
+        self.line, self._was_cut = None, True
         self._tell({"lost": True})
 
-    def _command(self, link: Link, what: str, message: Message) -> None:
-        link.heartbeat()
-        match what:
-            case "heartbeat":
-                pass
-            case "fly":
-                job = job_of(message["job"], self._begins)
-                self._known(job.drone)
-                report = partial(self._report, int(message["n"]))
-                try:
-                    link.fly(job, report)
-                except Busy as error:
-                    self._server.say(f"refused: {error}")
-                    report(error.as_failure)
-            case "break_off":
-                link.break_off(self._known(message["drone"]))
-            case "mended":
-                link.mended(self._known(message["drone"]))
-            case "attach":
-                link.attach(str(message["id"]), partial(self._report, int(message["n"])))
-            case "forget":
-                link.forget(str(message["id"]))
-            case "cancel":
-                task = self._under_way.pop(int(message["n"]), None)
-                if task is not None:
-                    _call_off(task)
-            case "goodbye":
-                self.leaves = True
-                self._server.on_goodbye()
-            case _:
-                self._begin(int(message["n"]), what, _asked(link, what, message, self._known))
-
-    def _begin(self, number: int, what: str, command: Coroutine[Any, Any, object]) -> None:
-        if number in self._under_way or len(self._under_way) >= _PENDING:
-            command.close()
+    def _obey(self, line: Line, message: Message) -> None:
+        if message["do"] == "goodbye":
+            self.leaves = True
+            self._server.on_goodbye()
+            return
+        order = order_of(message, self._server.publisher.drones)
+        if order.get("id") in line.under_way or len(line.under_way) >= _PENDING:
             raise BadInput("too much is under way")
-        task = self._gateway.kernel.spawn(command, FLEET, what)
-        self._under_way[number] = task
-        task.over = partial(self._answer, number)
+        try:
+            line.send(order)
+        except Busy as error:
+            self._server.say(f"refused: {error}")
+            why = {"failure": Failure.REFUSED.name, "reason": str(error)}
+            self._told({"failed": order["id"], **why})
 
-    def _answer(self, number: int, task: Task[Any]) -> None:
-        del self._under_way[number]
-        error = task.error
-        if error is None:
-            self._tell({"n": number, "value": task.result(), "seen": self._changed()})
-        elif isinstance(error, (FlightFailed, Busy)):
-            failed = result_data(error.as_failure if isinstance(error, Busy) else error)
-            self._tell({"n": number, **failed, "seen": self._changed()})
-        elif not isinstance(error, Cancelled):
-            self._gateway.kernel.crash(error)
-
-    def _known(self, drone: str) -> str:
-        if drone not in self._server.publisher.drones:
-            raise BadInput(f"there is no drone {shown(drone)}")
-        return drone
-
-    def _begins(self, id: str) -> None:
-        self._tell({"begins": id})
-
-    def _report(self, number: int, result: object) -> None:
-        self._tell({"report": number, **result_data(result), "seen": self._changed()})
+    def _told(self, message: Message) -> None:
+        """Pass on what a brain is told, and first what has changed of the drones."""
+        self._tell({**message, "seen": self._changed()})
 
 
-def _asked(
-    link: Link, what: str, message: Message, known: Callable[[Any], str]
-) -> Coroutine[Any, Any, object]:
-    """Return the coroutine that answers a request; `known` refuses unknown drones."""
-    if what == "call":
-        return _as_data(fleet_report_data, link.fleet_report)
-    if what == "join":
-        return link.join(dict(message["joining"]))
-    if what == "down":
-        return link.bring_down(Down(message["how"]))
-    drone = known(message["drone"])
-    match what:
-        case "mishap":
-            job = message["job"]
-            return link.mishap(drone, str(message["kind"]), None if job is None else str(job))
-        case "hold":
-            return link.hold(drone)
-        case "read":
-            return link.read(drone, str(message["name"]))
-        case "write":
-            return link.write(drone, str(message["name"]), float(message["value"]))
-        case "takeoff":
-            return link.takeoff(drone, float(message["height"]))
-        case "go_to":
-            x, y, z = map(float, message["target"])
-            return link.go_to(drone, (x, y, z))
-        case "home":
-            return link.home(drone)
-        case "land":
-            return link.land(drone)
-        case "recover":
-            return link.recover(drone)
-        case "roll_call":
-            return _as_data(drone_report_data, partial(link.drone_report, drone))
-        case _:
-            raise BadInput(f"this gateway cannot {shown(what)}")
-
-
-async def _as_data(
-    write: Callable[[Any], object], ask: Callable[[], Coroutine[Any, Any, object]]
-) -> object:
-    return write(await ask())
-
-
-def _call_off(task: Task[Any]) -> None:
-    """Cancel a request that needs no answer any more."""
-    task.over = _ignore
-    task.cancel()
-
-
-def _ignore(_: object) -> None:
-    """Do not answer."""
+def _ignore(_: Message) -> None:
+    """Nobody is left to be told."""

@@ -1,31 +1,22 @@
-"""The protocol between brain and gateway: one JSON object per line."""
+"""The socket between brain and gateway: orders and what is told of them, one JSON object per line."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Container
 from math import isinf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..jobs.reports import DroneReport, Entry, FleetReport, JobState
-from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.hooks.plain_data import (
-    item_data,
-    item_of,
-    point_of,
-    value_data,
-    value_of,
-)
+from ..jobs.reports import Down
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import shown
+from ..shared.hooks.plain_data import item_of, point_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from ..jobs.job import Job
+    from ..jobs.link import Order
     from ..jobs.telemetry import Telemetry
     from ..process.ipc import Message
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
+    from ..shared.domain.model import Point
 
 STALE_AFTER = 2.0
 """Seconds without a message after which a drone's position is stale."""
@@ -35,66 +26,85 @@ MAX_REPORT = 256 * 1024 * 1024
 """Bytes of a line that the brain reads: a fleet's report has all jobs of a large plan."""
 
 
-@dataclass(slots=True, kw_only=True)
-class ToldJob:
-    """A job received over the wire."""
+def order_of(message: Message, drones: Container[str]) -> Order:
+    """Return an order that came over the socket, if it is one, for one of these drones.
 
-    id: str
-    drone: str
-    stops: tuple[Point, ...]
-    action: str | None
-    parameters: Mapping[str, Plain]
-    item: Item | None
-    seconds: float
-    beside: bool
-    on_begin: Callable[[str], object] = field(repr=False)
-
-    def begins(self) -> None:
-        """Called right before the action is done."""
-        self.on_begin(self.id)
+    Else raise `BadInput`, `KeyError`, `OverflowError`, `TypeError` or `ValueError`.
+    """
+    facts = _FACTS.get(message["do"])
+    if facts is None:
+        raise BadInput(f"this gateway cannot {shown(message['do'])}")
+    order = {**message, **{name: _CHECKED[name](message[name]) for name in facts}}
+    if "drone" in facts and order["drone"] not in drones:
+        raise BadInput(f"there is no drone {shown(order['drone'])}")
+    return order
 
 
-def job_data(job: Job) -> dict[str, object]:
-    """Return a job as plain data."""
-    return {
-        "id": job.id,
-        "drone": job.drone,
-        "stops": job.stops,
-        "action": job.action,
-        "parameters": dict(job.parameters),
-        "item": item_data(job.item),
-        "seconds": job.seconds,
-        "beside": job.beside,
-    }
+def _text(value: object) -> str:
+    if not isinstance(value, str):
+        raise TypeError(f"{shown(value)} is no text")
+    return value
 
 
-def job_of(data: Message, on_begin: Callable[[str], object]) -> ToldJob:
-    """Return a job from plain data; raise `KeyError`, `TypeError` or `ValueError` if it is invalid."""
-    return ToldJob(
-        id=str(data["id"]),
-        drone=str(data["drone"]),
-        stops=tuple(point_of([float(value) for value in stop]) for stop in data["stops"]),
-        action=None if data["action"] is None else str(data["action"]),
-        parameters=dict(data["parameters"]),
-        item=item_of(data["item"]),
-        seconds=float(data["seconds"]),
-        beside=bool(data["beside"]),
-        on_begin=on_begin,
-    )
+def _text_or_none(value: object) -> str | None:
+    return None if value is None else _text(value)
 
 
-def result_data(result: object) -> dict[str, object]:
-    """Return what was reported as plain data."""
-    if isinstance(result, FlightFailed):
-        return {"failure": result.failure.name, "reason": str(result)}
-    return {"value": value_data(result)}
+def _number(value: object) -> object:
+    """Return the id of an order."""
+    return value if type(value) is int else _text(value)
 
 
-def result_of(data: Message) -> object:
-    """Return what was reported."""
-    if "failure" in data:
-        return FlightFailed(Failure[data["failure"]], data["reason"])
-    return value_of(data["value"])
+def _stops(value: Any) -> list[Point]:
+    return [point_of([float(along) for along in stop]) for stop in value]
+
+
+def _item(value: Any) -> object:
+    item_of(value)
+    return value
+
+
+_CHECKED: dict[str, Callable[[Any], object]] = {
+    "id": _number,
+    "order": _number,
+    "drone": _text,
+    "flight": _text,
+    "stops": _stops,
+    "action": _text_or_none,
+    "parameters": dict,
+    "item": _item,
+    "seconds": float,
+    "beside": bool,
+    "name": _text,
+    "value": float,
+    "kind": _text,
+    "job": _text_or_none,
+    "joining": dict,
+    "how": lambda how: Down(how).value,
+}
+"""What returns each fact of an order as it must be."""
+
+_FACTS: dict[object, tuple[str, ...]] = {
+    "fly": ("id", "drone", "flight", "stops", "action", "parameters", "item", "seconds", "beside"),
+    "attach": ("id", "flight"),
+    "cancel": ("order",),
+    "heartbeat": (),
+    "break_off": ("drone",),
+    "mended": ("drone",),
+    "forget": ("flight",),
+    "hold": ("id", "drone"),
+    "home": ("id", "drone"),
+    "land": ("id", "drone"),
+    "recover": ("id", "drone"),
+    "read": ("id", "drone", "name"),
+    "write": ("id", "drone", "name", "value"),
+    "report": ("id", "drone"),
+    "call": ("id",),
+    "join": ("id", "joining"),
+    "mishap": ("id", "drone", "kind", "job"),
+    "down": ("id", "how"),
+}
+"""What each order must say."""
 
 
 def seen(telemetry: Telemetry, moves: bool) -> tuple[object, ...]:
@@ -107,61 +117,3 @@ def seen(telemetry: Telemetry, moves: bool) -> tuple[object, ...]:
     if silence > STALE_AFTER:
         since = 0.0 if isinf(silence) else round(time.time() - silence)
     return *telemetry.location, telemetry.battery_level, telemetry.landed, moves, since
-
-
-def entry_data(entry: Entry) -> dict[str, object]:
-    """Return what is known of a job as plain data, but for whether its drone is at it now."""
-    return {
-        "id": entry.id,
-        "drone": entry.drone,
-        "state": entry.state.value,
-        "boot": entry.boot,
-        "value": value_data(entry.value),
-        "failure": entry.failure,
-        "reason": entry.reason,
-    }
-
-
-def drone_report_data(report: DroneReport) -> dict[str, object]:
-    """Return a drone's answer as plain data."""
-    done = report.done
-    return {
-        "drone": report.drone,
-        "reached": report.reached,
-        "location": report.location,
-        "landed": report.landed,
-        "battery_level": report.battery_level,
-        "boot": report.boot,
-        "carrying": report.carrying,
-        "done": None if done is None else {id: value_data(value) for id, value in done.items()},
-        "problems": report.problems,
-    }
-
-
-def drone_report_of(data: Message) -> DroneReport:
-    """Return a drone's answer."""
-    done = data["done"]
-    values = None if done is None else {id: value_of(value) for id, value in done.items()}
-    known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
-    return DroneReport(**{**data, **known, "done": values})
-
-
-def fleet_report_data(report: FleetReport) -> dict[str, object]:
-    """Return a report of the fleet as plain data."""
-    return {
-        "drones": [drone_report_data(one) for one in report.drones.values()],
-        "jobs": [{**entry_data(entry), "flies": entry.flies} for entry in report.jobs.values()],
-    }
-
-
-def fleet_report_of(data: Message) -> FleetReport:
-    """Return a report of the fleet."""
-    reports = map(drone_report_of, data["drones"])
-    entries = [
-        Entry(**{**job, "state": JobState(job["state"]), "value": value_of(job["value"])})
-        for job in data["jobs"]
-    ]
-    return FleetReport(
-        drones={one.drone: one for one in reports},
-        jobs={entry.id: entry for entry in entries},
-    )

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Protocol
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
     from ..shared.domain.model import Category, Item, Point
-    from .job import Job
     from .reports import DroneReport
     from .telemetry import Telemetry
 
@@ -54,7 +53,7 @@ class Controls(Protocol):
         """Return why a drone's hardware cannot do a built-in action, or None."""
         ...
 
-    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+    def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Called at the start of a flight, with its expected duration; None: it is for no job.
 
         Raises `FlightFailed` if the drone takes no commands.
@@ -140,9 +139,9 @@ class ForwardingControls:
         """Return why a drone's hardware cannot do a built-in action, or None."""
         return self._controls.why_not(drone, action, parameters)
 
-    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+    def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Called at the start of a flight, with its expected duration."""
-        self._controls.begins(drone, job, seconds)
+        self._controls.begins(drone, flight, seconds)
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""

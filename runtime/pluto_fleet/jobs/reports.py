@@ -1,13 +1,14 @@
-"""The reports of drones, and the gateway's records of jobs."""
+"""The reports of drones, and the gateway's records of jobs; as plain data, and back."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import Enum
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.hooks.plain_data import point_of, value_data, value_of
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Point
@@ -50,9 +51,9 @@ class JobState(Enum):
     BROKEN_OFF = "broken off"  # before its action began
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class Entry:
-    """The ledger's entry of one job."""
+    """What is known of one job: an order to fly, by the id of its flight."""
 
     id: str
     drone: str
@@ -89,3 +90,65 @@ class Down(Enum):
 
     HOME = "rtl"
     LAND = "land"
+
+
+def motors_cut(drone: str) -> FlightFailed:
+    """Return the failure of a drone's command when its motors were cut."""
+    return FlightFailed(Failure.CRASH, f"{drone}'s motors were cut")
+
+
+# As plain data
+
+
+def result_data(result: object) -> dict[str, object]:
+    """Return what was reported of a job."""
+    if isinstance(result, FlightFailed):
+        return {"failure": result.failure.name, "reason": str(result)}
+    return {"value": value_data(result)}
+
+
+def entry_data(entry: Entry) -> dict[str, object]:
+    """Return what is known of a job, but for whether its drone is at it now."""
+    data = {one.name: getattr(entry, one.name) for one in fields(entry) if one.name != "flies"}
+    return {**data, "state": entry.state.value, "value": value_data(entry.value)}
+
+
+def entry_of(data: Mapping[str, Any]) -> Entry:
+    """Return what is known of a job."""
+    return Entry(**{**data, "state": JobState(data["state"]), "value": value_of(data["value"])})
+
+
+def drone_report_data(report: DroneReport) -> dict[str, object]:
+    """Return a drone's answer."""
+    data = {one.name: getattr(report, one.name) for one in fields(report)}
+    done = report.done
+    return {
+        **data,
+        "done": None if done is None else {id: value_data(value) for id, value in done.items()},
+    }
+
+
+def drone_report_of(data: Mapping[str, Any]) -> DroneReport:
+    """Return a drone's answer."""
+    done = data["done"]
+    values = None if done is None else {id: value_of(value) for id, value in done.items()}
+    known = {"location": point_of(data["location"]), "problems": tuple(data["problems"])}
+    return DroneReport(**{**data, **known, "done": values})
+
+
+def fleet_report_data(report: FleetReport) -> dict[str, object]:
+    """Return a report of the fleet."""
+    return {
+        "drones": [drone_report_data(one) for one in report.drones.values()],
+        "jobs": [{**entry_data(entry), "flies": entry.flies} for entry in report.jobs.values()],
+    }
+
+
+def fleet_report_of(data: Mapping[str, Any]) -> FleetReport:
+    """Return a report of the fleet."""
+    reports = map(drone_report_of, data["drones"])
+    entries = map(entry_of, data["jobs"])
+    return FleetReport(
+        drones={one.drone: one for one in reports},
+        jobs={entry.id: entry for entry in entries},
+    )

@@ -8,7 +8,7 @@ from functools import partial
 from math import dist, inf
 from typing import TYPE_CHECKING
 
-from ..jobs.job import motors_cut
+from ..jobs.reports import motors_cut
 from ..shared.alone.faults import (
     CARRYING_HOME,
     OUTAGE,
@@ -26,7 +26,6 @@ from ..shared.time.kernel import EventKind, Kernel
 from .body import Body, SimulatedDrone
 
 if TYPE_CHECKING:
-    from ..jobs.job import Job
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
@@ -148,13 +147,13 @@ class SimulatedNavigation:
         """Return why a drone cannot do a built-in action: simulated ones can do all."""
         return None if action in BUILT_IN else f"{drone} has no action {action}"
 
-    def begins(self, drone: str, job: Job | None, seconds: float) -> None:
+    def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Begin a flight: draw its faults."""
         body, now = self.bodies[drone], self._kernel.now
         body.check(now)
         drawn = Drawn()
-        if job is not None:
-            drawn = draw(self._faults, self._seed, job.id, seconds)
+        if flight is not None:
+            drawn = draw(self._faults, self._seed, flight, seconds)
         body.begin(drawn, now)
 
     async def takeoff(self, drone: str, height: float) -> None:

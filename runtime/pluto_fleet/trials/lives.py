@@ -56,10 +56,8 @@ class TrialLife:
         hooks = UnreliableHooks(
             self.kernel, case.weather, run.chance, run.fired, self.hook_returned
         )
-        link = run.gateway.link(run.lives, self.lost)
-        self.wire = UnreliableLink(
-            link, run.gateway, self.kernel, case.weather.slow, run.fired, self.sent
-        )
+        line = run.gateway.link(run.lives, self.lost)
+        self.wire = UnreliableLink(line, self.kernel, case.weather.slow, run.fired, self.sent)
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
         self.unknown: dict[str, None] = {}
@@ -411,9 +409,6 @@ class TrialRun(TrialWorld):
         records = self.record.records(self.case.weather.snapshot, self.chance)
         self.brain = TrialLife(self, records)
         self.brains.append(self.brain)
-        # What is done beside its place is told, as in a flight.
-        if self.gateway.commander is not None:
-            self.gateway.commander.on_flown(self.brain.life.flown)
 
     def lose_brain(self, down: float) -> None:
         """Handle a dead brain: the gateway notices at once, or by the missing heartbeat."""

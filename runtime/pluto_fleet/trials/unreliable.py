@@ -9,17 +9,16 @@ from inspect import iscoroutine
 from random import Random
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
-from ..gateway.gateway import Link
-from ..shared.domain.errors import Cancelled, FlightFailed
+from ..jobs.link import Link
 from ..shared.domain.guard import guarded
-from ..shared.time.future import Future
+from ..shared.fleet.orders import failure_of
 from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
 from ..shared.time.virtual import VirtualTime
 
 if TYPE_CHECKING:
-    from ..gateway.gateway import Gateway
-    from ..jobs.job import Job, Report
-    from ..jobs.reports import Down, DroneReport, FleetReport
+    from ..gateway.gateway import Line
+    from ..jobs.link import Message, Order
+    from ..jobs.telemetry import Telemetry
     from ..shared.time.kernel import Kernel
     from .case import Weather
 
@@ -146,103 +145,36 @@ class UnreliableLink(Link):
 
     def __init__(
         self,
-        link: Link,
-        gateway: Gateway,
+        line: Line,
         brain: Kernel,
         slow: float,
         fired: Counter[str],
         sent: Callable[[str], object],
     ) -> None:
-        super().__init__(gateway, None)
-        self._real, self._world, self._brain = link, gateway.kernel, brain
+        super().__init__()
+        self._line, self._world, self._brain = line, line.gateway.kernel, brain
         self._slow, self._fired, self._sent = slow, fired, sent
         self.alive = True
+        self._flights: set[int] = set()
+        line.hear = self._told
 
-    def fly(self, job: Job, report: Report) -> None:
-        """Give a drone its job."""
-        self._sent(job.id)
-        self._send(partial(self._real.fly, job, partial(self._told, report)))
+    def telemetry(self, drone: str) -> Telemetry:
+        """Return a drone's telemetry."""
+        return self._line.telemetry(drone)
 
-    def break_off(self, drone: str) -> None:
-        """Stop what a drone does."""
-        self._send(partial(self._real.break_off, drone))
+    def moves(self, drone: str) -> bool:
+        """Return whether a drone is carrying out a command."""
+        return self._line.moves(drone)
 
-    def attach(self, id: str, report: Report) -> None:
-        """Register for the report of an earlier job."""
-        self._send(partial(self._real.attach, id, partial(self._told, report)))
+    def send(self, order: Order) -> None:
+        """Give an order."""
+        if order["do"] in ("fly", "attach"):
+            self._flights.add(order["id"])
+        if order["do"] == "fly":
+            self._sent(order["flight"])
+        self._pass(partial(self._line.send, order))
 
-    def forget(self, id: str) -> None:
-        """Forget a job."""
-        self._send(partial(self._real.forget, id))
-
-    def hold(self, drone: str) -> Coroutine[Any, Any, None]:
-        """Hover."""
-        return self._far(partial(self._real.hold, drone))
-
-    def read(self, drone: str, name: str) -> Coroutine[Any, Any, float]:
-        """Return a sensor or variable of a drone."""
-        return self._far(partial(self._real.read, drone, name))
-
-    def write(self, drone: str, name: str, value: float) -> Coroutine[Any, Any, None]:
-        """Set a parameter of a drone."""
-        return self._far(partial(self._real.write, drone, name, value))
-
-    def mended(self, drone: str) -> None:
-        """Called when a lost drone has been repaired."""
-        self._send(partial(self._real.mended, drone))
-
-    def home(self, drone: str) -> Coroutine[Any, Any, None]:
-        """Fly to its dock, and land there."""
-        return self._far(partial(self._real.home, drone))
-
-    def land(self, drone: str) -> Coroutine[Any, Any, None]:
-        """Land here."""
-        return self._far(partial(self._real.land, drone))
-
-    def recover(self, drone: str) -> Coroutine[Any, Any, bool]:
-        """Bring a drone home after a failed flight."""
-        return self._far(partial(self._real.recover, drone))
-
-    def drone_report(self, drone: str) -> Coroutine[Any, Any, DroneReport]:
-        """Ask a drone where it is and what it has done."""
-        return self._far(partial(self._real.drone_report, drone))
-
-    def fleet_report(self) -> Coroutine[Any, Any, FleetReport]:
-        """Query all drones and the ledger."""
-        return self._far(partial(self._real.fleet_report))
-
-    def bring_down(self, how: Down) -> Coroutine[Any, Any, None]:
-        """Bring all drones down."""
-        return self._far(partial(self._real.bring_down, how))
-
-    async def _far(self, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
-        """Run a command in the world, independently of the brain, and await its result.
-
-        Messages are delayed; a task that is cancelled here is cancelled there.
-        """
-        over: Future[T] = Future()
-        under_way: list[Task[T]] = []
-
-        def begin() -> None:
-            task = self._world.spawn(command(), FLEET, "a command from afar")
-            under_way.append(task)
-            task.over = end
-
-        def end(task: Task[T]) -> None:
-            self._send(partial(self._brain.post, _settle, over, task))
-
-        def call_off() -> None:
-            for task in under_way:
-                task.cancel()
-
-        self._send(begin)
-        try:
-            return await over
-        except Cancelled:
-            self._send(call_off)
-            raise
-
-    def _send(self, message: Callable[[], object]) -> None:
+    def _pass(self, message: Callable[[], object]) -> None:
         if self._slow:
             self._fired["slow line"] += 1
             now = self._world.now
@@ -256,17 +188,9 @@ class UnreliableLink(Link):
         if self.alive:
             message()
 
-    def _told(self, report: Report, result: Any) -> None:
-        if isinstance(result, FlightFailed):
-            self._fired[f"flight: {result.failure.value}"] += 1
+    def _told(self, message: Message) -> None:
+        if message.get("failed") in self._flights:
+            self._fired[f"flight: {failure_of(message).failure.value}"] += 1
         if not self.alive:
             self._fired["report to nobody"] += 1
-        self._send(partial(self._brain.post, report, result))
-
-
-def _settle(over: Future[T], task: Task[T]) -> None:
-    """Deliver a command's result; a cancelled one is not awaited."""
-    if task.error is None:
-        over.set(task.result())
-    elif not isinstance(task.error, Cancelled):
-        over.fail(task.error)
+        self._pass(partial(self._brain.post, self.take, message))

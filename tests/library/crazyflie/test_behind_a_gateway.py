@@ -20,7 +20,7 @@ from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.unthreaded import in_virtual_time, the_air
 from tests.library.crazyflie.hangar import FAST, navigation
 from tests.library.drones.teams import FIELD, Asked
-from tests.library.gateway.flights import Task
+from tests.library.gateway.flights import Commander, Task
 
 pytest.importorskip("cflib")
 
@@ -48,7 +48,7 @@ async def fly(folder: Path) -> None:
     ]
     gateway = Gateway(asked.kernel, team, crafts, FIELD, apart=0.5, slack=CRAZYFLIE.slack)
     team.begin()
-    link = gateway.link(1)
+    link = Commander(gateway.link(1))
     await asked.do(link.fleet_report())
     heard: dict[str, object] = {}
     for id, (x, y, _) in HOMES.items():

@@ -16,6 +16,7 @@ from tests.kit.draws import draws
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import Flown
 from tests.library.drones.test_under_a_gateway import commanded, measuring
+from tests.library.gateway.flights import Commander
 
 COUNT = 4
 LONG = 4000.0
@@ -89,10 +90,10 @@ async def trouble(flown: Flown, gateway: Gateway, chance: Random) -> None:
                 one.reasons, one.answers = (), True
 
 
-async def flights(flown: Flown, gateway: Gateway, drone: str, chance: Random) -> None:
+async def flights(
+    flown: Flown, gateway: Gateway, commander: Commander, drone: str, chance: Random
+) -> None:
     """Fly job after job, as a brain does, and bring the drone back after each."""
-    link = gateway.commander
-    assert link is not None
     for number in range(3):
         target = chance.uniform(1, 5), chance.uniform(2, 9), 1.2
         heard: asyncio.Future[object] = asyncio.get_running_loop().create_future()
@@ -102,7 +103,7 @@ async def flights(flown: Flown, gateway: Gateway, drone: str, chance: Random) ->
 
         job = measuring(drone, target)
         job.id = f"{job.id}/{number}"
-        flown.kernel.post(link.fly, job, report)
+        flown.kernel.post(commander.fly, job, report)
 
         def over(heard: asyncio.Future[object] = heard) -> bool:
             return heard.done() or not gateway.jobs.is_flown_by(drone)  # if it was broken off
@@ -118,11 +119,12 @@ async def test_everything_ends_and_all_that_can_land_has_landed(tmp_path: Path, 
     """Three flights of each of four drones, with something going wrong every fifteen seconds."""
     chance = Random(f"chaos/{seed}")
     async with commanded(tmp_path, COUNT) as (flown, gateway):
-        await flown.do(gateway.link(1).fleet_report())
+        commander = Commander(gateway.link(1))
+        await flown.do(commander.fleet_report())
         worse = asyncio.ensure_future(trouble(flown, gateway, chance))
         async with asyncio.timeout(3 * LONG):
             await asyncio.gather(
-                *(flights(flown, gateway, drone, chance) for drone in flown.drones)
+                *(flights(flown, gateway, commander, drone, chance) for drone in flown.drones)
             )
         if chance.random() < 0.5:
             how = chance.choice(list(Down))

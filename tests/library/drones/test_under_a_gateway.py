@@ -21,7 +21,7 @@ from pluto_fleet.shared.time.future import Future
 from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying
-from tests.library.gateway.flights import Task
+from tests.library.gateway.flights import Commander, Task
 from tests.library.gateway.processes import settings
 
 PATIENCE = 6.0
@@ -62,7 +62,7 @@ def measuring(drone: str, there: Point) -> Task:
 async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_path: Path) -> None:
     """When it is back, and still not commanded, it lands, too."""
     async with commanded(tmp_path, 3, PATIENCE) as (flown, gateway):
-        link, lost = gateway.link(1), flown.drones["cf2"]
+        link, lost = Commander(gateway.link(1)), flown.drones["cf2"]
         await flown.do(link.fleet_report())
         for id in flown.drones:
             link.heartbeat()
@@ -81,7 +81,8 @@ async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_pat
 async def test_while_the_gateway_is_held_up_its_brain_is_not_silent(tmp_path: Path) -> None:
     """What it said meanwhile is still to be read; a brain that says nothing after that is silent."""
     async with commanded(tmp_path, 1, PATIENCE) as (flown, gateway):
-        link, drone = gateway.link(1), flown.drones["cf1"]
+        line, drone = gateway.link(1), flown.drones["cf1"]
+        link = Commander(line)
         await flown.do(link.fleet_report())
         link.heartbeat()
         await flown.do(flown.team.takeoff("cf1", 1.2))
@@ -89,9 +90,9 @@ async def test_while_the_gateway_is_held_up_its_brain_is_not_silent(tmp_path: Pa
         held_up = PATIENCE + 1.0
         the_loop().call_later(1.0, the_loop().advance, held_up)
         await asyncio.sleep(1.0 + held_up + 0.1)
-        assert gateway.is_commanded_by(link)
+        assert gateway.is_commanded_by(line)
         link.heartbeat()
-        seconds = await flown.until(lambda: not gateway.is_commanded_by(link))
+        seconds = await flown.until(lambda: not gateway.is_commanded_by(line))
         assert seconds == pytest.approx(PATIENCE, abs=0.2)
         await flown.until(lambda: not drone.motors)
 

@@ -18,10 +18,10 @@ from typing import Any, TypeVar
 
 import pluto_fleet
 from pluto_fleet.gateway.process import LOCK, NOTE, run
-from pluto_fleet.gateway.remote import RemoteLink
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.gateway.wire import MAX_REPORT
+from pluto_fleet.jobs.link import Link
 from pluto_fleet.process import ipc
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
@@ -31,7 +31,7 @@ from pluto_fleet.shared.time.kernel import FLEET
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.world_store import DEEDS
 from tests.kit import drones
-from tests.library.gateway.flights import SCOUT, Task
+from tests.library.gateway.flights import SCOUT, Commander, Task
 
 T = TypeVar("T")
 
@@ -71,13 +71,13 @@ class Brain:
         self.kernel, self.folder, self._settings = kernel, folder, settings(**other)
         self.lost: Future[None] = Future()
         self.epoch = 0
-        self.links: list[RemoteLink] = []
+        self.links: list[Link] = []
 
     def pass_at(self, speed: float) -> None:
         """Let the next link ask for another speed of time."""
         self._settings = replace(self._settings, speed=speed)
 
-    async def linked(self) -> RemoteLink:
+    async def linked(self) -> Commander:
         """Link to the gateway; start one if there is none."""
         self.epoch += 1
         self.lost = lost = Future[None]()
@@ -85,13 +85,13 @@ class Brain:
             self.folder, self._settings, self.kernel, self.epoch, lambda: lost.set(None), COMMAND
         )
         self.links.append(link)
-        return link
+        return Commander(link)
 
     async def told(self, ask: Coroutine[Any, Any, T]) -> T:
         """Run what waits for an answer on the kernel, and return the answer."""
         return await self.kernel.run(self.kernel.spawn(ask, FLEET, "the brain"))
 
-    async def flown(self, link: RemoteLink, job: Task) -> object:
+    async def flown(self, link: Commander, job: Task) -> object:
         ended: Future[object] = Future()
         self.kernel.post(link.fly, job, ended.set)
         return await self.kernel.run(ended)
@@ -107,7 +107,7 @@ class InsideBrain(Brain):
 
     gateway: asyncio.Task[None] | None = None
 
-    async def linked(self) -> RemoteLink:
+    async def linked(self) -> Commander:
         await self.begins()
         return await super().linked()
 

@@ -24,7 +24,7 @@ def cut(field: Field, drone: str = "cf1") -> str:
 def test_a_drone_whose_motors_are_cut_falls_and_its_flight_fails() -> None:
     """At once, as a crash; another drone notices nothing."""
     field, heard, other = Field(), list[object](), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), heard.append)
     link.fly(Task(id="North field/B/0/1", drone="cf2", action="measure", item=None), other.append)
     field.advance(10)
@@ -43,18 +43,18 @@ def test_a_drone_whose_motors_are_cut_falls_and_its_flight_fails() -> None:
 def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> None:
     """Neither a flight nor a command, nor a Stop that brings all home; then it flies again."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     cut(field)
     link.fly(Task(), heard.append)
     field.advance(1)
     assert isinstance(heard[0], FlightFailed)
     assert str(heard[0]) == "cf1's motors were cut"
-    for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE), link.land("cf1")):
+    for command in (link.home("cf1"), link.land("cf1"), link.hold("cf1")):
         assert failure(field.kernel, command).failure is Failure.CRASH
     assert fly(field.kernel, link.recover("cf1")) is False
     fly(field.kernel, link.bring_down(Down.HOME))
     assert field.navigation.flown("cf1") == 0.0
-    link = field.gateway.link(2)
+    link = field.link(2)
     link.mended("cf1")
     assert fly(field.kernel, link.recover("cf1")) is True
     link.fly(Task(id="North field/A/0/2"), heard.append)
@@ -65,7 +65,7 @@ def test_nothing_turns_its_motors_on_before_a_person_has_looked_after_it() -> No
 def test_one_whose_motors_are_cut_on_its_way_home_is_lost_at_once() -> None:
     """It is not waited for until it was carried home: it is for a person to say that it is well."""
     field = Field()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(action=None), lambda _: None)
     field.advance(100)
     recovery = field.kernel.spawn(link.recover("cf1"), FLEET, "a recovery")
@@ -82,7 +82,7 @@ def test_one_whose_motors_are_cut_is_told_nothing_when_its_flight_is_broken_off(
     """To hover is a command too, and would turn its motors on."""
     field, told = Field(), list[str]()
     monkeypatch.setattr(type(field.navigation), "break_off", lambda _, drone: told.append(drone))
-    link = field.gateway.link(1)
+    link = field.link(1)
     cut(field, "cf1")
     for drone in ("cf1", "cf2"):
         link.break_off(drone)
@@ -115,16 +115,16 @@ def test_another_gateway_knows_whose_motors_were_cut(tmp_path: Path) -> None:
     cut(field)
     field.is_killed()
     assert field.problems(1) == ("cf1's motors were cut",)
-    link = field.gateway.link(2)
+    link = field.link(2)
     fly(field.kernel, link.fleet_report())
-    for command in (link.takeoff("cf1", 1.2), link.go_to("cf1", THERE)):
+    for command in (link.home("cf1"), link.land("cf1")):
         assert failure(field.kernel, command).failure is Failure.CRASH
     assert fly(field.kernel, link.recover("cf1")) is False
     assert fly(field.kernel, link.recover("cf2")) is True
     link.mended("cf1")
     field.is_killed()
     assert field.problems(3) == ()
-    field.gateway.link(4).fly(Task(), heard.append)
+    field.link(4).fly(Task(), heard.append)
     field.advance(100)
     assert field.navigation.flown("cf1") > 0
     field.kernel.close()
@@ -140,15 +140,15 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
         there.close()
         on_record.append(list(there.cut))
 
-    link = field.gateway.link(1)
-    fly(field.kernel, link.takeoff("cf1", 1.2))
+    link = field.link(1)
+    fly(field.kernel, link.goes("cf1", THERE))
     with monkeypatch.context() as patch:
         patch.setattr(type(field.navigation), "cut", killed)
         cut(field)
     assert on_record == [["cf1"]]
     field.is_killed()
     assert field.problems(2) == ()
-    link = field.gateway.link(3)
+    link = field.link(3)
     fly(field.kernel, link.bring_down(Down.LAND))
     assert field.navigation.bodies["cf1"].landed
     assert field.problems(4) == ("cf1's motors were cut",)
@@ -170,7 +170,7 @@ def test_who_could_not_be_told_is_as_before(
     assert cut(field, "cf2") == "cf2 cannot be reached"
     for epoch in (1, 2):
         assert field.problems(epoch) == ("cf1's motors were cut",)
-        link = field.gateway.link(epoch)
+        link = field.link(epoch)
         fly(field.kernel, link.fleet_report())
         assert fly(field.kernel, link.recover("cf2")) is True
         field.is_killed()
@@ -189,7 +189,7 @@ def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_
         raise FlightFailed(Failure.LINK, f"{drone} cannot be reached")
 
     field = Kept(tmp_path)
-    fly(field.kernel, field.gateway.link(1).takeoff("cf1", 1.2))
+    fly(field.kernel, field.link(1).goes("cf1", THERE))
     with monkeypatch.context() as patch:
         patch.setattr(type(field.navigation), "cut", killed)
         cut(field)
@@ -197,7 +197,7 @@ def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_
         patch.setattr(type(field.navigation), "cut", unreachable)
         assert cut(field) == "cf1 cannot be reached"
     assert field.problems(2) == ()
-    fly(field.kernel, field.gateway.link(3).bring_down(Down.LAND))
+    fly(field.kernel, field.link(3).bring_down(Down.LAND))
     assert field.navigation.bodies["cf1"].landed
     field.kernel.close()
 
@@ -212,8 +212,8 @@ def test_a_full_disk_keeps_no_motors_on(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(type(field.ledger), "write_cut", full)
     monkeypatch.setattr(type(field.ledger), "make_sure", full)
     assert cut(field) == ""
-    link = field.gateway.link(1)
-    assert str(failure(field.kernel, link.takeoff("cf1", 1.2))) == "cf1's motors were cut"
+    link = field.link(1)
+    assert str(failure(field.kernel, link.home("cf1"))) == "cf1's motors were cut"
     link.mended("cf1")
     assert fly(field.kernel, link.recover("cf1")) is True
 

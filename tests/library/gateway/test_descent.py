@@ -18,7 +18,7 @@ APART = 0.5
 
 def brought_down(field: Field, how: Down) -> None:
     """Ask the brain's own link to bring everything down, and wait until it is."""
-    fly(field.kernel, field.gateway.link(9).bring_down(how))
+    fly(field.kernel, field.link(9).bring_down(how))
 
 
 def all_landed(field: Field) -> bool:
@@ -29,21 +29,21 @@ def all_landed(field: Field) -> bool:
 def test_landing_breaks_off_every_flight(apart: float) -> None:
     """Jobs whose action has not begun may be flown again; nothing is reported of them."""
     field, heard = Field(apart=apart), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), heard.append)
-    field.kernel.spawn(link.takeoff("cf2", 1.2), FLEET, "an errand")
+    field.kernel.spawn(link.goes("cf2", (2.0, 1.0, 1.2)), FLEET, "an errand")
     field.advance(3)
     brought_down(field, Down.LAND)
     assert (all_landed(field), heard) == (True, [])
     assert field.kernel.now == pytest.approx(6)  # up for three seconds, and down
-    fleet_report = fly(field.kernel, field.gateway.link(10).fleet_report())
+    fleet_report = fly(field.kernel, field.link(10).fleet_report())
     assert fleet_report.jobs[Task().id].state is JobState.BROKEN_OFF
 
 
 def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
     """What a brain still says in the same breath would send drones up again."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), heard.append)
     field.advance(5)
     field.kernel.spawn(link.bring_down(Down.LAND), FLEET, "stop")
@@ -60,7 +60,7 @@ def test_the_link_is_not_heard_from_then_on_until_the_roll_is_called() -> None:
 def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
     """With what it carries; one with too little in its battery, or crashed, stays where it is."""
     field = Field()
-    link = field.gateway.link(1)
+    link = field.link(1)
     for place, drone in enumerate(field.drones):
         stops = ((4.0 + place, 5.0, 1.2),)
         link.fly(Task(id=drone.id, drone=drone.id, stops=stops), lambda _: None)
@@ -79,7 +79,7 @@ def test_who_stands_elsewhere_goes_home_too_if_it_can() -> None:
 def test_landing_is_more_urgent_than_going_home() -> None:
     """Asked for while the drones fly home, it is done; the other way round, nothing changes."""
     field = Field()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(stops=((15, 10, 1.2),)), lambda _: None)
     field.advance(30)
     field.kernel.spawn(link.bring_down(Down.HOME), FLEET, "home")
@@ -94,12 +94,12 @@ def test_landing_is_more_urgent_than_going_home() -> None:
 def test_it_goes_on_without_the_brain() -> None:
     """Another brain waits for its end before it commands."""
     field = Field()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), lambda _: None)
     field.advance(12)
     field.kernel.spawn(link.bring_down(Down.HOME), FLEET, "stop")
     field.advance(1)
-    new = field.gateway.link(2)
+    new = field.link(2)
     new.fly(Task(id="too early", drone="cf2"), lambda _: None)
     fleet_report = fly(field.kernel, new.fleet_report())
     assert all(report.landed for report in fleet_report.drones.values())
@@ -109,7 +109,7 @@ def test_it_goes_on_without_the_brain() -> None:
 def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
     """Of two above one another the higher moves aside; one over a no-fly area leaves it."""
     field = Field(airspace=Airspace(no_fly=(((9, 9), (11, 9), (11, 11), (9, 11)),)))
-    link = field.gateway.link(1)
+    link = field.link(1)
     for drone, height in (("cf1", 1.2), ("cf2", 1.8), ("cf3", 2.4)):
         stops = ((5.0, 5.0, height),)
         link.fly(Task(id=drone, drone=drone, stops=stops, action=None), lambda _: None)
@@ -127,10 +127,10 @@ def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
 def test_without_a_heartbeat_everything_lands_and_the_brain_is_cut_off() -> None:
     """Only when something flies; a brain that is heard of is left alone."""
     field, lost = Field(patience=3), list[str]()
-    field.gateway.link(1, lambda: lost.append("idle"))
+    field.link(1, lambda: lost.append("idle"))
     field.advance(100)
     assert lost == []
-    link = field.gateway.link(2, lambda: lost.append("silent"))
+    link = field.link(2, lambda: lost.append("silent"))
     field.advance(0)
     link.fly(Task(stops=((18, 18, 1.2),)), lambda _: None)
     for _ in range(10):
@@ -149,7 +149,7 @@ def test_without_a_heartbeat_everything_lands_and_the_brain_is_cut_off() -> None
 def test_a_gateway_that_no_brain_ever_finds_lands_everything_too() -> None:
     """It was started again after a crash, over drones that hover."""
     field = Field(patience=3)
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(2)
     field.gateway.crash()
     field.another()
@@ -160,7 +160,7 @@ def test_a_gateway_that_no_brain_ever_finds_lands_everything_too() -> None:
 def test_a_gateway_that_was_killed_lands_nothing() -> None:
     """Its drones hover until another takes over: what was to be looked at later is not done by a dead one."""
     field = Field(patience=3)
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(5)
     field.gateway.crash()
     field.advance(20)

@@ -11,11 +11,11 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.gateway.flights import PILLS, THERE, Field, Task
-from tests.library.simulation.flights import failure, fly
+from tests.library.simulation.flights import fly
 
 
 def called(field: Field) -> FleetReport:
-    return fly(field.kernel, field.gateway.link(99).fleet_report())
+    return fly(field.kernel, field.link(99).fleet_report())
 
 
 def states(fleet_report: FleetReport) -> dict[str, JobState]:
@@ -25,23 +25,23 @@ def states(fleet_report: FleetReport) -> dict[str, JobState]:
 def test_what_was_done_is_not_done_again_but_reported_again() -> None:
     """A brain that gives the same job hears what came of it then; never from within the call."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(action="measure", item=None), heard.append)
     field.advance(100)
-    link = field.gateway.link(2)
-    link.fly(again := Task(action="measure", item=None, drone="cf2"), heard.append)
+    link = field.link(2)
+    link.fly(Task(action="measure", item=None, drone="cf2"), heard.append)
     assert len(heard) == 1
     field.advance(0)
     assert heard[0] == heard[1]
-    assert (again.begun, field.navigation.flown("cf2")) == (0, 0)
+    assert (field.deeds, field.navigation.flown("cf2")) == ([Task().id], 0)
 
 
 def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
     """The brain that comes after it attaches, and hears the end; the old one hears nothing."""
     field, old, new = Field(), list[object](), list[object]()
-    field.gateway.link(1).fly(Task(), old.append)
+    field.link(1).fly(Task(), old.append)
     field.advance(10)
-    link = field.gateway.link(2)
+    link = field.link(2)
     fleet_report = fly(field.kernel, link.fleet_report())
     assert states(fleet_report) == {Task().id: JobState.FLYING}
     assert not fleet_report.drones["cf1"].landed
@@ -53,9 +53,9 @@ def test_a_job_under_way_outlives_the_brain_that_gave_it() -> None:
 def test_an_end_that_was_not_heard_is_told_to_the_next_who_attaches() -> None:
     """Failures too, with their reason."""
     field, heard = Field(faults=Faults(action=1)), list[object]()
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(1)
-    link = field.gateway.link(2)
+    link = field.link(2)
     field.advance(100)
     link.attach(Task().id, heard.append)
     link.attach("unknown", heard.append)
@@ -71,36 +71,32 @@ def test_an_end_that_was_not_heard_is_told_to_the_next_who_attaches() -> None:
 def test_an_older_brain_commands_nothing() -> None:
     """It is told so, once; and what it gives in between is not flown."""
     field, lost = Field(), list[str]()
-    old = field.gateway.link(1, lambda: lost.append("old"))
-    new = field.gateway.link(2, lambda: lost.append("new"))
+    old = field.link(1, lambda: lost.append("old"))
+    new = field.link(2, lambda: lost.append("new"))
     assert lost == []
     old.fly(Task(), lambda _: None)
     old.forget("anything")
-    field.kernel.spawn(old.takeoff("cf2", 1.2), FLEET, "the old brain")
+    field.kernel.spawn(old.home("cf2"), FLEET, "the old brain")
     field.kernel.spawn(old.bring_down(Down.LAND), FLEET, "the old brain")
     field.kernel.spawn(old.fleet_report(), FLEET, "the old brain")
     field.advance(100)
     assert lost == ["old"]
     assert [field.navigation.flown(f"cf{number}") for number in (1, 2, 3)] == [0, 0, 0]
     with pytest.raises(BadInput, match="another run of this app has taken over"):
-        field.gateway.link(1)
+        field.link(1)
     new.fly(Task(), lambda _: None)
     field.advance(100)
-    assert field.navigation.carrying("cf1") is PILLS
+    assert field.navigation.carrying("cf1") == PILLS
 
 
 def test_what_a_drone_did_for_an_older_brain_is_broken_off() -> None:
     """It hovers, and the new brain may send it elsewhere; the old one hears no failure."""
     field = Field()
-    old = field.gateway.link(1)
-
-    async def return_home() -> None:
-        await old.takeoff("cf1", 1.2)
-        await old.go_to("cf1", THERE)
-
-    errand = field.kernel.spawn(return_home(), FLEET, "an errand")
-    field.advance(9)
-    new = field.gateway.link(2)
+    old = field.link(1)
+    fly(field.kernel, old.goes("cf1", THERE))
+    errand = field.kernel.spawn(old.home("cf1"), FLEET, "an errand")
+    field.advance(5)
+    new = field.link(2)
     fly(field.kernel, new.land("cf1"))
     telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.landed
@@ -111,7 +107,7 @@ def test_what_a_drone_did_for_an_older_brain_is_broken_off() -> None:
 def test_a_gateway_that_crashes_leaves_the_drones_hovering_and_the_ledger() -> None:
     """What had not begun is flown anew; what was done is known; the brain hears of the crash."""
     field, lost, heard = Field(), list[str](), list[object]()
-    link = field.gateway.link(1, lambda: lost.append("gateway"))
+    link = field.link(1, lambda: lost.append("gateway"))
     link.fly(Task(), heard.append)
     link.fly(Task(id="far", drone="cf2", stops=((18, 18, 1.2),)), heard.append)
     field.advance(20)
@@ -122,7 +118,7 @@ def test_a_gateway_that_crashes_leaves_the_drones_hovering_and_the_ledger() -> N
     field.another()
     assert states(called(field)) == {Task().id: JobState.DONE}
     assert not field.navigation.telemetry["cf2"].landed
-    link = field.gateway.link(99)
+    link = field.link(99)
     link.fly(Task(id="far", drone="cf2", stops=((18, 18, 1.2),)), heard.append)
     field.advance(100)
     assert heard == [None, None]
@@ -134,34 +130,34 @@ def test_a_gateway_that_crashes_leaves_the_drones_hovering_and_the_ledger() -> N
 def test_an_action_that_had_begun_is_settled_by_its_drone(rebooted: bool, state: JobState) -> None:
     """If it remembers all since then, it was not done; if it was switched off, that is not known."""
     field, heard = Field(), list[object]()
-    field.gateway.link(1).fly(Task(), heard.append)
+    field.link(1).fly(Task(), heard.append)
     field.advance(15)
     field.gateway.crash()
     if rebooted:
         field.navigation.reboot("cf1")
     field.another()
     assert states(called(field)) == {Task().id: state}
-    field.gateway.link(99).fly(job := Task(), heard.append)
+    field.link(99).fly(job := Task(), heard.append)
     field.advance(100)
     if rebooted:
         (error,) = heard
         assert isinstance(error, FlightFailed)
         assert error.failure is Failure.UNKNOWN
-        assert job.begun == 0
-        link = field.gateway.link(99)
+        assert field.deeds == []
+        link = field.link(99)
         link.forget(job.id)  # a person has decided
         assert fly(field.kernel, link.recover("cf1"))
         link.fly(job, heard.append)
         field.advance(100)
-        assert job.begun == 1
+        assert field.deeds == [job.id]
     else:
-        assert (heard, job.begun) == ([None], 1)
+        assert (heard, field.deeds) == ([None], [job.id])
 
 
 def test_a_drone_that_did_it_says_so_even_if_the_ledger_does_not() -> None:
     """The gateway died between the deed and its own note of it."""
     field = Field()
-    field.gateway.link(1).fly(Task(action="measure", item=None), lambda _: None)
+    field.link(1).fly(Task(action="measure", item=None), lambda _: None)
     field.advance(14.5)
     field.navigation.bodies["cf1"].done[Task().id] = 21.5
     field.gateway.crash()
@@ -174,7 +170,7 @@ def test_a_drone_that_did_it_says_so_even_if_the_ledger_does_not() -> None:
 def test_a_job_broken_off_before_its_action_may_fly_again() -> None:
     """Also one that only hovers, for an action of the app's own."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), heard.append)
     link.fly(Task(id="own", drone="cf2", action=None, item=None), heard.append)
     field.advance(12)
@@ -182,12 +178,12 @@ def test_a_job_broken_off_before_its_action_may_fly_again() -> None:
     link.break_off("cf2")
     assert heard == []
     assert states(called(field)) == dict.fromkeys((Task().id, "own"), JobState.BROKEN_OFF)
-    link = field.gateway.link(99)
+    link = field.link(99)
     link.fly(Task(id="own", drone="cf2", action=None, item=None), heard.append)
     field.advance(100)
     assert heard == [None]
     assert states(called(field))["own"] is JobState.DONE
-    field.gateway.link(99).break_off("cf2")
+    field.link(99).break_off("cf2")
     assert states(called(field))["own"] is JobState.BROKEN_OFF
 
 
@@ -203,21 +199,19 @@ def test_no_drone_is_sent_where_it_may_not_be(
 ) -> None:
     """Against what the brain believes; and it does not move."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(stops=(THERE, stop)), heard.append)
     field.advance(100)
     (error,) = heard
     assert isinstance(error, FlightFailed)
     assert (error.failure, str(error)) == (Failure.REFUSED, reason)
     assert field.navigation.flown("cf1") == 0
-    assert str(failure(field.kernel, link.go_to("cf1", stop))) == reason
-    assert failure(field.kernel, link.takeoff("cf1", 10.5)).failure is Failure.REFUSED
 
 
 def test_a_drone_that_flies_gets_no_second_job() -> None:
     """Its brain is told for whom it flies."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), lambda _: None)
     link.fly(Task(id="another"), heard.append)
     field.advance(0)
@@ -227,14 +221,15 @@ def test_a_drone_that_flies_gets_no_second_job() -> None:
 def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
     """It is the brain's, and no failed flight."""
     field = Field()
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), lambda _: None)
     with pytest.raises(Busy, match="cf1 was told to do something while it does something else"):
         fly(field.kernel, link.land("cf1"))
     field.kernel.close()
     field = Field()
-    link = field.gateway.link(1)
-    field.kernel.spawn(link.takeoff("cf1", 1.2), FLEET, "an errand")
+    link = field.link(1)
+    fly(field.kernel, link.goes("cf1", THERE))
+    field.kernel.spawn(link.home("cf1"), FLEET, "an errand")
     field.advance(1)
     with pytest.raises(Busy, match="cf1 was told to fly while it does something for itself"):
         link.fly(Task(), lambda _: None)
@@ -244,7 +239,7 @@ def test_who_tells_a_drone_two_things_at_once_is_told_of_the_mistake() -> None:
 def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None:
     """Its job, to be there for an action of the app's own, is open again; holding is no leaving."""
     field, heard = Field(), list[object]()
-    link = field.gateway.link(1)
+    link = field.link(1)
     job = Task(action=None, item=None)
     link.fly(job, heard.append)
     field.advance(20)
@@ -263,13 +258,15 @@ def test_a_drone_that_was_sent_elsewhere_does_not_hover_there_any_more() -> None
 def test_a_client_that_is_cut_off_hears_no_answer() -> None:
     """Neither what it is nor that it failed: silence is all that a lost link gives."""
     field = Field()
-    old = field.gateway.link(1)
+    old = field.link(1)
     old.fly(Task(action=None), lambda _: None)
     field.advance(100)
-    asked = field.kernel.spawn(old.read("cf1", "range.front"), FLEET, "asked in time")
+    reads = old.ask("read", "cf1", name="range.front")
+    asked = field.kernel.spawn(reads, FLEET, "asked in time")
     field.advance(0)
-    field.gateway.link(2)
-    late = field.kernel.spawn(old.write("cf1", "range.front", 1.0), FLEET, "asked too late")
+    field.link(2)
+    writes = old.ask("write", "cf1", name="range.front", value=1.0)
+    late = field.kernel.spawn(writes, FLEET, "asked too late")
     report = field.kernel.spawn(old.drone_report("cf1"), FLEET, "asked too late as well")
     field.advance(100)
     assert asked.is_set
@@ -282,10 +279,10 @@ def test_a_late_report_is_not_told_to_a_brain_that_is_gone() -> None:
     """It is of another life."""
     field, heard = Field(), list[object]()
     field.gateway.line = line = LossyLine(field.gateway, lambda: 5.0)
-    field.gateway.link(1).fly(Task(), heard.append)
+    field.link(1).fly(Task(), heard.append)
     field.advance(17)
     assert (line.late, heard) == (1, [])
-    field.gateway.link(2)
+    field.link(2)
     field.advance(100)
     assert heard == []
 
@@ -301,7 +298,7 @@ def test_a_drone_that_cannot_fly_home_is_back_once_it_was_carried_there(
 
     field, heard = Field(), list[object]()
     monkeypatch.setattr(type(field.navigation), "fetched", fetched)
-    link = field.gateway.link(1)
+    link = field.link(1)
     link.fly(Task(), heard.append)
     field.advance(5)
     field.navigation.strike("cf1", Failure.BATTERY)
@@ -312,5 +309,5 @@ def test_a_drone_that_cannot_fly_home_is_back_once_it_was_carried_there(
 
 def test_a_mishap_is_refused_where_drones_are_real() -> None:
     field = Field()
-    why = fly(field.kernel, field.gateway.link(1).mishap("cf1", "crash", None))
+    why = fly(field.kernel, field.link(1).ask("mishap", "cf1", kind="crash", job=None))
     assert why == "mishaps happen to simulated drones only"

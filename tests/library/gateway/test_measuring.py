@@ -6,22 +6,20 @@ from collections.abc import Sequence
 
 import pytest
 
-from pluto_fleet.gateway.gateway import Link
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.shared.domain.errors import Failure
-from tests.library.gateway.flights import THERE, Field, Task
+from tests.library.gateway.flights import THERE, Commander, Field, Task
 from tests.library.simulation.flights import failure, fly
 
 HOME = [1, 1, 0.0]
 ABOVE = [1, 1, 1.2]
 
 
-def measured() -> tuple[Field, Link, list[Flown]]:
+def measured() -> tuple[Field, Commander, list[Flown]]:
     """Return drones whose commands are measured, their link, and the list of what is told."""
-    field, told = Field(measures=True), list[Flown]()
-    link = field.gateway.link(1)
-    link.on_flown(told.append)
-    return field, link, told
+    field = Field(measures=True)
+    link = field.link(1)
+    return field, link, link.flown
 
 
 def facts(told: Sequence[Flown], *names: str) -> list[tuple[object, ...]]:
@@ -62,7 +60,7 @@ def test_what_is_broken_off_or_fails_is_told_as_that() -> None:
 
 def test_a_command_that_moves_nothing_is_no_measurement() -> None:
     field, link, told = measured()
-    assert failure(field.kernel, link.go_to("cf1", THERE)).failure is Failure.REFUSED
+    assert failure(field.kernel, link.hold("cf1")).failure is Failure.REFUSED
     fly(field.kernel, link.land("cf1"))
     assert told == []
 
@@ -71,9 +69,9 @@ def test_only_the_brain_in_command_is_told_and_it_need_not_listen() -> None:
     field, old, told = measured()
     old.fly(Task(), lambda _: None)
     field.advance(5)
-    new, later = field.gateway.link(2), list[Flown]()
+    new = field.gateway.link(2)
     field.advance(10)
-    new.on_flown(later.append)
+    later = Commander(new).flown
     field.advance(100)
     assert [one["what"] for one in told] == ["take_off"]
     assert [one["what"] for one in later] == ["action"]

@@ -22,14 +22,13 @@ from pluto_fleet.gateway.starting import (
     still_runs,
     stop_directly,
 )
-from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET
-from tests.library.gateway.flights import SCOUT, THERE, Field, Task
+from tests.library.gateway.flights import SCOUT, THERE, Commander, Field, Task
 from tests.library.gateway.processes import (
     SPEED,
     Brain,
@@ -45,7 +44,7 @@ FAR = (18.0, 18.0, 1.2)
 PICK = ("cf1", "pick_item", Task().id)
 
 
-async def sent_far(brain: Brain, drone: str = "cf1") -> remote.RemoteLink:
+async def sent_far(brain: Brain, drone: str = "cf1") -> Commander:
     """Link, send a drone far away, and return the link when it is on its way."""
     link = await brain.linked()
     brain.kernel.post(link.fly, Task(id=drone, drone=drone, stops=(FAR,)), lambda _: None)
@@ -62,11 +61,7 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
 
     async def play(brain: InsideBrain) -> None:
         link = await brain.linked()
-        flown: list[Flown] = []
-        link.on_flown(flown.append)
-        job = Task()
-        assert await brain.flown(link, job) is None
-        assert job.begun == 1
+        assert await brain.flown(link, Task()) is None
         assert link.telemetry("cf1").location == pytest.approx(THERE)
         assert not link.telemetry("cf1").landed
         photo = await brain.flown(link, Task(id="photo", action="take_photo", item=None))
@@ -77,9 +72,9 @@ def test_a_job_is_flown_through_it(tmp_path: Path) -> None:
         assert report.drones["cf1"].carrying == "pills"
         await brain.told(link.land("cf1"))
         whats = ["take_off", "leg", "action", "leg", "action", "land"]
-        assert [one["what"] for one in flown] == whats  # each before what follows from it
+        assert [one["what"] for one in link.flown] == whats  # each before what follows from it
         assert link.telemetry("cf1").landed
-        await link.goodbye()
+        await link.link.goodbye()
         assert not brain.lost.is_set
         await brain.until(lambda: not brain.gateway_runs)
 
@@ -94,11 +89,11 @@ def test_a_drone_behind_a_socket_keeps_what_it_is_set_to(tmp_path: Path) -> None
         link = await brain.linked()
         await brain.flown(link, Task(action=None))
         hover = brain.kernel.spawn(link.hold("cf1"), FLEET, "an action")
-        await brain.told(link.write("cf1", "gripper.closed", 1.0))
-        assert await brain.told(link.read("cf1", "gripper.closed")) == 1.0
+        await brain.told(link.ask("write", "cf1", name="gripper.closed", value=1.0))
+        assert await brain.told(link.ask("read", "cf1", name="gripper.closed")) == 1.0
         assert not hover.is_set
         with pytest.raises(FlightFailed, match="it must take off first") as refused:
-            await brain.told(link.read("cf2", "gripper.closed"))
+            await brain.told(link.ask("read", "cf2", name="gripper.closed"))
         assert refused.value.failure is Failure.REFUSED
         hover.cancel()
 
@@ -110,7 +105,7 @@ def test_a_brain_that_is_gone_finds_its_job_flying_on(tmp_path: Path) -> None:
 
     async def play(brain: InsideBrain) -> None:
         link = await sent_far(brain)
-        await link.close()
+        await link.link.close()
         link = await brain.linked()
         job = (await brain.told(link.fleet_report())).jobs["cf1"]
         assert (job.state, job.flies) == (JobState.FLYING, True)
@@ -131,7 +126,7 @@ def test_a_gateway_that_lives_passes_its_time_as_the_next_brain_asks(
 
     async def play(brain: InsideBrain) -> None:
         link = await sent_far(brain)
-        await link.close()
+        await link.link.close()
         where = link.telemetry("cf1").location
         brain.pass_at(speed)
         link = await brain.linked()
@@ -151,7 +146,7 @@ def test_without_a_brain_everything_lands_and_then_it_ends(tmp_path: Path) -> No
 
     async def play(brain: InsideBrain) -> None:
         link = await sent_far(brain)
-        await link.close()
+        await link.link.close()
         await brain.until(lambda: not brain.gateway_runs)
         link = await brain.linked()
         assert link.telemetry("cf1").landed

@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.gateway.sightings import SEEN, Sightings, sightings_in
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from tests.library.gateway.flights import Field
+from tests.library.gateway.flights import THERE, Field
 
 
 def watched(folder: Path) -> tuple[Field, Sightings]:
@@ -24,9 +24,9 @@ def test_a_drone_is_said_to_be_in_the_air_before_it_leaves_the_ground(tmp_path: 
     field, seen = watched(tmp_path)
     seen.keep()
     assert sightings_in(tmp_path)["cf1"].landed
-    link = field.gateway.link(1)
+    link = field.link(1)
     field.advance(0)
-    field.kernel.spawn(link.takeoff("cf1", 1.0), 0, "cf1 rises")
+    field.kernel.spawn(link.goes("cf1", THERE), 0, "cf1 rises")
     field.advance(0)
     assert field.navigation.telemetry["cf1"].location[2] == 0
     for _ in range(2):

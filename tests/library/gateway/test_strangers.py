@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+from math import inf, nan
 from pathlib import Path
 from typing import Any
 
@@ -37,7 +38,19 @@ def message(**facts: object) -> bytes:
 
 
 LINK = message(do="link", epoch=1)
-RISE = message(do="takeoff", drone="cf1", height=1.0, n=1)
+HOME = message(do="home", drone="cf1", id=1)
+FLY = {
+    "do": "fly",
+    "id": 1,
+    "drone": "cf1",
+    "flight": "a/b/0/1",
+    "stops": [[4.0, 4.0, 1.0]],
+    "action": None,
+    "parameters": {},
+    "item": None,
+    "seconds": 0.0,
+    "beside": False,
+}
 
 
 @pytest.mark.parametrize(
@@ -48,14 +61,18 @@ RISE = message(do="takeoff", drone="cf1", height=1.0, n=1)
         ((message(do="dance"),), "this gateway does not know that message"),
         ((message(do="link", epoch="1"),), "this gateway does not know that message"),
         ((LINK, LINK), "this connection commands already"),
-        ((LINK, message(do="land", drone="x", n=1)), "there is no drone 'x'"),
-        ((LINK, message(do="land", drone=["x"], n=1)), "that message is not complete"),
-        ((LINK, message(do="land", drone="cf1")), "that message is not complete: KeyError: 'n'"),
-        ((LINK, message(do="fly", job={"id": 1})), "that message is not complete"),
-        ((LINK, message(do="takeoff", drone="cf1", height=10**400, n=1)), "is not complete"),
-        ((LINK, RISE, RISE), "too much is under way"),
-        ((LINK, message(do="down", how="up", n=1)), "that message is not complete"),
-        ((LINK, message(do="somersault", drone="cf1", n=1)), "this gateway cannot 'somersault'"),
+        ((LINK, message(do="land", drone="x", id=1)), "there is no drone 'x'"),
+        ((LINK, message(do="land", drone=["x"], id=1)), "that message is not complete"),
+        ((LINK, message(do="land", drone="cf1")), "that message is not complete: KeyError: 'id'"),
+        ((LINK, message(do="land", drone="cf1", id=[1])), "that message is not complete"),
+        ((LINK, message(do="fly", id=1)), "that message is not complete"),
+        ((LINK, message(**{**FLY, "seconds": 10**400})), "is not complete"),
+        ((LINK, message(**{**FLY, "item": {"name": "pills"}})), "is not complete"),
+        ((LINK, message(**{**FLY, "stops": [[1.0, 1.0]]})), "is not complete"),
+        ((LINK, HOME, HOME), "too much is under way"),
+        ((LINK, message(do="down", how="up", id=1)), "that message is not complete"),
+        ((LINK, message(do="takeoff", drone="cf1", height=1.0, id=1)), "cannot 'takeoff'"),
+        ((LINK, message(do="somersault", drone="cf1", id=1)), "this gateway cannot 'somersault'"),
         ((b'{"do": "' + b"x" * MAX_COMMAND + b'"}\n',), "a line was longer than"),
     ],
 )
@@ -75,15 +92,13 @@ def test_numbers_that_are_none_move_no_drone(tmp_path: Path) -> None:
         tmp_path,
         (
             LINK,
-            b'{"do": "takeoff", "drone": "cf1", "height": NaN, "n": 1}\n',
-            b'{"do": "go_to", "drone": "cf1", "target": [NaN, 1, 1], "n": 2}\n',
-            b'{"do": "go_to", "drone": "cf1", "target": [1, 1, Infinity], "n": 3}\n',
+            message(**{**FLY, "stops": [[nan, 1.0, 1.0]]}),
+            message(**{**FLY, "id": 2, "stops": [[1.0, 1.0, inf]]}),
         ),
     )
-    failed = {answer["n"]: answer["reason"] for answer in answers if "n" in answer}
-    assert failed[1] == "nan m is not between the ground and 10 m"
-    assert "is outside the map" in failed[2]
-    assert "above the ceiling" in failed[3]
+    failed = {answer["failed"]: answer["reason"] for answer in answers if "failed" in answer}
+    assert "is outside the map" in failed[1]
+    assert "above the ceiling" in failed[2]
 
 
 def test_it_is_said_when_there_is_no_gateway(tmp_path: Path) -> None:

@@ -3,27 +3,31 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 
 from hypothesis import given
 from hypothesis import settings as limited
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.settings import data_of, settings_of
-from pluto_fleet.gateway.wire import (
+from pluto_fleet.gateway.wire import order_of
+from pluto_fleet.jobs.reports import (
+    DroneReport,
+    Entry,
+    FleetReport,
+    JobState,
     fleet_report_data,
     fleet_report_of,
-    job_data,
-    job_of,
     result_data,
-    result_of,
 )
-from pluto_fleet.jobs.reports import DroneReport, Entry, FleetReport, JobState
 from pluto_fleet.process.ipc import line, message_in
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import Category, Photo
+from pluto_fleet.shared.fleet.orders import failure_of
+from pluto_fleet.shared.hooks.plain_data import value_of
 from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import settings
@@ -43,7 +47,7 @@ results = st.one_of(st.none(), st.booleans(), numbers, names, photos)
 failures = st.builds(FlightFailed, st.sampled_from(Failure), names)
 
 
-def sent(message: dict[str, object]) -> dict[str, object]:
+def sent(message: Mapping[str, object]) -> dict[str, object]:
     told = line(message)
     assert told.count(b"\n") == 1
     heard = message_in(told)
@@ -54,29 +58,24 @@ def sent(message: dict[str, object]) -> dict[str, object]:
 @given(results)
 def test_results_arrive_as_they_were(result: object) -> None:
     """Numbers to the last digit, photos with all they show."""
-    assert result_of(sent(result_data(result))) == result
+    assert value_of(sent(result_data(result))["value"]) == result
 
 
 @given(failures)
 def test_failures_arrive_as_they_were(error: FlightFailed) -> None:
     """Their kind, and every word."""
-    heard = result_of(sent(result_data(error)))
-    assert isinstance(heard, FlightFailed)
+    heard = failure_of(sent(result_data(error)))
     assert (heard.failure, str(heard)) == (error.failure, str(error))
 
 
 @given(names, st.lists(places).map(tuple), st.sampled_from([None, "measure"]), numbers)
-def test_jobs_arrive_as_they_were(
+def test_orders_arrive_as_they_were(
     id: str, stops: tuple[tuple[float, float, float], ...], action: str | None, amount: float
 ) -> None:
     """With their stops, their items and their parameters."""
     job = Task(id=id, stops=stops, action=action, parameters={"amount": amount, "what": id})
-    begun: list[str] = []
-    heard = job_of(sent(job_data(job)), begun.append)
-    assert job_data(heard) == job_data(job)
-    assert (heard.item, heard.stops) == (job.item, job.stops)
-    heard.begins()
-    assert begun == [id]
+    order = job.order(1)
+    assert order_of(sent(order), ["cf1"]) == {**order, "stops": [*stops]}
 
 
 @limited(max_examples=30)

@@ -18,7 +18,7 @@ from pluto_fleet.gateway.process import LOG
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.process import respawn
 from tests.kit.apps import compiled
-from tests.library.gateway.flights import Task
+from tests.library.gateway.flights import Commander, Task
 from tests.library.gateway.processes import Brain, pid, played, settings
 from tests.paths import ROOT
 
@@ -107,8 +107,9 @@ def test_the_gateway_flies_from_its_settings_alone(
     async def play(brain: Brain) -> None:
         link = await connect(tmp_path, settings(), brain.kernel, 1, command=[*program, "gateway"])
         brain.links.append(link)
-        assert await brain.flown(link, Task()) is None
-        await brain.told(link.land("cf1"))
+        commander = Commander(link)
+        assert await brain.flown(commander, Task()) is None
+        await brain.told(commander.land("cf1"))
         await link.goodbye()
         await brain.until(lambda: pid(tmp_path) is None)
 

@@ -43,7 +43,7 @@ class Kept(Field):
 def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     """To the end of its leg, and its battery drains; there it hovers, and can be flown on."""
     field = Kept(tmp_path)
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(6)
     field = field.later(tmp_path, 3)
     telemetry = field.navigation.telemetry["cf1"]
@@ -60,7 +60,7 @@ def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
 def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
     """Also where the drones' file is older than the deeds: the deed comes first."""
     field = Kept(tmp_path)
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(15)
     field.keeper.settled()
     before = (tmp_path / DRONES).read_bytes()
@@ -85,14 +85,14 @@ def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
 def test_a_line_that_was_never_finished_was_never_done(tmp_path: Path) -> None:
     """The next deed is written over it."""
     field = Kept(tmp_path)
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(15)
     field.keeper.settled()
     with (tmp_path / DEEDS).open("ab") as file:
         file.write(b'{"drone": "cf1", "act')
     field = Kept(tmp_path, 1020.0)
     assert field.navigation.carrying("cf1") is None
-    field.gateway.link(1).fly(Task(), lambda _: None)
+    field.link(1).fly(Task(), lambda _: None)
     field.advance(20)
     assert json.loads((tmp_path / DEEDS).read_text())["job"] == Task().id
 
@@ -103,7 +103,7 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
     real = os.pwrite
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(os, "pwrite", lambda file, text, at: real(file, text[:5], at))
-        field.gateway.link(1).fly(Task(), heard.append)
+        field.link(1).fly(Task(), heard.append)
         field.advance(20)
     (error,) = heard
     assert isinstance(error, FlightFailed)

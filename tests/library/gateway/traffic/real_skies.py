@@ -36,7 +36,8 @@ class RealSky(Sky):
         )
         for index, place in places.items():
             self.put(self.drones[index].id, place)
-        self.link = self.another().link(self.epoch)
+        self.another()
+        self.commander = self.link(self.epoch)
 
     def look(self) -> None:
         """See how near drones above the ground are to each other."""

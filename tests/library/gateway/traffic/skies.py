@@ -8,9 +8,8 @@ from math import dist, inf
 from random import Random
 from typing import Any, TypeVar
 
-from pluto_fleet.gateway.gateway import Link
 from pluto_fleet.shared.domain.actions import PICK
-from pluto_fleet.shared.domain.airspace import Airspace, permitted_way
+from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.fleet.reach import docked
@@ -18,7 +17,7 @@ from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from pluto_fleet.shared.time.kernel import Task as Coroutine
 from pluto_fleet.simulation.body import SimulatedDrone
-from tests.library.gateway.flights import Field, Task
+from tests.library.gateway.flights import Commander, Field, Task
 
 T = TypeVar("T")
 
@@ -43,7 +42,7 @@ class Sky(Field):
         super().__init__(airspace=airspace, homes=homes, category=category, apart=apart, **options)
         self.apart = apart
         self.epoch = 1
-        self.link: Link = self.gateway.link(self.epoch)
+        self.commander: Commander = self.link(self.epoch)
         self.nearest = inf
         """How near two drones in the air have come to each other; those that fail do not count."""
         self.airborne = 0
@@ -85,7 +84,7 @@ class Sky(Field):
             item=item,
             beside=item is None,
         )
-        self.link.fly(job, over.set)
+        self.commander.fly(job, over.set)
         return await over
 
     def gives(self, drone: str, *stops: Point, item: Item | None = None) -> Coroutine[object]:
@@ -100,23 +99,18 @@ class Sky(Field):
         return self.navigation.telemetry[drone].location
 
     async def goes_home(self, drone: str) -> None:
-        """Let a drone return as the fleet does it: one command after the other."""
-        craft = next(one for one in self.drones if one.id == drone)
-        telemetry = self.link.telemetry(drone)
+        """Let a drone return as the fleet does it."""
         try:
-            await self.link.takeoff(drone, self.airspace.cruise_height)
-            home = (craft.home[0], craft.home[1], telemetry.location[2])
-            for point in permitted_way(self.airspace, drone, telemetry.location, home):
-                await self.link.go_to(drone, point)
-            await self.link.land(drone)
+            await self.commander.home(drone)
         except FlightFailed:
-            await self.link.recover(drone)
+            await self.commander.recover(drone)
 
     def puts(self, *places: Point) -> None:
         """Let the drones hover at these places, before a gateway that has not seen them take off."""
         for drone, there in zip(self.drones, places, strict=True):
             self.put(drone.id, there)
-        self.link = self.another().link(self.epoch)
+        self.another()
+        self.commander = self.link(self.epoch)
 
     def put(self, drone: str, place: Point) -> None:
         """Let a drone hover at a place, or lie on the ground there."""
@@ -145,7 +139,7 @@ class Restless:
         ]
 
     async def _one(self, drone: str) -> None:
-        chance, link = self.chance, self.sky.link
+        chance, link = self.chance, self.sky.commander
         for _ in range(self.trips):
             await self.sky.pause(chance.choice([0.0, 0.0, 1.0, 7.0]))
             stops = chance.choices(self.targets, k=chance.choice([1, 1, 2]))

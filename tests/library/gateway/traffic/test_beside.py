@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from itertools import combinations
 from math import dist
 
@@ -29,13 +28,6 @@ WALLED = Airspace(no_fly=(WALL,))
 CORNER = Airspace(size=(10.0, 5.0))
 
 
-def hears(sky: Sky) -> list[Mapping[str, object]]:
-    """Return what will be told of actions that are done beside their targets."""
-    told: list[Mapping[str, object]] = []
-    sky.link.on_flown(told.append)
-    return told
-
-
 @pytest.mark.parametrize("slack", [0.0, CRAZYFLIE.slack])
 @pytest.mark.parametrize("count", [2, 3, 5])
 def test_some_at_one_spot_take_hardly_longer_than_one(count: int, slack: float) -> None:
@@ -57,7 +49,7 @@ def test_some_at_one_spot_take_hardly_longer_than_one(count: int, slack: float) 
 def test_it_is_told_where_an_action_is_done_beside_its_target() -> None:
     """With the flight that it is done for, and not of the one that has the place."""
     sky = Sky(DOCKS[:2])
-    told = hears(sky)
+    told = sky.commander.flown
     jobs = [sky.gives("cf1", SPOT), sky.gives("cf2", SPOT)]
     assert all(sky.until(job, 60) for job in jobs)
     [one] = told
@@ -76,29 +68,29 @@ def test_a_brain_that_comes_while_the_action_is_done_is_told_once_more() -> None
     """The one before may have died before it could write it down."""
     sky = Sky(DOCKS[:2])
     assert sky.until(sky.gives("cf1", SPOT), 60)
-    first = hears(sky)
+    first = sky.commander.flown
     photo = Job(id="M/A/0/1", drone="cf2", stops=(SPOT,), action=PHOTO, item=None, beside=True)
-    sky.link.fly(photo, lambda _: None)
+    sky.commander.fly(photo, lambda _: None)
     while not first:
         sky.advance(0.1)
         assert sky.kernel.now < 120
-    sky.link = sky.gateway.link(2)
-    second, reported = hears(sky), list[object]()
-    there = sky.sends(sky.link.fleet_report())
+    sky.commander = sky.link(2)
+    second, reported = sky.commander.flown, list[object]()
+    there = sky.sends(sky.commander.fleet_report())
     assert sky.until(there, 1)
-    sky.link.attach("M/A/0/1", reported.append)
+    sky.commander.attach("M/A/0/1", reported.append)
     sky.advance(2)
     assert second == first
     assert len(reported) == 1
-    sky.link.forget("M/A/0/1")
-    sky.link.attach("M/A/0/1", reported.append)
+    sky.commander.forget("M/A/0/1")
+    sky.commander.attach("M/A/0/1", reported.append)
     assert second == first
 
 
 def test_who_only_passes_through_a_place_does_not_have_it() -> None:
     """The other waits for a moment, and acts just where it was told to."""
     sky = Sky([(1.0, 5.0), (5.0, 1.0)], airspace=LOW)
-    told = hears(sky)
+    told = sky.commander.flown
     jobs = [sky.gives("cf1", (9.0, 5.0, 1.2)), sky.gives("cf2", SPOT)]
     assert all(sky.until(job, 60) for job in jobs)
     assert sky.at("cf2") == SPOT

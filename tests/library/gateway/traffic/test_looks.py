@@ -58,7 +58,7 @@ def test_who_is_to_let_an_older_one_pass_goes_once_that_waits_no_more() -> None:
     younger = sky.gives("cf3", (5, 7, 1.2))
     sky.advance(20)
     assert sky.navigation.telemetry["cf3"].landed
-    sky.link.break_off("cf1")
+    sky.commander.break_off("cf1")
     sky.advance(2 * AGAIN)
     assert not sky.navigation.telemetry["cf3"].landed
     assert sky.until(younger, 60)

@@ -69,7 +69,7 @@ def test_a_stop_in_between_brings_all_down(seed: int, category: Category) -> Non
     Restless(sky, seed, targets, 3, 0.0).begin()
     sky.advance(chance.uniform(1, 60))
     how = chance.choice([Down.LAND, Down.HOME])
-    down = sky.sends(sky.link.bring_down(how))
+    down = sky.sends(sky.commander.bring_down(how))
     assert sky.until(down, 500)
     assert sky.nearest >= sky.apart - 1e-6
     assert all(sky.navigation.telemetry[drone.id].landed for drone in sky.drones)

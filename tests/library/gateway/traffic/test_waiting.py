@@ -49,7 +49,8 @@ def test_one_that_hovers_a_little_too_high_is_passed_over() -> None:
     """No real drone hovers exactly where it was told to; there is room for one way over it."""
     sky = Sky([(5, 5), (1, 5)], airspace=Airspace(ceiling=2.0), slack=CRAZYFLIE.slack)
     sky.put("cf1", (5, 5, 1.24))
-    sky.link = sky.another().link(sky.epoch)
+    sky.another()
+    sky.commander = sky.link(sky.epoch)
     assert sky.until(sky.gives("cf2", (9, 5, 1.2)), 40)
     assert sky.nearest >= APART + CRAZYFLIE.slack - 1e-6
 
@@ -113,7 +114,7 @@ def test_no_drone_lands_on_another() -> None:
     sky = Sky([(1, 1), (1.3, 1), (5, 5)])
     jobs = [sky.gives("cf2", (5, 5, 1.2)), sky.gives("cf1", (8, 8, 1.2))]
     assert all(sky.until(job, 60) for job in jobs)
-    land = sky.sends(sky.link.land("cf2"))
+    land = sky.sends(sky.commander.land("cf2"))
     assert sky.until(land, 30)
     x, y, z = sky.at("cf2")
     assert z == 0
@@ -129,7 +130,7 @@ def waits_for_one_that_hovers() -> tuple[Sky, Task[object]]:
     sky = Sky([(5, 0.5), (1, 5), (9, 7)], airspace=LOW)
     sky.puts((5, 1, 1.2), (5, 5, 1.2), (9, 7, 1.2))
     for drone in ("cf1", "cf3"):
-        assert sky.until(sky.sends(sky.link.land(drone)), 20)
+        assert sky.until(sky.sends(sky.commander.land(drone)), 20)
     return sky, sky.gives("cf1", (5, 9, 1.2))
 
 
@@ -178,7 +179,7 @@ def test_where_the_ground_is_full_of_docks_a_drone_lands_in_its_own() -> None:
     """Real drones land further apart than docks may be."""
     sky = Sky([(0.1, 0.1), (0.6, 0.1)], airspace=Airspace(size=(0.7, 0.2)), slack=0.15)
     assert sky.until(sky.gives("cf1", (0.35, 0.1, 1.2)), 20)
-    assert sky.until(sky.sends(sky.link.land("cf1")), 20)
+    assert sky.until(sky.sends(sky.commander.land("cf1")), 20)
     assert sky.at("cf1") == (0.1, 0.1, 0)
 
 
@@ -198,7 +199,7 @@ def test_who_waits_can_be_told_not_to() -> None:
     sky.gives("cf1", (5, 5, 1.2))
     waits = sky.gives("cf2", (5, 5, 1.2), item=PILLS)
     sky.advance(5)
-    sky.link.break_off("cf2")
+    sky.commander.break_off("cf2")
     sky.advance(40)
     assert not waits.is_set
     assert sky.navigation.flown("cf2") == 0
@@ -211,7 +212,7 @@ def test_what_a_stopped_drone_may_still_fly_into_stays_its_own_for_a_moment() ->
     sky = Sky([(1, 5), (3.9, 4.5)], airspace=LOW, slack=0.1)
     sky.gives("cf1", (9, 5, 1.2))
     sky.advance(4 + 4.2)
-    sky.link.break_off("cf1")
+    sky.commander.break_off("cf1")
     assert sky.at("cf1") == pytest.approx((3.1, 5, 1.2))
     up = sky.gives("cf2", (3.9, 1, 1.2))
     sky.advance(1)
@@ -224,7 +225,7 @@ def test_a_drone_that_is_found_in_the_air_has_its_place() -> None:
     sky = Sky([(1, 1), (5, 1)], airspace=LOW)
     sky.puts((5, 4, 1.2), (9, 1, 1.2))
     sky.advance(0)
-    down = sky.sends(sky.link.land("cf2"))
+    down = sky.sends(sky.commander.land("cf2"))
     assert sky.until(down, 20)
     blocked = sky.gives("cf2", (5, 4, 1.2), item=PILLS)
     assert not sky.until(blocked, 40)
@@ -244,7 +245,7 @@ def test_no_drone_flies_below_one_that_sinks() -> None:
     """Who is on its way there stops, and goes on by another, or when the air is free again."""
     sky = Sky([(5, 4), (1, 5)])
     assert sky.until(sky.gives("cf1", (5, 5, 2.2)), 60)
-    hovers = sky.sends(sky.link.hold("cf1"))
+    hovers = sky.sends(sky.commander.hold("cf1"))
     hovers.watch(lambda _: None)
     below = sky.gives("cf2", (9, 5, 1.2))
     sky.advance(4 + 4)
