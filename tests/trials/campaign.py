@@ -23,7 +23,7 @@ from typing import Any
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.report.report import table
+from pluto_fleet.report.terminal import table
 from pluto_fleet.shared.domain.model import AfterTrip, Mission
 from pluto_fleet.trials.case import WORDS, Case
 from pluto_fleet.trials.explore import (

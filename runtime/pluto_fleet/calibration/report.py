@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from math import floor, log10
 from typing import TYPE_CHECKING, Any
 
-from ..report.report import table
+from ..report.terminal import table
 from ..shared.domain.text import counted, number
 
 if TYPE_CHECKING:

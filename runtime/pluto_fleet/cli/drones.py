@@ -12,7 +12,7 @@ from ..files.drones import which
 from ..files.errors import near
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
 from ..journal.place import folder_of
-from ..report.report import table
+from ..report.terminal import table
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, percent, place, quoted

@@ -21,8 +21,9 @@ from ..drones.vehicle import CLIMB_LIMIT
 from ..files.toml import toml_value
 from ..flight.simulate import simulate
 from ..jobs.controls import ForwardingControls
-from ..report.report import exit_code, report, table
+from ..report.report import exit_code, report
 from ..report.sentences import line_of
+from ..report.terminal import table
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from ..process.text import in_shell
 from ..process.workers import WorkerDied, cores, in_workers
-from ..report.report import exit_code, last_line, simulation_data, table
+from ..report.report import exit_code, last_line, simulation_data
+from ..report.terminal import table
 from ..shared import output
 from ..shared.alone.simulate import trips_data
 from ..shared.domain.errors import BadInput
@@ -32,7 +33,7 @@ from .picture import drawing, kind_of, write
 if TYPE_CHECKING:
     from ..app import App
     from ..flight.outcome import SimulationResult
-    from ..report.progress import Progress
+    from ..report.terminal import Progress
     from ..trials.invariants import Items
     from .options import Options
     from .plans import LoadedPlan

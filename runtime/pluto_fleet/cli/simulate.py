@@ -12,9 +12,9 @@ from ..flight.outcome import SimulationResult
 from ..flight.simulate import simulate as simulated
 from ..journal.event_line import line
 from ..process.signal_guard import Interrupted
-from ..report.progress import Progress, simulation_progress
 from ..report.report import exit_code, report, simulation_data
 from ..report.sentences import line_of
+from ..report.terminal import Progress, simulation_progress
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput

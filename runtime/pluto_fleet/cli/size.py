@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..files.fleet_text import fleet_text
 from ..process.workers import WorkerDied, cores
-from ..report.progress import Progress, simulation_progress
+from ..report.terminal import Progress, simulation_progress
 from ..shared import output
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput

@@ -22,6 +22,7 @@ from ..shared.domain.text import (
     printable,
 )
 from .sentences import sentence_of
+from .terminal import table
 
 if TYPE_CHECKING:
     from ..app import App
@@ -178,20 +179,6 @@ _OTHER_ENDS = {
     "cancelled": (Status.CANCELLED,),
     "wait for a person": (Status.UNCERTAIN, Status.HELD),
 }
-
-
-def table(
-    header: Sequence[str], rows: Sequence[Sequence[str]], *, right: Sequence[int]
-) -> Iterator[str]:
-    """Yield the lines of a table; the columns named by `right` hold numbers."""
-    cells = [[printable(cell) for cell in row] for row in (header, *rows)]
-    widths = [max(len(row[column]) for row in cells) for column in range(len(header))]
-    for row in cells:
-        aligned = [
-            cell.rjust(width) if column in right else cell.ljust(width)
-            for column, (cell, width) in enumerate(zip(row, widths, strict=True))
-        ]
-        yield "  ".join(aligned).rstrip()
 
 
 _NEEDS_A_PERSON = (Status.UNCERTAIN, Status.HELD)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from ..report.report import table
+from ..report.terminal import table
 from ..shared.domain.text import counted, number, printable
 from .causes import percent_of, when
 

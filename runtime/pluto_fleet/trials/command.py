@@ -17,7 +17,7 @@ from ..files.fleet_text import fleet_text
 from ..files.missions import load_missions
 from ..files.missions_text import missions_text
 from ..files.plan_check import problems
-from ..report.progress import trial_progress
+from ..report.terminal import trial_progress
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from ..files.fleet_text import fleet_text
 from ..files.missions_text import missions_text
 from ..process.text import in_shell
-from ..report.report import table
 from ..report.sentences import line_of
+from ..report.terminal import table
 from ..shared.domain.text import counted, printable
 from .case import ENDS, WORDS, WRITTEN, strikes_text, weather_text
 from .options import SEEDS

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import io
 import json
+import sys
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.cli.runs import RunFigures, spread, summary
-from pluto_fleet.report.progress import Progress
-from pluto_fleet.report.report import table
 from pluto_fleet.report.sentences import line_of
+from pluto_fleet.report.terminal import Progress, table
 from pluto_fleet.shared.alone.faults import shares
 from pluto_fleet.shared.domain.trace import dumped
 
@@ -93,28 +93,34 @@ def test_an_event_is_a_line(event: dict[str, object], line: str | None) -> None:
     assert line_of({"t": 2.5, "mission": "M", **event}) == line
 
 
-def test_the_bar_comes_only_after_a_while() -> None:
-    """And goes without a trace."""
+def test_the_bar_comes_only_after_a_while(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And goes without a trace; what the terminal has no room for is cut off."""
+    monkeypatch.setenv("NO_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", "40")
     now, stream = [0.0], io.StringIO()
-    bar = Progress(stream, lambda: now[0], shown=True)
+    bar = Progress(stream, clock=lambda: now[0])
     bar.update(0.1, "early")
     bar.clear()
     assert stream.getvalue() == ""
     now[0] = 1.5
-    bar.update(0.5, "half")
+    bar.update(0.5, "a half of all")
     bar.update(0.6, "too soon")
     now[0] = 2.0
     bar.update(1.5, "all")
     bar.clear()
-    half = "[" + "#" * 15 + "." * 15 + "] half"
-    full = "[" + "#" * 30 + "] all"
-    assert stream.getvalue() == f"\r{half}\r{full} \r{' ' * len(full)}\r"
+    drawn = stream.getvalue().split("\r\x1b[2K")
+    assert [line.strip() for line in drawn] == [
+        "",
+        "━" * 15 + " " * 16 + "a half o…",
+        "━" * 30 + " all",
+        "",
+    ]
 
 
 def test_without_a_terminal_a_line_comes_now_and_then() -> None:
     """One in ten seconds: there is no long silence, and no log is flooded."""
     now, said = [0.0], list[str]()
-    progress = Progress(io.StringIO(), lambda: now[0], shown=False, say=said.append)
+    progress = Progress(None, said.append, lambda: now[0])
     for second in range(35):
         now[0] = float(second)
         progress.update(0.5, f"{second} runs")
@@ -129,3 +135,13 @@ def test_a_table_lines_up() -> None:
         "long   1",
         "\\x1b  23",
     ]
+
+
+def test_at_a_terminal_a_table_is_no_wider(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its words wrap in their columns, its numbers stay whole, and its heads are bold."""
+    monkeypatch.setenv("COLUMNS", "20")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    lines = list(table(("n", "why"), [("1000", "a reason of [several] words")], right=(0,)))
+    assert lines[0].startswith("\x1b[1m")
+    assert lines[1:] == ["1000  a reason of", "      [several]", "      words"]
