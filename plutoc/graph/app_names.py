@@ -35,7 +35,7 @@ _INSTALLS = frozenset(
 _NEEDED = frozenset(
     {
         *("cflib", "starlette", "uvicorn", "websockets", "pytest", "matplotlib", "numpy", "scipy"),
-        *("tomlkit", "shapely"),  # what flies needs the one, and areas the other
+        *("msgspec", "tomlkit", "shapely"),  # what flies needs, and areas
         *("anyio", "click", "h11", "idna", "sniffio", "typing_extensions"),  # a station needs these
         *("lz4", "mcap", "zstandard"),  # and these for its exports
         *("examples", "libusb_package", "lpslib", "packaging", "pyusb", "pyyaml", "sys_test"),

@@ -1,4 +1,4 @@
-"""The files that are made from the table of addresses and the types of the wire."""
+"""The files that are made from the declared interface and the types of the wire."""
 
 from __future__ import annotations
 
@@ -6,12 +6,10 @@ import json
 from collections.abc import Mapping
 from pathlib import Path
 
-import pluto_fleet
-from pluto_fleet.station.web.reads import DESCRIPTION
+from pluto_fleet.station.web.handlers import DESCRIPTION
 from pluto_fleet.station.web.static import FOLDER
 
 from .openapi import description
-from .python_client import calls
 from .typescript import declarations
 
 
@@ -21,5 +19,4 @@ def made() -> Mapping[Path, str]:
     return {
         DESCRIPTION: json.dumps(found, indent=1) + "\n",
         FOLDER / "wire.d.ts": declarations(found),
-        Path(pluto_fleet.__file__).parent / "client" / "calls.py": calls(),
     }

@@ -1,91 +1,32 @@
-"""The description of the HTTP interface in OpenAPI 3.1, from the table of addresses."""
+"""The description of the HTTP interface in OpenAPI 3.1, from its declaration."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any, is_typeddict
+import ast
+import inspect
+from collections.abc import Iterator, Mapping
+from itertools import pairwise
+from typing import Any, get_type_hints, is_typeddict
 
-from pluto_fleet.station import wire
-from pluto_fleet.station.requests import Said
-from pluto_fleet.station.web.addresses import ADDRESSES, JSON, Address
-from pluto_fleet.station.wire_app import PlanMission, PlanTrip
+import msgspec
 
-from .json_schema import Schema, schema_of
+# isort: split
+from pluto_fleet.station import wire, wire_app
+from pluto_fleet.station.interface import Interface
+from pluto_fleet.station.operation import JSON, Operation, operations_of
+from pluto_fleet.station.wire import Said
 
-EXTENDED = (PlanMission, PlanTrip)
+Schema = dict[str, Any]
+
+EXTENDED = ("PlanMission", "PlanTrip")
 """Types whose objects have the fields of the app, too."""
-
-BESIDE = [kind for kind in vars(wire).values() if is_typeddict(kind)]
-"""What goes over a WebSocket, or in parts of other answers, is described though no address names it."""
 
 _ABOUT = """The ground station of an app. Times are seconds since a flight began unless a name ends in `_at`,
 which is in milliseconds since 1970; places are in metres, batteries from 0 to 1.
 
 `/api/live` is a WebSocket, too: the client sends a `LiveRequest` and is sent a `LiveMessage`, again and again."""
-
-
-def description(addresses: Sequence[Address] = ADDRESSES) -> Schema:
-    """Return the whole description."""
-    known: dict[str, Schema] = {}
-    for kind in BESIDE:
-        schema_of(kind, known, EXTENDED)
-    paths: dict[str, dict[str, Any]] = {}
-    for address in addresses:
-        paths.setdefault(address.path, {})[address.method.lower()] = _operation(address, known)
-    return {
-        "openapi": "3.1.0",
-        "info": {"title": "Pluto ground station", "version": "1", "description": _ABOUT},
-        "paths": paths,
-        "components": {
-            "schemas": dict(sorted(known.items())),
-            "securitySchemes": {
-                "fly": {"type": "http", "scheme": "bearer", "description": _FLY},
-                "watch": {"type": "http", "scheme": "bearer", "description": _WATCH},
-            },
-        },
-    }
-
-
 _FLY = "The token that the station prints first, if it can be reached from other machines."
 _WATCH = "The token for watching, which the station prints second."
-
-
-def _operation(address: Address, known: dict[str, Schema]) -> Schema:
-    answers = {
-        "200": {"description": "What was asked.", "content": _content(address.answers, known)}
-    }
-    if address.method != "GET":
-        stale = Said if address.stale is None else address.stale | Said
-        answers["409"] = {"description": _CONFLICT, "content": _content(stale, known)}
-    answers["default"] = {"description": _REFUSED, "content": _content(Said, known)}
-    found: Schema = {
-        "operationId": address.name,
-        "summary": address.says,
-        "security": [{"fly": []}, *([{"watch": []}] if address.role == "watch" else [])],
-        "parameters": [
-            {
-                "name": name,
-                "in": "query",
-                "required": one.needed,
-                "description": one.says,
-                "schema": schema_of(one.type, known),
-            }
-            for name, one in address.query.items()
-        ],
-        "responses": answers,
-    }
-    if address.method != "GET":
-        found["parameters"].append(_MARK)
-    if address.body is not None:
-        content = {
-            media: {"schema": {"type": "string"} if isinstance(address.body, tuple) else schema}
-            for schema in [_body(address, known)]
-            for media in address.media
-        }
-        found["requestBody"] = {"required": True, "content": content}
-    return found
-
-
 _CONFLICT = (
     "It cannot be done now, for this reason; or what was changed has changed meanwhile: the newest."
 )
@@ -99,11 +40,110 @@ _MARK = {
 }
 
 
-def _body(address: Address, known: dict[str, Schema]) -> Schema:
-    return {} if isinstance(address.body, tuple) else schema_of(address.body, known, EXTENDED)
+def description() -> Schema:
+    """Return the whole description."""
+    paths: dict[str, Schema] = {}
+    for one in operations_of(Interface).values():
+        paths.setdefault(one.path, {})[one.method.lower()] = _operation(one)
+    return {
+        "openapi": "3.1.0",
+        "info": {"title": "Pluto ground station", "version": "1", "description": _ABOUT},
+        "paths": paths,
+        "components": {
+            "schemas": dict(sorted(_schemas())),
+            "securitySchemes": {
+                "fly": {"type": "http", "scheme": "bearer", "description": _FLY},
+                "watch": {"type": "http", "scheme": "bearer", "description": _WATCH},
+            },
+        },
+    }
 
 
-def _content(answers: Any, known: dict[str, Schema]) -> Schema:
-    if isinstance(answers, str):
-        return {answers: {"schema": {"type": "string"}}}
-    return {JSON: {"schema": schema_of(answers, known, EXTENDED)}}
+def _schemas() -> Iterator[tuple[str, Schema]]:
+    """Yield the schema of each type of the wire, with what is said of each key below it."""
+    kinds = {
+        name: kind
+        for module in (wire, wire_app)
+        for name, kind in vars(module).items()
+        if is_typeddict(kind)
+    }
+    _, found = msgspec.json.schema_components(kinds.values(), ref_template=_REFERENCE)
+    said = {**_said(wire), **_said(wire_app)}
+    for name, schema in found.items():
+        del schema["title"]
+        known = schema["properties"]
+        schema["properties"] = {
+            key: known[key] for key in get_type_hints(kinds[name])
+        }  # as written
+        for key, one in known.items():
+            if (name, key) in said:
+                one["description"] = said[name, key]
+        schema["additionalProperties"] = name in EXTENDED
+        yield name, schema
+
+
+_REFERENCE = "#/components/schemas/{name}"
+
+
+def _said(module: Any) -> Mapping[tuple[str, str], str]:
+    """Return the docstrings below the keys of the types of a module."""
+    return {
+        (kind.name, key.target.id): inspect.cleandoc(text)
+        for kind in ast.parse(inspect.getsource(module)).body
+        if isinstance(kind, ast.ClassDef)
+        for key, below in pairwise(kind.body)
+        if isinstance(key, ast.AnnAssign) and isinstance(key.target, ast.Name)
+        if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant)
+        if isinstance(text := below.value.value, str)
+    }
+
+
+def _operation(one: Operation) -> Schema:
+    answers: Schema = {"200": {"description": "What was asked.", "content": _content(one)}}
+    if one.method != "GET":
+        stale = [_schema(kind) for kind in (one.stale, Said) if kind is not None]
+        content = {JSON: {"schema": {"anyOf": stale}}}
+        answers["409"] = {"description": _CONFLICT, "content": content}
+    answers["default"] = {"description": _REFUSED, "content": {JSON: {"schema": _schema(Said)}}}
+    summary, _, more = one.says.partition("\n\n")
+    found: Schema = {
+        "operationId": one.name,
+        "summary": summary,
+        **({"description": more} if more else {}),
+        "security": [{"fly": []}, *([{"watch": []}] if one.role == "watch" else [])],
+        "parameters": [
+            {
+                "name": name,
+                "in": "query",
+                "required": name not in one.defaults,
+                "schema": _schema(kind),
+            }
+            for name, kind in one.query.items()
+        ],
+        "responses": answers,
+    }
+    if one.method != "GET":
+        found["parameters"].append(_MARK)
+    if one.body is not None or one.takes:
+        body: Schema = {"type": "string"}
+        if one.body is not None:
+            body = {
+                "type": "object",
+                "properties": {name: _schema(kind) for name, kind in one.body.items()},
+                "required": [name for name in one.body if name not in one.defaults],
+                "additionalProperties": False,
+            }
+        content = {media: {"schema": body} for media in one.takes or (JSON,)}
+        found["requestBody"] = {"required": True, "content": content}
+    return found
+
+
+def _content(one: Operation) -> Schema:
+    return {
+        one.media: {"schema": _schema(one.answers) if one.media == JSON else {"type": "string"}}
+    }
+
+
+def _schema(kind: Any) -> Schema:
+    [found], _ = msgspec.json.schema_components([kind], ref_template=_REFERENCE)
+    return found

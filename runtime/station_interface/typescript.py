@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from .json_schema import Schema
+from .openapi import Schema
 
 _PLAIN = {
     "string": "string",

@@ -30,7 +30,6 @@ from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
 from ..station.sign import logo_of, title_of
 from ..station.station import Station
-from ..station.web.api import Api
 from ..station.web.audit import Audit
 from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
@@ -44,9 +43,11 @@ if TYPE_CHECKING:
     from socket import socket
 
     from ..app import App
+    from ..station.web.api import Api
     from .options import Options
 
     Serve = Callable[[Api, socket, Callable[[], object]], Coroutine[object, object, None]]
+    Web = tuple[type[Api], Serve]
 
 HOW_TO_GO_ON = "serve shows what was interrupted, and Resume goes on with it"
 
@@ -54,7 +55,7 @@ HOW_TO_GO_ON = "serve shows what was interrupted, and Resume goes on with it"
 def serve(app: App, options: Options) -> int:
     """Serve the station until it is interrupted; then land all drones."""
     options.refuse_what_is_simulated()
-    serve_web = _web_server(app.name)  # before anything is written or flown
+    web = _web_server(app.name)  # before anything is written or flown
     config = _config(app, options)
     app = moving(app, config.fleet.motion)
     if options.is_real:
@@ -73,7 +74,7 @@ def serve(app: App, options: Options) -> int:
         mark = partial(_mark_regular_end, config)
         interrupts = Interrupts(leaving, leaving.journal, HOW_TO_GO_ON, last=mark)
         with interrupts.listening():
-            run(_serve(serve_web, options, config, station, interrupts))
+            run(_serve(web, options, config, station, interrupts))
         mark()
         return interrupts.code or 0
 
@@ -87,9 +88,10 @@ def _mark_regular_end(config: StationConfig) -> None:
         output.tell(f"{path}: cannot be written: {why}; a supervisor may start the station again")
 
 
-def _web_server(app: str) -> Serve:
-    """Import the web server, or raise `BadInput` with how to install it."""
+def _web_server(app: str) -> Web:
+    """Import what serves, or raise `BadInput` with how to install it."""
     try:
+        from ..station.web.api import Api
         from ..station.web.server import serve
     except ImportError as error:
         if (error.name or "").startswith("pluto"):  # a bug
@@ -99,11 +101,11 @@ def _web_server(app: str) -> Serve:
             "serve needs a web server, the extra `station` of this package:"
             f" pip install {in_shell(f'{package}[station]')}"
         ) from None
-    return serve
+    return Api, serve
 
 
 async def _serve(
-    serve_web: Serve,
+    web: Web,
     options: Options,
     config: StationConfig,
     station: Station,
@@ -113,7 +115,8 @@ async def _serve(
     with listening(options.host, _port(options, config)) as listener:
         guard = _guard(options, config, port_of(listener))
         audit = Audit(config.own_folder / "audit.log")
-        api = Api(station, guard, audit, logo=config.logo)
+        make, serve_web = web
+        api = make(station, guard, audit, logo=config.logo)
         station.begin(options.going_on)
         if options.going_on and station.phase is Phase.INTERRUPTED:
             station.resume()

@@ -1,4 +1,4 @@
-"""A client of a ground station, for scripts and other programs; it needs the standard library only.
+"""A client of a ground station, for scripts and other programs.
 
 `docs/http.md` has an example.
 """

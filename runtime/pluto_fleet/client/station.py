@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from .calls import Calls
+from .connection import Connection
 
 if TYPE_CHECKING:
     from ..station.wire import LiveMessage
 
 
-class Station(Calls):
+class Station(Connection):
     """A ground station: `Station("http://127.0.0.1:8765", token="…")`.
 
     What is refused raises `Refused` with the station's sentence. A command may be sent again with the

@@ -31,7 +31,6 @@ from ..shared.domain.text import counted
 from .attention.attention import FILE as ALERTS
 from .attention.attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
-from .commands import checked
 from .config import described
 from .flight_changes import FlightChanges
 from .map.drawn import DrawnMap
@@ -171,15 +170,14 @@ class Station:
         """Carry out a command, once; return what was done, or raise `BadInput`.
 
         It is idempotent: a command that is repeated with the same id gets the same answer. `by` is
-        the name of the person who gives it, if that is known.
+        the name of the person who gives it, if that is known. What is given has been checked.
         """
-        arguments = checked(name, given)
         if id in self._answers:
             return await asyncio.shield(self._answers[id])
         known = self.session.known if self.session is not None else None
         if known is not None and id in known.commands:
             return "done already"
-        answer = asyncio.ensure_future(self._do(name, id, arguments, by))
+        answer = asyncio.ensure_future(self._do(name, id, given, by))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():

@@ -7,7 +7,9 @@ in `_at`, which is in milliseconds since 1970; places are in metres, batteries f
 
 from __future__ import annotations
 
-from typing import Literal, NotRequired, TypedDict
+from typing import Annotated, Literal, NotRequired, TypedDict
+
+from msgspec import Meta
 
 Point = list[float]
 """x and y, and z where it is known."""
@@ -70,6 +72,12 @@ SaidKey = Literal[
 ]
 
 
+class Said(TypedDict):
+    """What was done, or why it was not: a sentence for people."""
+
+    said: str
+
+
 class Words(TypedDict):
     """A sentence that each page says in its own language: a key of its catalogue, and its facts.
 
@@ -98,44 +106,6 @@ class State(TypedDict):
     """How the drones come down."""
     busy: Busy
     """What all missions wait for: drones to be found, or asked where they are."""
-
-
-class ChangeTrips(TypedDict):
-    """The command `change-trips`: what a mission that flies shall fly from now on.
-
-    The same happens when a plan is saved (`PUT /api/plan`) in which it has other trips; then `said` is
-    why that cannot be, with status 400, and the plan stays as it is.
-    """
-
-    id: str
-    mission: str
-    """Its name."""
-    trips: list[dict[str, object]]
-    """As in the plan; all that has not flown, in order, without the trip that flies."""
-    replaces: NotRequired[list[str] | None]
-    """The names of what had not flown, as the page knew it: a change of an older state is refused."""
-
-
-class Join(TypedDict):
-    """The command `join`: a drone that joins the flight, as in a fleet file."""
-
-    id: str
-    drone: str
-    """The drone's id."""
-    category: str
-    home: Point
-    uri: NotRequired[str | None]
-    navigation: NotRequired[str | None]
-    options: NotRequired[dict[str, object] | None]
-    parameters: NotRequired[dict[str, object] | None]
-
-
-class Mishap(TypedDict):
-    """The command `mishap`: what happens to a drone that `--sim` simulates, to rehearse it."""
-
-    id: str
-    drone: str
-    kind: Literal["lost", "crash", "battery", "uncertain"]
 
 
 class TripRow(TypedDict):
@@ -330,14 +300,19 @@ class LiveMessage(TypedDict):
     """All others, if that has changed."""
 
 
+Count = Annotated[int, Meta(ge=0, le=2**53)]
+Flight = Annotated[str, Meta(max_length=100)]
+"""The id of a flight."""
+
+
 class LiveRequest(TypedDict):
     """What a page has seen, and what it tells of itself."""
 
     token: NotRequired[str]
-    flight: str
-    seen: int
-    log: int
-    results: int
+    flight: Flight
+    seen: Count
+    log: Count
+    results: Count
     me: NotRequired[Me]
 
 
@@ -541,16 +516,6 @@ class MissionForecast(TypedDict):
     fails: float
 
 
-class ForecastRequest(TypedDict):
-    """Of which Start a forecast is asked for."""
-
-    revision: int
-    missions: list[str] | None
-    """The keys of the missions to be started; null: all that Start would."""
-    only_failed: NotRequired[bool | None]
-    runs: NotRequired[int | None]
-
-
 class Forecast(TypedDict):
     """What is expected of a Start, by many runs in virtual time."""
 
@@ -658,17 +623,6 @@ class Ways(TypedDict):
     ways: list[list[Point] | None]
 
 
-class MapEdit(TypedDict):
-    """What a page has drawn on the map: PUT /api/map. What it does not send stays."""
-
-    revision: int
-    places: NotRequired[list[Place]]
-    zones: NotRequired[list[Zone]]
-    north: NotRequired[float]
-    image: NotRequired[Laid | None]
-    """Where the floor plan lies; null: there is to be none."""
-
-
 class Laid(TypedDict):
     """Where the floor plan is to lie."""
 
@@ -677,43 +631,3 @@ class Laid(TypedDict):
     width: float
     height: float
     turn: NotRequired[float]
-
-
-class WaysAsked(TypedDict):
-    """Pairs of places, at most 500, whose ways are asked for: POST /api/ways."""
-
-    ways: list[list[Point]]
-
-
-class AreaAsked(TypedDict):
-    """An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep."""
-
-    polygon: list[Point]
-    spacing: str | float
-    height: NotRequired[str | float]
-    before: NotRequired[Point]
-    """From where the drones come; without it the sweep begins wherever it is shortest."""
-
-
-class PlanSaved(TypedDict):
-    """How the plan is to be kept: PUT /api/plans?name=…"""
-
-    by: NotRequired[str]
-    template: NotRequired[bool]
-    replace: NotRequired[bool]
-    """Whether one that has the name already goes to the trash."""
-
-
-class PlanOpened(TypedDict):
-    """Which plan is to be opened: POST /api/plans/open."""
-
-    name: str
-    revision: int
-    add: NotRequired[bool]
-    """Beside what is drawn, and not in place of what has not been started."""
-
-
-class PlanRestored(TypedDict):
-    """What is to be taken out of the trash: POST /api/plans/restore."""
-
-    id: str

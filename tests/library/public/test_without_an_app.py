@@ -9,6 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import msgspec
 import pytest
 import tomlkit
 
@@ -60,7 +61,8 @@ def installed(folder: Path) -> tuple[str, ...]:
     library = folder / "pluto_fleet"
     shutil.copytree(pluto_fleet.__path__[0], library, ignore=no_caches)
     needed = folder / "needed"
-    shutil.copytree(tomlkit.__path__[0], needed / "tomlkit", ignore=no_caches)
+    for package in (msgspec, tomlkit):
+        shutil.copytree(package.__path__[0], needed / package.__name__, ignore=no_caches)
     return (sys.executable, "-I", "-S", "-c", _PROGRAM, str(folder), str(needed))
 
 
@@ -78,8 +80,9 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
         "sys.path[:0] = sys.argv[1:3]\n"
         "import pluto_fleet\n"
         "names = [one.name for one in walk_packages(pluto_fleet.__path__, 'pluto_fleet.')]\n"
-        "out = ('pluto_fleet.shared', 'pluto_fleet.station.web.server', 'pluto_fleet.cli.plot')\n"
-        "out = (*out, 'pluto_fleet.files.sweep')\n"
+        "out = ('pluto_fleet.shared', 'pluto_fleet.cli.plot', 'pluto_fleet.files.sweep')\n"
+        "web = ('api', 'handlers', 'live', 'server')\n"
+        "out = (*out, *(f'pluto_fleet.station.web.{one}' for one in web))\n"
         "for name in names:\n"
         "    if not name.startswith(out): import_module(name)\n"
         "import pluto_fleet.shared.domain.errors as errors; print(len(names), errors.__file__)\n"

@@ -34,14 +34,13 @@ from pluto_fleet.station.station import Station
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
-from pluto_fleet.station.web.http import Reply
 from tests.kill.judge import done_by_the_world
 from tests.kit.apps import EXAMPLES, example, fly_straight
 from tests.kit.station import Asked
 
 from .in_threads import InThreads
 from .jumping import AtOnce, JumpingLoop
-from .server.asking import OURS, request
+from .server.asking import OURS, Asgi, Reply, request
 
 T = TypeVar("T")
 
@@ -180,7 +179,7 @@ class Flown(Asked):
             missions = (files / "missions.toml").read_text("utf-8")
             plan.import_toml(missions, plan.revision, folder=files)
         self.life = Station(app, config, plan, InThreads(app, config))
-        self.api = self.served(Guard(host="127.0.0.1", port=8765))
+        self.api = Asgi(self.served(Guard(host="127.0.0.1", port=8765)))
         self.world.run(self._begun())
 
     def served(self, guard: Guard) -> Api:

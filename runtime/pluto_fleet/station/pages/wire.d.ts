@@ -1,12 +1,5 @@
 // Made from pluto_fleet/station/wire.py by `python -m station_interface`: change that.
 
-/** Say that a person knows of an alert. */
-export interface Acknowledge {
-  id: string;
-  /** Its id. */
-  alert: string;
-}
-
 /** An action that a drone of the fleet can do. */
 export interface ActionData {
   name: string;
@@ -18,7 +11,7 @@ export interface ActionData {
 /** Something that a person must know of, until it is over. */
 export interface Alert {
   id: string;
-  kind: "lost" | "crashed" | "battery" | "drained" | "uncertain" | "finding" | "late" | "waiting" | "failed";
+  kind: "battery" | "crashed" | "drained" | "failed" | "finding" | "late" | "lost" | "uncertain" | "waiting";
   urgent: boolean;
   mission: string | null;
   drone: string | null;
@@ -42,7 +35,7 @@ export interface AppData {
   /** Another after each start of the station. */
   server: string;
   /** What who asks this may do: `watch` reads, `fly` commands, too. */
-  role: "watch" | "fly";
+  role: "fly" | "watch";
   sim: boolean;
   speed: number;
   fields: FieldsData;
@@ -60,15 +53,6 @@ export interface AppData {
   graph: GraphData | null;
 }
 
-/** An area that is to be swept, as `[[mission.area]]` has it: POST /api/plan/sweep. */
-export interface AreaAsked {
-  polygon: number[][];
-  spacing: string | number;
-  height?: string | number;
-  /** From where the drones come; without it the sweep begins wherever it is shortest. */
-  before?: number[];
-}
-
 /** A block of the app's graph, or its start or end, by its upper left corner. */
 export interface BlockData {
   name: string;
@@ -77,19 +61,6 @@ export interface BlockData {
   gate?: boolean;
   x: number;
   y: number;
-}
-
-/** Say that a lost or retired drone can fly again. */
-export interface BringBack {
-  id: string;
-  drone: string;
-}
-
-/** End a mission for good. */
-export interface Cancel {
-  id: string;
-  /** Its name; null: all missions. */
-  mission?: string | null;
 }
 
 /** A category of drones. */
@@ -103,35 +74,6 @@ export interface CategoryData {
   flight_time: number;
   /** The actions that it can do; null: all. */
   actions: string[] | null;
-}
-
-/** The command `change-trips`: what a mission that flies shall fly from now on. The same happens when a plan is saved (`PUT /api/plan`) in which it has other trips; then `said` is why that cannot be, with status 400, and the plan stays as it is. */
-export interface ChangeTrips {
-  id: string;
-  /** Its name. */
-  mission: string;
-  /** As in the plan; all that has not flown, in order, without the trip that flies. */
-  trips: (Record<string, unknown>)[];
-  /** The names of what had not flown, as the page knew it: a change of an older state is refused. */
-  replaces?: string[] | null;
-}
-
-/** Switch a drone's motors off at once: if it flies, it falls. */
-export interface CutMotors {
-  id: string;
-  drone: string;
-}
-
-/** Answer the question of a mission. */
-export interface Decide {
-  id: string;
-  mission: string;
-  answer: string;
-}
-
-/** Put a flight away that was stopped or interrupted; its journal stays. */
-export interface Discard {
-  id: string;
 }
 
 /** What a drone has flown, over all flights kept here. */
@@ -174,11 +116,6 @@ export interface EdgeData {
   fork?: boolean;
   /** Whether the app has no such edge: missions end there all the same. */
   implicit?: boolean;
-}
-
-/** Where an example is to be added. */
-export interface ExampleEdit {
-  revision: number;
 }
 
 /** A field of missions or of trips that the user of an app fills in. */
@@ -228,7 +165,7 @@ export interface FlightSummary {
   /** Who started it, if that is known. */
   by: string | null;
   simulated: boolean | null;
-  end: "flying" | "stopped" | "interrupted" | "over" | "unknown";
+  end: "flying" | "interrupted" | "over" | "stopped" | "unknown";
   missions: number;
   completed: number;
   failed: number;
@@ -248,7 +185,7 @@ export interface Forecast {
   revision: number;
   runs: number;
   /** Whether drones were kept apart in them, or each had the air to itself. */
-  world: "traffic" | "alone";
+  world: "alone" | "traffic";
   median: number | null;
   /** 95 % of runs end before. */
   high: number | null;
@@ -264,15 +201,6 @@ export interface Forecast {
   rehearsal: string | null;
 }
 
-/** Of which Start a forecast is asked for. */
-export interface ForecastRequest {
-  revision: number;
-  /** The keys of the missions to be started; null: all that Start would. */
-  missions: string[] | null;
-  only_failed?: boolean | null;
-  runs?: number | null;
-}
-
 /** What changed on the pages at an instant of a recording; a keyframe has every row. */
 export interface Frame {
   t: number;
@@ -280,12 +208,6 @@ export interface Frame {
   missions: MissionRow[];
   drones: DroneRow[];
   alerts: Alert[];
-}
-
-/** Let a paused mission go on. */
-export interface GoOn {
-  id: string;
-  mission?: string | null;
 }
 
 /** The app's graph as plutoc has laid it out: the package's `graph.json`, as it is. */
@@ -299,7 +221,7 @@ export interface GraphData {
 /** Something that did not go as planned, or that was found. */
 export interface Incident {
   time: number;
-  kind: "lost" | "drained" | "failed" | "uncertain" | "held" | "late" | "finding" | "stopped";
+  kind: "drained" | "failed" | "finding" | "held" | "late" | "lost" | "stopped" | "uncertain";
   mission: string | null;
   drone: string | null;
   text: string;
@@ -310,19 +232,6 @@ export interface ItemData {
   name?: string;
   /** With its unit, as in `4 g`. */
   mass?: string | number | number | boolean;
-}
-
-/** The command `join`: a drone that joins the flight, as in a fleet file. */
-export interface Join {
-  id: string;
-  /** The drone's id. */
-  drone: string;
-  category: string;
-  home: number[];
-  uri?: string | null;
-  navigation?: string | null;
-  options?: Record<string, unknown> | null;
-  parameters?: Record<string, unknown> | null;
 }
 
 /** Where the floor plan is to lie. */
@@ -338,7 +247,7 @@ export interface Laid {
 export interface Layer {
   id: string;
   action: string;
-  kind: "heat" | "values" | "findings" | "photos";
+  kind: "findings" | "heat" | "photos" | "values";
   /** As the app calls it; None: a page calls it by its kind, or by its quantity. */
   title: string | null;
   quantity: string | null;
@@ -384,7 +293,7 @@ export interface LogLine {
   time: number;
   mission: string | null;
   text: string;
-  kind: "good" | "bad" | "info" | "hook";
+  kind: "bad" | "good" | "hook" | "info";
 }
 
 /** What can be drawn on the map by pages, and is kept in the fleet file. */
@@ -398,16 +307,6 @@ export interface MapData {
   writable: boolean;
   /** Why nothing that is drawn can be kept; empty: it can. */
   said: string;
-}
-
-/** What a page has drawn on the map: PUT /api/map. What it does not send stays. */
-export interface MapEdit {
-  revision: number;
-  places?: Place[];
-  zones?: Zone[];
-  north?: number;
-  /** Where the floor plan lies; null: there is to be none. */
-  image?: Laid | null;
 }
 
 /** What of the map does not change while the station runs. */
@@ -426,13 +325,6 @@ export interface Me {
   name: string;
   page: string;
   touches: string;
-}
-
-/** The command `mishap`: what happens to a drone that `--sim` simulates, to rehearse it. */
-export interface Mishap {
-  id: string;
-  drone: string;
-  kind: "lost" | "crash" | "battery" | "uncertain";
 }
 
 /** What is expected of a mission. */
@@ -480,18 +372,11 @@ export interface ParameterData {
   default: string | number | number | boolean | null;
 }
 
-/** Call a mission's drone home until it goes on. */
-export interface Pause {
-  id: string;
-  /** Its name; null: all missions. */
-  mission?: string | null;
-}
-
 /** Another browser that looks at the station. */
 export interface Person {
   id: string;
   name: string;
-  role: "watch" | "fly";
+  role: "fly" | "watch";
   page: string;
   /** The key of the mission or trip that it has selected; empty: none. */
   touches: string;
@@ -535,13 +420,6 @@ export interface PlanData {
   said: string;
 }
 
-/** The plan, as it shall be from now on. */
-export interface PlanEdit {
-  /** The revision that was changed; if there is a newer one, that is answered, with 409. */
-  revision: number;
-  missions: PlanMission[];
-}
-
 /** A mission of the plan, with the fields that the app's missions have beside these. */
 export interface PlanMission {
   key: string;
@@ -557,14 +435,6 @@ export interface PlanMission {
   [field: string]: unknown;
 }
 
-/** Which plan is to be opened: POST /api/plans/open. */
-export interface PlanOpened {
-  name: string;
-  revision: number;
-  /** Beside what is drawn, and not in place of what has not been started. */
-  add?: boolean;
-}
-
 /** What keeps the plan from being flown. */
 export interface PlanProblemData {
   /** The key of the mission. */
@@ -572,19 +442,6 @@ export interface PlanProblemData {
   trip: string | null;
   field: string | null;
   text: string;
-}
-
-/** What is to be taken out of the trash: POST /api/plans/restore. */
-export interface PlanRestored {
-  id: string;
-}
-
-/** How the plan is to be kept: PUT /api/plans?name=… */
-export interface PlanSaved {
-  by?: string;
-  template?: boolean;
-  /** Whether one that has the name already goes to the trash. */
-  replace?: boolean;
 }
 
 /** A trip of the plan, with the fields that the app's trips have beside these. */
@@ -597,14 +454,6 @@ export interface PlanTrip {
   parameters: Record<string, string | number | number | boolean>;
   item: ItemData | null;
   [field: string]: unknown;
-}
-
-/** Change the priority of a trip. */
-export interface Prioritise {
-  id: string;
-  mission: string;
-  trip: string;
-  priority: number;
 }
 
 /** A number with what it is and its unit. */
@@ -725,7 +574,7 @@ export interface Result {
   round: number | null;
   attempt: number | null;
   drone: string | null;
-  kind: "measurement" | "photo" | "result" | "verdict" | "handling";
+  kind: "handling" | "measurement" | "photo" | "result" | "verdict";
   action: string | null;
   parameters: Record<string, string | number | number | boolean>;
   target: number[] | null;
@@ -740,17 +589,6 @@ export interface Result {
   layers: string[];
   /** The level with which its drone came home after this trip, if that was less than its reserve. */
   drained: number | null;
-}
-
-/** Go on with a flight that was stopped or interrupted. */
-export interface Resume {
-  id: string;
-}
-
-/** Give a drone to no mission any more, once its trip is done. */
-export interface Retire {
-  id: string;
-  drone: string;
 }
 
 /** What was done, or why it was not: a sentence for people. */
@@ -776,28 +614,9 @@ export interface SavedPlans {
   trash: TrashedPlan[];
 }
 
-/** Leave a trip out. */
-export interface Skip {
-  id: string;
-  mission: string;
-  /** Its name; null: the next one. */
-  trip?: string | null;
-}
-
-/** Fly missions of the plan. */
-export interface Start {
-  id: string;
-  /** The revision that was looked at: another is refused; null: any. */
-  revision?: number | null;
-  /** The keys of missions; null: all that have not been completed, or all again. */
-  missions?: string[] | null;
-  /** Whether trips that were done are left out of missions that failed. */
-  only_failed?: boolean | null;
-}
-
 /** How the station stands. */
 export interface State {
-  phase: "idle" | "flying" | "stopping" | "stopped" | "interrupted" | "over";
+  phase: "flying" | "idle" | "interrupted" | "over" | "stopped" | "stopping";
   time: number;
   /** The revision of the plan. */
   plan: number;
@@ -808,16 +627,9 @@ export interface State {
   /** What is wrong; empty: nothing. */
   said: string;
   /** How the drones come down. */
-  how: "rtl" | "land" | null;
+  how: "land" | "rtl" | null;
   /** What all missions wait for: drones to be found, or asked where they are. */
-  busy: "" | "connecting" | "asking";
-}
-
-/** Bring all drones down at once. */
-export interface Stop {
-  id: string;
-  /** `rtl`: all fly home first; `land`: where they are. */
-  how: "rtl" | "land";
+  busy: "" | "asking" | "connecting";
 }
 
 /** How an area is flown over: the targets of its trips, in their order. */
@@ -849,11 +661,6 @@ export interface TripRow {
 /** The way of each pair of places, both ends included; None: there is none. */
 export interface Ways {
   ways: (number[][] | null)[];
-}
-
-/** Pairs of places, at most 500, whose ways are asked for: POST /api/ways. */
-export interface WaysAsked {
-  ways: number[][][];
 }
 
 /** A sentence that each page says in its own language: a key of its catalogue, and its facts. `text` is the sentence in English, for whatever does not know the key. */

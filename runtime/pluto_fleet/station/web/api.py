@@ -1,25 +1,55 @@
-"""The HTTP interface of a station: access, rate limits, and the way to each address's handler."""
+"""The HTTP interface of a station, as a Starlette application: who is let in, and how many at once.
+
+Every request passes the `Door`. Routes are made of the declared interface.
+"""
 
 from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Awaitable, Callable, Sequence
-from dataclasses import replace
+from collections.abc import Awaitable, Callable, Iterator, Mapping
+from contextlib import aclosing, contextmanager
+from itertools import groupby
+from operator import attrgetter
+from typing import TYPE_CHECKING
 
-from ..commands import Malformed
+from starlette.applications import Starlette
+from starlette.datastructures import MutableHeaders
+from starlette.exceptions import HTTPException
+from starlette.middleware import Middleware
+from starlette.requests import ClientDisconnect, HTTPConnection, Request
+from starlette.responses import Response
+from starlette.routing import Route, WebSocketRoute
+
+from ...process.beside import Died
+from ...shared.domain.errors import BadInput
+from ..map.drawn import StaleMap
+from ..operation import JSON, SMALL_BODY, Operation
+from ..plan.plan import Stale
 from ..sign import Logo
 from ..wire import Role
+from ..wire_app import PlanData
 from . import refusals
-from .addresses import ADDRESSES, JSON, SMALL_BODY, Address
 from .audit import Audit
-from .guard import Access, Guard, Rate, refusal, role_of, with_safe_headers
-from .http import MISTAKES, PageSocket, Reply, Request
-from .live import LiveUpdates
+from .guard import (
+    Access,
+    Guard,
+    Rate,
+    client_of,
+    header,
+    refusal,
+    role_of,
+    safe_headers,
+)
+from .handlers import HANDLERS, NEWEST, OPERATIONS, Asked, said
+from .live import LIVE, LiveUpdates
 from .refusals import Refusal, Refused
-from .served import Asked, ServedStation
-from .static import StaticFile, file_reply, logo_file, pages, picture
-from .strict_json import parsed_object
+from .static import StaticFile, logo_file, pages, picture
+
+if TYPE_CHECKING:
+    from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+    from ..station import Station
 
 _COMMANDS_A_SECOND, _EDITS_A_SECOND, _READS_A_SECOND = 20.0, 20.0, 100.0
 """Rates per second for each client; edits of the plan do not count as commands."""
@@ -33,108 +63,195 @@ _WRONG_TOKEN_WAITS = 0.5
 """Seconds after which a wrong token is refused."""
 _MOST_WAITING = 32
 """The most delayed refusals; more are sent at once."""
+BODY_WITHIN = 10.0
+BYTES_A_SECOND = 512 * 1024
+"""The time-out of a body in seconds, and the rate that lengthens it for large ones."""
 
 Pause = Callable[[float], Awaitable[object]]
 
 
-class Api:
+class Api(Starlette):
     """The HTTP interface of one station."""
 
     def __init__(
         self,
-        station: ServedStation,
+        station: Station,
         guard: Guard,
         audit: Audit,
         *,
         clock: Callable[[], float] = time.monotonic,
         pause: Pause = asyncio.sleep,
-        addresses: Sequence[Address] = ADDRESSES,
         logo: Logo | None = None,
     ) -> None:
         self.guard = guard
-        self._station, self._audit, self._pause = station, audit, pause
-        self._addresses: dict[str, dict[str, Address]] = {}
-        for address in addresses:
-            self._addresses.setdefault(address.path, {})[address.method] = address
-        self._pages = pages()
+        self._station = station
+        self._audit = audit
+        self._places = _Places(clock)
         self._picture = picture(station.image)
-        self._logo = logo_file(logo)
-        self._commands, self._edits = Rate(_COMMANDS_A_SECOND, clock), Rate(_EDITS_A_SECOND, clock)
-        self._reads = Rate(_READS_A_SECOND, clock)
         self._live = LiveUpdates(station, guard, audit, clock)
-        self._under_way = self._reading = self._large = self._waiting = 0
-
-    async def answer(self, request: Request) -> Reply:
-        """Handle any request; errors reveal no internals."""
-        if request.method == "HEAD":  # like GET; the server leaves the body out
-            request = replace(request, method="GET")
-        try:
-            reply = await self._answer(request)
-        except Refused as error:
-            reply = self._refused(request, error.refusal)
-        except Malformed as error:
-            reply = self._refused(request, refusals.malformed(str(error)))
-        except MISTAKES as error:
-            self._audit.trouble(request, error)
-            reply = refusals.OURS.reply
-        return with_safe_headers(request, reply)
-
-    async def live(self, page: PageSocket, request: Request) -> None:
-        """Serve a page's WebSocket."""
-        await self._live.talk(page, request)
+        self._handlers = {**HANDLERS, "live": self._live.poll}
+        static = dict(pages())
+        if logo is not None:
+            static["/logo"] = logo_file(logo)
+        path = attrgetter("path")
+        routes = [
+            WebSocketRoute(LIVE, self._live.talk),
+            *(
+                self._route(address, {one.method: one for one in operations})
+                for address, operations in groupby(sorted(OPERATIONS.values(), key=path), key=path)
+            ),
+            Route("/map", self._floor_plan),
+            *(Route(address, _page(held)) for address, held in static.items()),
+        ]
+        door = Middleware(_Door, guard=guard, audit=audit, pause=pause)
+        refused = {Refused: self._refused, HTTPException: self._not_there}
+        super().__init__(routes=routes, middleware=[door], exception_handlers=refused)
+        self.router.redirect_slashes = False
 
     def end(self) -> None:
         """Close the connections of all pages."""
         self._live.end()
 
-    def _refused(self, request: Request, why: Refusal) -> Reply:
-        self._audit.refused(request, why.status, why.said)
-        return why.reply
+    async def _refused(self, request: Request, error: Exception) -> Response:
+        assert isinstance(error, Refused)
+        self._audit.refused(request, error.refusal.status, error.refusal.said)
+        return refusal_reply(error.refusal)
 
-    async def _answer(self, request: Request) -> Reply:
-        access = _asking(request)
-        why = refusal(self.guard, request, access)
-        if why is not None:
-            if why.status == 401:
-                await self._slow_down()
-            raise Refused(why)
-        if access is Access.PAGE and request.path in self._pages:
-            return file_reply(self._pages[request.path], request)
-        if request.path == "/logo" and self._logo is not None and access is Access.PAGE:
-            return file_reply(self._logo, request)
-        if request.path == "/map" and (held := self._floor_plan()) is not None:
-            return file_reply(held, request)
-        address = self._route(request)
-        role = role_of(self.guard, request)
-        assert role is not None  # else it was refused
-        if address.role == "fly" and role != "fly":
-            raise Refused(refusals.WATCHES)
-        if address.do is None:
-            return await self._live.poll(request, role)
-        if address.always:
-            return await self._done(address, request, role)
-        return await self._within_limits(address, request, role)
+    async def _not_there(self, request: Request, error: Exception) -> Response:
+        """Answer where Starlette finds no route, or none of this method."""
+        assert isinstance(error, HTTPException)
+        methods = (error.headers or {}).get("Allow", "").split(", ")
+        allowed = ", ".join(sorted({*methods} - {"HEAD"}))
+        why = refusals.wrong_method(allowed) if allowed else refusals.NO_SUCH_PAGE
+        return await self._refused(request, Refused(why))
 
-    def _route(self, request: Request) -> Address:
-        """Return the address that is asked; raise `Refused` if there is none."""
-        methods = self._addresses.get(request.path)
-        if methods is None:
-            raise Refused(refusals.NO_SUCH_PAGE)
-        if request.method not in methods:
-            raise Refused(refusals.wrong_method(", ".join(methods)))
-        return methods[request.method]
-
-    def _floor_plan(self) -> StaticFile | None:
-        """Return the floor plan, read once: another one has another name."""
+    async def _floor_plan(self, request: Request) -> Response:
+        """Answer with the floor plan, read once: another one has another name."""
         if self._picture[0] != self._station.image:
             self._picture = picture(self._station.image)
-        return self._picture[1]
+        if self._picture[1] is None:
+            raise Refused(refusals.NO_SUCH_PAGE)
+        return _file_reply(self._picture[1], request)
 
-    async def _within_limits(self, address: Address, request: Request, role: Role) -> Reply:
-        """Handle a request within the limits."""
-        if not self._rate(request).allows(f"{role} {request.client}"):
+    def _route(self, path: str, operations: Mapping[str, Operation]) -> Route:
+        async def answer(request: Request) -> Response:
+            operation = operations["GET" if request.method == "HEAD" else request.method]
+            role = role_of(self.guard, request)
+            if role is None or (operation.role == "fly" and role != "fly"):
+                raise Refused(refusals.WATCHES)
+            if operation.always or operation.path == LIVE:
+                return await self._done(operation, request, role)
+            with self._places.taken(operation, f"{role} {client_of(request)}"):
+                return await self._done(operation, request, role)
+
+        return Route(path, answer, methods=list(operations))
+
+    async def _done(self, operation: Operation, request: Request, role: Role) -> Response:
+        """Read what was sent, do what is asked, and note that in the audit."""
+        body = b""
+        try:
+            given = operation.asked(request.query_params)
+            if operation.body is not None or operation.takes:
+                body = await _body(operation, request)
+            if operation.body is not None:
+                given |= operation.sent(body)
+        except BadInput as error:
+            raise Refused(refusals.malformed(str(error))) from None
+        handler = self._handlers[operation.name]
+        asked = Asked(station=self._station, request=request, role=role, given=given, body=body)
+        status = 200
+        try:
+            answer = await handler(asked, **{**operation.defaults, **given})
+        except (Stale, StaleMap):
+            status = 409
+            answer = await NEWEST[operation.stale](asked)
+            answer.status_code = status
+        except BadInput as error:
+            status = operation.impossible
+            answer = str(error)
+        except Died:
+            raise Refused(refusals.READER_ENDED) from None
+        if not operation.reads:
+            told = answer if isinstance(answer, str) else ""
+            self._audit.done(request, _noted(operation, given), status, told)
+        return said(answer, status) if isinstance(answer, str) else answer
+
+
+def _noted(operation: Operation, given: Mapping[str, object]) -> Mapping[str, object]:
+    """Return what the audit has of a change: of the plan, not the plan itself."""
+    whole = operation.stale is not PlanData
+    return {name: value for name, value in given.items() if whole or name != "missions"}
+
+
+def _page(held: StaticFile) -> Callable[[Request], Response]:
+    return lambda request: _file_reply(held, request)
+
+
+def _file_reply(held: StaticFile, request: Request) -> Response:
+    """Answer with a file, or 304 if the browser has it already."""
+    headers = {
+        "Content-Type": held.type,
+        "ETag": held.mark,
+        "Cache-Control": "no-cache",
+        "Vary": "Accept-Encoding",
+    }
+    if held.mark in request.headers.get("if-none-match", ""):
+        return Response(status_code=304, headers=headers)
+    if held.packed is not None and "gzip" in request.headers.get("accept-encoding", ""):
+        return Response(held.packed, headers={**headers, "Content-Encoding": "gzip"})
+    return Response(held.plain, headers=headers)
+
+
+def refusal_reply(why: Refusal) -> Response:
+    """Answer with why a request is refused."""
+    answer = said(why.said, why.status)
+    answer.headers.update(why.headers)
+    return answer
+
+
+async def _body(operation: Operation, request: Request) -> bytes:
+    """Read a body to its end; raise `Refused` if it is of another type, too long or too slow."""
+    types, most = operation.takes or (JSON,), operation.most_bytes
+    if header(request, "content-type").partition(";")[0].strip().lower() not in types:
+        raise Refused(refusals.wrong_type(" or ".join(types)))
+    length = header(request, "content-length") or "0"
+    if not length.isdecimal() or len(length) > 12 or int(length) > most:
+        raise Refused(refusals.too_long(most))
+    body = bytearray()
+    try:
+        async with (
+            asyncio.timeout(max(BODY_WITHIN, most / BYTES_A_SECOND)),
+            aclosing(request.stream()) as stream,
+        ):
+            async for chunk in stream:
+                body += chunk
+                if len(body) > most:
+                    raise Refused(refusals.too_long(most))
+    except TimeoutError:
+        raise Refused(refusals.TOO_SLOW) from None
+    except ClientDisconnect:
+        raise Refused(refusals.CUT_OFF) from None
+    return bytes(body)
+
+
+class _Places:
+    """How many may ask at once, and how often each."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._commands = Rate(_COMMANDS_A_SECOND, clock)
+        self._edits = Rate(_EDITS_A_SECOND, clock)
+        self._reads = Rate(_READS_A_SECOND, clock)
+        self._under_way = 0
+        self._reading = 0
+        self._large = 0
+
+    @contextmanager
+    def taken(self, operation: Operation, client: str) -> Iterator[None]:
+        """Take a place while a request is answered; raise `Refused` where there is none."""
+        rate = self._edits if operation.path.startswith("/api/plan") else self._commands
+        if not (self._reads if operation.method == "GET" else rate).allows(client):
             raise Refused(refusals.TOO_MANY)
-        reads, is_large = address.reads_flights, address.most_bytes > SMALL_BODY
+        reads, is_large = operation.reads_flights, operation.most_bytes > SMALL_BODY
         if (
             self._under_way >= _MOST_UNDER_WAY
             or (reads and self._reading >= _MOST_READING)
@@ -145,38 +262,56 @@ class Api:
         self._reading += reads
         self._large += is_large
         try:
-            return await self._done(address, request, role)
+            yield
         finally:
             self._under_way -= 1
             self._reading -= reads
             self._large -= is_large
 
-    async def _done(self, address: Address, request: Request, role: Role) -> Reply:
-        """Read a request's body, and hand it to its handler."""
-        assert address.do is not None
-        body, given = b"", dict[str, object]()
-        if address.body is not None:
-            sent = request.headers.get("content-type", "").partition(";")[0].strip().lower()
-            if sent not in address.media:
-                raise Refused(refusals.wrong_type(" or ".join(address.media)))
-            body = await request.read(address.most_bytes)
-            if sent == JSON:
-                given = parsed_object(body)
-        return await address.do(
-            Asked(
-                station=self._station,
-                audit=self._audit,
-                request=request,
-                role=role,
-                given=given,
-                body=body,
-            )
-        )
 
-    def _rate(self, request: Request) -> Rate:
-        if request.method == "GET":
-            return self._reads
-        return self._edits if request.path.startswith("/api/plan") else self._commands
+class _Door:
+    """Lets in who may ask, gives every answer its security headers, and tells no client of our mistakes."""
+
+    def __init__(self, app: ASGIApp, guard: Guard, audit: Audit, pause: Pause) -> None:
+        self._app = app
+        self._guard = guard
+        self._audit = audit
+        self._pause = pause
+        self._waiting = 0
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        connection = HTTPConnection(scope)
+        why = refusal(self._guard, connection, _access(scope))
+        if scope["type"] == "websocket":
+            if why is None:
+                await self._app(scope, receive, send)
+            else:
+                self._audit.refused(connection, why.status, why.said)
+                await send({"type": "websocket.close"})  # the server answers 403
+            return
+        begun = False
+
+        async def with_headers(message: Message) -> None:
+            nonlocal begun
+            if message["type"] == "http.response.start":
+                begun = True
+                safe_headers(connection, MutableHeaders(scope=message))
+            await send(message)
+
+        try:
+            if why is None:
+                await self._app(scope, receive, with_headers)
+                return
+            if why.status == 401:
+                await self._slow_down()
+            self._audit.refused(connection, why.status, why.said)
+        except ClientDisconnect:
+            return
+        except Exception as error:  # noqa: BLE001 - a bug fails one request alone
+            self._audit.trouble(connection, error)
+            why = refusals.OURS
+        if not begun:
+            await refusal_reply(why)(scope, receive, with_headers)
 
     async def _slow_down(self) -> None:
         """Delay the refusal of a wrong token, against guessing."""
@@ -189,8 +324,10 @@ class Api:
             self._waiting -= 1
 
 
-def _asking(request: Request) -> Access:
-    if request.method != "GET":
+def _access(scope: Scope) -> Access:
+    if scope["type"] == "websocket":
+        return Access.LIVE
+    if scope["method"] not in ("GET", "HEAD"):
         return Access.COMMAND
-    reads = request.path.startswith("/api/") or request.path == "/map"
+    reads = scope["path"].startswith("/api/") or scope["path"] == "/map"
     return Access.READ if reads else Access.PAGE

@@ -12,9 +12,14 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from traceback import format_exception
+from typing import TYPE_CHECKING
+from urllib.parse import unquote
 
-from .guard import Rate
-from .http import Request
+from ...shared.domain.text import cut_off, printable
+from .guard import Rate, client_of, header
+
+if TYPE_CHECKING:
+    from starlette.requests import HTTPConnection
 
 _LARGEST_FILE = 4 * 1024 * 1024
 """Bytes of a file, after which it replaces `audit.log.1`."""
@@ -23,6 +28,15 @@ _MOST_ENTRIES = 20
 """The most characters of a text, and entries of a list, in the log."""
 _REFUSALS_A_SECOND, _REFUSALS_AT_ONCE = 1.0, 20.0
 """The rate and burst of lines about refusals, which must not displace those about commands."""
+
+LONGEST_WHO = 40
+_LONGEST_HEADER = 1_000
+
+
+def who(connection: HTTPConnection) -> str:
+    """Return the name that a person has given themselves, sanitized; it is never trusted."""
+    name = unquote(header(connection, "x-pluto-who")[:_LONGEST_HEADER], errors="replace")
+    return cut_off(printable(name.strip()), LONGEST_WHO)
 
 
 class Audit:
@@ -39,13 +53,15 @@ class Audit:
         self._refusals = Rate(_REFUSALS_A_SECOND, clock, _REFUSALS_AT_ONCE)
         self._left_out = 0
 
-    def done(self, request: Request, given: Mapping[str, object], status: int, said: str) -> None:
+    def done(
+        self, asked: HTTPConnection, given: Mapping[str, object], status: int, said: str
+    ) -> None:
         """Log a command and its answer."""
-        by = {"by": request.who} if request.who else {}
-        entry = {"client": request.client, **by, "do": request.path, "given": short(given)}
+        by = {"by": name} if (name := who(asked)) else {}
+        entry = {"client": client_of(asked), **by, "do": asked.scope["path"], "given": short(given)}
         self._write({**entry, "status": status, "said": said})
 
-    def refused(self, request: Request, status: int, said: str) -> None:
+    def refused(self, asked: HTTPConnection, status: int, said: str) -> None:
         """Log a refused request."""
         if not self._refusals.allows(""):
             self._left_out += 1
@@ -53,14 +69,15 @@ class Audit:
         if self._left_out:
             self._write({"refused too, without a line": self._left_out})
             self._left_out = 0
-        asked = {"client": request.client, "refused": f"{request.method} {request.path}"}
-        bears = {name: request.headers[name] for name in _TELLING if name in request.headers}
-        self._write({**asked, **bears, "status": status, "said": said})
+        what = f"{asked.scope.get('method', 'GET')} {asked.scope['path']}"
+        bears = {name: header(asked, name) for name in _TELLING if name in asked.headers}
+        entry = {"client": client_of(asked), "refused": what, **bears}
+        self._write({**entry, "status": status, "said": said})
 
-    def trouble(self, request: Request, error: BaseException) -> None:
+    def trouble(self, asked: HTTPConnection, error: BaseException) -> None:
         """Log a bug of the station, with its traceback."""
         where = "".join(format_exception(error))[-20 * _LONGEST_TEXT :]
-        self._write({"client": request.client, "trouble": request.path}, where)
+        self._write({"client": client_of(asked), "trouble": asked.scope["path"]}, where)
 
     def _write(self, entry: Mapping[str, object], where: str | None = None) -> None:
         if self._file is None:

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cache
 from hashlib import sha256
 from hmac import compare_digest
 from ipaddress import IPv4Address, IPv6Address, ip_address
+from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import quoted
 from ..wire import Role
 from . import refusals
-from .http import Reply, Request
 from .refusals import Refusal
 from .static import pages
+
+if TYPE_CHECKING:
+    from starlette.datastructures import MutableHeaders
+    from starlette.requests import HTTPConnection
 
 _CLIENTS_KEPT = 1024
 """The most clients that are remembered; a forgotten one starts afresh."""
@@ -99,33 +103,44 @@ def needs_token(host: str, names: tuple[str, ...]) -> bool:
     return bool(names) or not is_loopback(host)
 
 
-def refusal(guard: Guard, request: Request, access: Access) -> Refusal | None:
+def refusal(guard: Guard, connection: HTTPConnection, access: Access) -> Refusal | None:
     """Return why a request is refused; None: it is allowed.
 
     On a WebSocket the token is not checked here, as it comes with the first message.
     """
-    headers = request.headers
+    headers = connection.headers
     if "content-length" in headers and "transfer-encoding" in headers:
         return refusals.TWO_LENGTHS
-    host = headers.get("host", "").lower()
-    if not _is_ours(guard, host, request.local):
+    host = header(connection, "host").lower()
+    local = connection.scope.get("server") or ("",)
+    if not _is_ours(guard, host, str(local[0])):
         return refusals.UNKNOWN_HOST
     if access is Access.PAGE:
         return None
-    if not _is_same_site(headers, host, access):
+    if not _is_same_site(connection, host, access):
         return refusals.ANOTHER_SITE
-    marked = headers.get("x-pluto") == "1"
+    marked = header(connection, "x-pluto") == "1"
     if access is Access.COMMAND and not marked:
         return refusals.NO_MARK
     if access is Access.LIVE:
         stranger = "origin" not in headers and guard.token is None and not marked
         return refusals.NO_MARK if stranger else None
-    return refusals.NO_TOKEN if role_of(guard, request) is None else None
+    return refusals.NO_TOKEN if role_of(guard, connection) is None else None
 
 
-def role_of(guard: Guard, request: Request) -> Role | None:
+def header(connection: HTTPConnection, name: str) -> str:
+    """Return a header; repeated ones are joined, which makes them invalid."""
+    return ", ".join(connection.headers.getlist(name))
+
+
+def client_of(connection: HTTPConnection) -> str:
+    """Return the address of the connection; headers of proxies are ignored."""
+    return connection.client.host if connection.client is not None else ""
+
+
+def role_of(guard: Guard, connection: HTTPConnection) -> Role | None:
     """Return what the token of a request allows; None: nothing."""
-    return role_by(guard, bearer(request.headers.get("authorization", "")))
+    return role_by(guard, bearer(header(connection, "authorization")))
 
 
 def role_by(guard: Guard, token: str) -> Role | None:
@@ -144,9 +159,9 @@ def bearer(authorization: str) -> str:
     return token.strip() if kind.lower() == "bearer" else ""
 
 
-def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool:
+def _is_same_site(connection: HTTPConnection, host: str, access: Access) -> bool:
     """Whether the request comes from one of our pages, or not from a page."""
-    site = headers.get("sec-fetch-site", "same-origin")
+    site = header(connection, "sec-fetch-site") or "same-origin"
     match access:
         case Access.LIVE:  # browsers differ in the site of a ws: address
             near = site != "cross-site"
@@ -154,8 +169,9 @@ def _is_same_site(headers: Mapping[str, str], host: str, access: Access) -> bool
             near = site in ("same-origin", "none")
         case _:
             near = site == "same-origin"
-    origin = headers.get("origin")
-    return near and (origin is None or origin.lower() in (f"http://{host}", f"https://{host}"))
+    origin = header(connection, "origin").lower()
+    has_one = "origin" in connection.headers
+    return near and (not has_one or origin in (f"http://{host}", f"https://{host}"))
 
 
 def _is_ours(guard: Guard, host: str, local: str) -> bool:
@@ -202,31 +218,31 @@ _PICTURE = (
 )
 _DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
 
-_ALONE = (("Cross-Origin-Opener-Policy", "same-origin"),)
+_ALONE = "Cross-Origin-Opener-Policy"
 """A header that browsers respect only on this machine or over TLS, and else complain about."""
 
-_ALWAYS = (
-    ("X-Content-Type-Options", "nosniff"),
-    ("X-Frame-Options", "DENY"),
-    ("Referrer-Policy", "no-referrer"),
-    ("Cross-Origin-Resource-Policy", "same-origin"),
-    ("Permissions-Policy", "camera=(), geolocation=(), microphone=(), payment=(), usb=()"),
-)
+_ALWAYS = {
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
+}
 
 
-def with_safe_headers(request: Request, reply: Reply) -> Reply:
-    """Return an answer with all security headers."""
-    own = {name.lower() for name, _ in reply.headers}
-    kept = () if "cache-control" in own else (("Cache-Control", "no-store"),)
-    policy = (("Content-Security-Policy", _policy(request, reply)),)
-    alone = _ALONE if is_loopback(request.headers.get("host", "").rpartition(":")[0]) else ()
-    return replace(reply, headers=(*reply.headers, *kept, *policy, *alone, *_ALWAYS))
+def safe_headers(connection: HTTPConnection, headers: MutableHeaders) -> None:
+    """Add all security headers to those of an answer."""
+    headers.update(_ALWAYS)
+    headers.setdefault("Cache-Control", "no-store")
+    headers["Content-Security-Policy"] = _policy(connection.scope["path"], headers)
+    if is_loopback(header(connection, "host").rpartition(":")[0]):
+        headers[_ALONE] = "same-origin"
 
 
-def _policy(request: Request, reply: Reply) -> str:
-    if request.path in ("/map", "/logo"):
+def _policy(path: str, headers: MutableHeaders) -> str:
+    if path in ("/map", "/logo"):
         return _PICTURE
-    if not reply.type.startswith("text/html"):
+    if not headers.get("content-type", "").startswith("text/html"):
         return _DATA
     return _PAGE.format(hashes=_hashes())
 

@@ -10,18 +10,24 @@ import json
 from collections import Counter
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Protocol
+from typing import TYPE_CHECKING
 
-from ..commands import Malformed
-from ..wire import Me, Role
+import msgspec
+from starlette.responses import Response
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from ..operation import JSON, in_words
+from ..wire import LiveRequest, Role
 from . import refusals
 from .audit import Audit
-from .guard import Access, Guard, Rate, refusal, role_by
-from .http import MISTAKES, Closed, PageSocket, Reply, Request
-from .people import People, me_of
+from .guard import Guard, Rate, client_of, role_by
+from .handlers import Asked
+from .people import People, shortened
 from .places import Displaced, WaitingPlaces
 from .refusals import Refused
-from .strict_json import asked_number, parsed_object
+
+if TYPE_CHECKING:
+    from ..station import Station
 
 LIVE = "/api/live"
 """The address for WebSockets."""
@@ -34,60 +40,63 @@ _MESSAGES_A_SECOND = 20.0
 """The most messages per second from a page."""
 _FIRST_WITHIN, _NEXT_WITHIN = 10.0, 120.0
 """Time-outs of the first message and of the next ones, in seconds."""
-_LONGEST_FLIGHT = 100
+_LONGEST_REASON = 120
+"""The longest reason in a close frame, in bytes."""
 
 NO_TOKEN, MALFORMED, TOO_MANY, TROUBLE, SILENT, OVER = 4401, 4400, 4429, 1011, 4408, 1012
 """Close codes; from 4400 on HTTP's status plus 4000."""
 
-
-class UpdateSource(Protocol):
-    """The source of updates."""
-
-    async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
-        """Return what is newer than a version, as JSON; wait briefly for it."""
+_DECODER = msgspec.json.Decoder(LiveRequest)
 
 
 class LiveUpdates:
     """The connections of all pages."""
 
     def __init__(
-        self, station: UpdateSource, guard: Guard, audit: Audit, clock: Callable[[], float]
+        self, station: Station, guard: Guard, audit: Audit, clock: Callable[[], float]
     ) -> None:
-        self._station, self._guard, self._audit, self._clock = station, guard, audit, clock
+        self._station = station
+        self._guard = guard
+        self._audit = audit
+        self._clock = clock
         self._on: Counter[Role] = Counter()
         self._places = WaitingPlaces(_MOST_WAITING)
         self._people = People()
         self._talks: set[asyncio.Task[None]] = set()
         self._over = False
 
-    async def poll(self, request: Request, role: Role) -> Reply:
+    async def poll(self, asked: Asked, flight: str, seen: int, log: int, results: int) -> Response:
         """Answer a page that polls, without a WebSocket."""
-        query = request.query
-        counts = [asked_number(query, name) for name in ("seen", "log", "results")]
-        if self._on[role] >= _MOST_PAGES:
+        if self._on[asked.role] >= _MOST_PAGES:
             raise Refused(refusals.TOO_BUSY)
-        self._on[role] += 1
+        self._on[asked.role] += 1
         try:
-            text = await self._station.newer(query.get("flight", ""), *counts)
+            text = await self._station.newer(flight, seen, log, results)
         finally:
-            self._on[role] -= 1
-        return Reply(status=200, body=text.encode("utf-8", "replace"))
+            self._on[asked.role] -= 1
+        return Response(text.encode("utf-8", "replace"), media_type=JSON)
 
-    async def talk(self, page: PageSocket, request: Request) -> None:
+    async def talk(self, page: WebSocket) -> None:
         """Serve a page's WebSocket until it closes."""
         task = asyncio.current_task()
         assert task is not None
+        if self._over:
+            await page.close()
+            return
         self._talks.add(task)
         try:
-            await self._admit(page, request, task)
-        except Closed:
-            pass
+            await self._converse(page, task)
+        except (WebSocketDisconnect, OSError):
+            pass  # the page has gone away
+        except _Improper as error:
+            self._audit.refused(page, error.code - 4000, str(error))
+            await _hang_up(page, error.code, str(error))
         except asyncio.CancelledError:
             if not self._over:
                 raise
             await _hang_up(page, OVER, "the station ends")
-        except MISTAKES as error:
-            self._audit.trouble(request, error)
+        except Exception as error:  # noqa: BLE001 - a bug ends the talk with one page alone
+            self._audit.trouble(page, error)
             await _hang_up(page, TROUBLE, "something went wrong inside the station")
         finally:
             self._talks.discard(task)
@@ -98,32 +107,14 @@ class LiveUpdates:
         for task in self._talks:
             task.cancel()
 
-    async def _admit(self, page: PageSocket, request: Request, task: asyncio.Task[None]) -> None:
-        """Accept a page after its first message, or close its connection with a reason."""
-        why = refusal(self._guard, request, Access.LIVE)
-        if why is None and request.path != LIVE:
-            why = refusals.NO_SUCH_PAGE
-        if why is None and self._over:
-            why = refusals.TOO_BUSY
-        if why is not None:
-            self._audit.refused(request, why.status, why.said)
-            await page.refuse()
-            return
+    async def _converse(self, page: WebSocket, task: asyncio.Task[None]) -> None:
         try:
-            await self._converse(page, request, task)
-        except _Improper as error:
-            self._audit.refused(request, error.code - 4000, str(error))
-            await _hang_up(page, error.code, str(error))
-
-    async def _converse(self, page: PageSocket, request: Request, task: asyncio.Task[None]) -> None:
-        try:
-            with self._places.taken(task, request.client):
-                await page.open()
+            with self._places.taken(task, client_of(page)):
+                await page.accept()
                 first = await _heard(page, _FIRST_WITHIN)
         except Displaced:
             raise _Improper(TOO_MANY, refusals.TOO_BUSY.said) from None
-        token = first.get("token", "")
-        role = role_by(self._guard, token) if isinstance(token, str) else None
+        role = role_by(self._guard, first.get("token", ""))
         if role is None:
             raise _Improper(NO_TOKEN, refusals.NO_TOKEN.said)
         if self._on[role] >= _MOST_PAGES:
@@ -135,19 +126,21 @@ class LiveUpdates:
             self._on[role] -= 1
             self._people.leave(page)
 
-    async def _tell(self, page: PageSocket, asked: dict[str, object], role: Role) -> None:
-        rate, told = Rate(_MESSAGES_A_SECOND, self._clock), 0
+    async def _tell(self, page: WebSocket, asked: LiveRequest, role: Role) -> None:
+        rate = Rate(_MESSAGES_A_SECOND, self._clock)
+        told = 0
         while True:
             if not rate.allows(""):
                 raise _Improper(TOO_MANY, refusals.TOO_MANY.said)
-            seen, me = _seen(asked)
-            if me is not None:
-                self._people.enter(page, role, me)
-            text = await self._station.newer(*seen)
+            if "me" in asked:
+                self._people.enter(page, role, shortened(asked["me"]))
+            text = await self._station.newer(
+                asked["flight"], asked["seen"], asked["log"], asked["results"]
+            )
             if told != self._people.version:
                 told = self._people.version
                 text = f'{text[:-1]}, "people": {json.dumps(self._people.others(page))}}}'
-            await page.send(text)
+            await page.send_text(text)
             asked = await _heard(page, _NEXT_WITHIN)
 
 
@@ -159,31 +152,24 @@ class _Improper(Exception):
         self.code = code
 
 
-async def _heard(page: PageSocket, within: float) -> dict[str, object]:
+async def _heard(page: WebSocket, within: float) -> LiveRequest:
     """Return the next message, if it comes in time and is valid."""
     try:
         async with asyncio.timeout(within):
-            text = await page.receive()
+            message = await page.receive()
     except TimeoutError:
         raise _Improper(SILENT, f"nothing was said for {within:g} seconds") from None
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message.get("code", 1005))
     try:
-        return parsed_object(text)
-    except Malformed as error:
-        raise _Improper(MALFORMED, str(error)) from None
+        return _DECODER.decode(message.get("text") or "")
+    except msgspec.ValidationError as error:
+        raise _Improper(MALFORMED, in_words(str(error), LiveRequest.__annotations__)) from None
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise _Improper(MALFORMED, f"what was sent is not JSON: {error}") from None
 
 
-def _seen(asked: dict[str, object]) -> tuple[tuple[str, int, int, int], Me | None]:
-    """Return the version that a page has, and what it says of itself."""
-    match asked:
-        case {"flight": str(flight), "seen": int(seen), "log": int(log), "results": int(results)}:
-            try:
-                return (flight[:_LONGEST_FLIGHT], seen, log, results), me_of(asked.get("me"))
-            except Malformed as error:
-                raise _Improper(MALFORMED, str(error)) from None
-        case _:
-            raise _Improper(MALFORMED, "a message says flight, seen, log and results")
-
-
-async def _hang_up(page: PageSocket, code: int, why: str) -> None:
-    with suppress(Closed):
-        await page.close(code, why)
+async def _hang_up(page: WebSocket, code: int, why: str) -> None:
+    reason = why.encode()[:_LONGEST_REASON].decode(errors="ignore")
+    with suppress(WebSocketDisconnect, RuntimeError, OSError):  # it may have gone away
+        await page.close(code, reason)

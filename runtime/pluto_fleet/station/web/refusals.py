@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-from .http import Reply, said
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,13 +12,7 @@ class Refusal:
 
     status: int
     said: str
-    headers: tuple[tuple[str, str], ...] = ()
-
-    @property
-    def reply(self) -> Reply:
-        """The answer."""
-        plain = said(self.status, self.said)
-        return Reply(status=self.status, body=plain.body, headers=self.headers)
+    headers: Mapping[str, str] = field(default_factory=dict)
 
 
 class Refused(Exception):
@@ -30,9 +23,9 @@ class Refused(Exception):
         self.refusal = refusal
 
 
-HANG_UP = (("Connection", "close"),)
+HANG_UP = {"Connection": "close"}
 """The header for a request that is refused before all of it has been read."""
-_SOON = (("Retry-After", "1"),)
+_SOON = {"Retry-After": "1"}
 
 UNKNOWN_HOST = Refusal(
     403,
@@ -47,7 +40,7 @@ NO_TOKEN = Refusal(
     401,
     "this needs the token: it stands in the address that the station printed when it began,"
     " behind #token=",
-    (("WWW-Authenticate", "Bearer"),),
+    {"WWW-Authenticate": "Bearer"},
 )
 WATCHES = Refusal(
     403,
@@ -87,7 +80,7 @@ def wrong_type(wanted: str) -> Refusal:
 
 def wrong_method(allowed: str) -> Refusal:
     """The address does not allow this method."""
-    return Refusal(405, f"this address takes {allowed} only", (("Allow", allowed),))
+    return Refusal(405, f"this address takes {allowed} only", {"Allow": allowed})
 
 
 def too_long(limit: int) -> Refusal:

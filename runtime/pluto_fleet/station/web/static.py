@@ -15,7 +15,6 @@ from pathlib import Path
 
 from ..map.pictures import PICTURES
 from ..sign import Logo
-from .http import Reply, Request
 
 FOLDER = Path(__file__).parent.parent / "pages"
 
@@ -68,20 +67,9 @@ def picture(place: Path | None) -> tuple[Path | None, StaticFile | None]:
         return place, None
 
 
-def logo_file(logo: Logo | None) -> StaticFile | None:
+def logo_file(logo: Logo) -> StaticFile:
     """Return the logo of a station as it is served."""
-    return None if logo is None else _held(logo.type, logo.content, packs=False)
-
-
-def file_reply(held: StaticFile, request: Request) -> Reply:
-    """Answer with a file, or 304 if the browser has it already."""
-    headers = (("ETag", held.mark), ("Cache-Control", "no-cache"), ("Vary", "Accept-Encoding"))
-    if held.mark in request.headers.get("if-none-match", ""):
-        return Reply(status=304, type=held.type, headers=headers)
-    if held.packed is not None and "gzip" in request.headers.get("accept-encoding", ""):
-        packed = (("Content-Encoding", "gzip"), *headers)
-        return Reply(status=200, body=held.packed, type=held.type, headers=packed)
-    return Reply(status=200, body=held.plain, type=held.type, headers=headers)
+    return _held(logo.type, logo.content, packs=False)
 
 
 def _held(kind: str, content: bytes, *, packs: bool) -> StaticFile:

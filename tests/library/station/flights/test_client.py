@@ -8,7 +8,7 @@ import re
 import runpy
 from collections.abc import Callable
 from contextlib import redirect_stdout
-from io import StringIO
+from io import BytesIO, StringIO
 from typing import Any
 from zipfile import ZipFile
 
@@ -18,7 +18,7 @@ from jsonschema import Draft202012Validator
 from pluto_fleet.client import Outdated, Refused
 from pluto_fleet.client import Station as Client
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.web.reads import DESCRIPTION
+from pluto_fleet.station.web.handlers import DESCRIPTION
 from tests.library.station.conftest import Serve
 from tests.library.station.in_process import Flown
 from tests.library.station.server.serving import hosted
@@ -130,9 +130,8 @@ def test_a_flight_is_told_as_it_is_described_and_the_same_by_the_next_station(se
     station.start()
     assert station.get("/api/results.json") == results
     assert station.ask("GET", "/api/results.json", flight="nowhere").status == 404
-    packed = station.ask("GET", "/api/results.zip").file
-    assert packed is not None
-    with ZipFile(packed) as archive:
+    packed = station.ask("GET", "/api/results.zip").body
+    with ZipFile(BytesIO(packed)) as archive:
         assert archive.read("results.csv") == station.ask("GET", "/api/results.csv").body
     features = station.get("/api/results.geojson", flight=station.journals()[0].stem)["features"]
     assert {one["id"] for one in features} <= {one["number"] for one in results} and features

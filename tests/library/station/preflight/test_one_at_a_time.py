@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import AsyncGenerator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import pytest
@@ -16,16 +16,15 @@ from pluto_fleet.station.preflight.preflight import Newer, Preflight
 from pluto_fleet.station.preflight.runs import Found, Needs, Run
 from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.station import Station
+from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
-from pluto_fleet.station.web.forecasts import GONE
-from pluto_fleet.station.web.forecasts import preflight as answered
-from pluto_fleet.station.web.http import Request
-from pluto_fleet.station.web.served import Asked
+from pluto_fleet.station.web.guard import Guard
 from tests.library.files.an_app import APP
 from tests.library.station.in_threads import InThreads
 from tests.library.station.jumping import run
 from tests.library.station.plan.drawing import drawn
 from tests.library.station.preflight.asking import FLEET, photos, question
+from tests.library.station.server.asking import Asgi, request
 
 ONE = photos("mission-one", 1)
 
@@ -94,12 +93,10 @@ async def test_a_newer_one_or_a_new_plan_ends_the_one_that_flies_and_all_else_is
 
 
 async def test_it_is_given_up_when_its_client_goes_away(served: Station, copies: Copies) -> None:
-    request = Request(method="POST", path="/api/preflight", gone=copies.begun)
-    given: dict[str, object] = {"revision": served.plan.revision, "missions": None}
-    one = Asked(
-        station=served, audit=Audit(None), request=request, role="fly", given=given, body=b""
-    )
-    assert await answered(one) is GONE
+    given = {"revision": served.plan.revision, "missions": None}
+    asked = replace(request("POST", "/api/preflight", given), gone=copies.begun)
+    api = Asgi(Api(served, Guard(host="127.0.0.1", port=8765), Audit(None)))
+    assert (await api.answer(asked)).status == 499
     assert copies.here == 0
 
 

@@ -8,6 +8,7 @@ from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
+from urllib.parse import urlencode
 
 from pluto_fleet.app import App
 from pluto_fleet.process.apart import Answers
@@ -21,7 +22,6 @@ from pluto_fleet.station.station import Station
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
-from pluto_fleet.station.web.http import Reply, Request
 from pluto_fleet.station.wire import Forecast
 from pluto_fleet.station.wire_app import AppData
 from tests.library.files.an_app import APP
@@ -90,12 +90,133 @@ class AStation(Station):
         return not self.done and self.plan.revision == 1
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """A request, as a web server would hand it on."""
+
+    method: str
+    path: str
+    query: Mapping[str, str]
+    headers: Mapping[str, str]
+    body: bytes
+    client: str = "127.0.0.1"
+    local: str = "127.0.0.1"
+    gone: Callable[[], Awaitable[object]] | None = None
+    """Waits until the client goes away; None: it stays."""
+
+    def scope(self, kind: str) -> dict[str, Any]:
+        """Return what ASGI says of it."""
+        headers = [(name.encode(), text.encode("latin-1")) for name, text in self.headers.items()]
+        return {
+            "type": kind,
+            "asgi": {"version": "3.0", "spec_version": "2.4"},
+            "method": self.method,
+            "path": self.path,
+            "query_string": urlencode(self.query).encode(),
+            "headers": headers,
+            "client": (self.client, 1),
+            "server": (self.local, 1),
+            "extensions": {"http.response.pathsend": {}},
+        }
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reply:
+    """An answer."""
+
+    status: int
+    body: bytes
+    headers: tuple[tuple[str, str], ...]
+
+    @property
+    def type(self) -> str:
+        """Its media type."""
+        return next((text for name, text in self.headers if name == "content-type"), "")
+
+    def header(self, name: str) -> str:
+        """Return one of its headers."""
+        return dict(self.headers)[name]
+
+
+class Asgi:
+    """What serves a station, asked without a web server."""
+
+    def __init__(self, api: Api) -> None:
+        self._api = api
+        self.end = api.end
+
+    async def answer(self, request: Request) -> Reply:
+        """Ask this, and return the answer."""
+        begun: dict[str, Any] = {}
+        body = bytearray()
+        parts = [{"type": "http.request", "body": request.body}]
+
+        async def receive() -> dict[str, Any]:
+            if parts:
+                return parts.pop()
+            await (request.gone or asyncio.Event().wait)()
+            return {"type": "http.disconnect"}
+
+        async def send(message: Any) -> None:
+            if message["type"] == "http.response.start":
+                begun.update(message)
+            elif message["type"] == "http.response.pathsend":
+                body.extend(Path(message["path"]).read_bytes())
+            else:
+                body.extend(message["body"])
+
+        await self._api(request.scope("http"), receive, send)
+        headers = tuple((name.decode(), text.decode("latin-1")) for name, text in begun["headers"])
+        return Reply(status=begun["status"], body=bytes(body), headers=headers)
+
+    async def live(self, line: ALine, request: Request) -> None:
+        """Let a page connect."""
+        await self._api(request.scope("websocket"), line.receive, line.send)
+
+
+class ALine:
+    """A page that says these things over a WebSocket, and then hangs up, or waits for ever."""
+
+    def __init__(self, *says: object, stays: bool = False) -> None:
+        self.says = [each if isinstance(each, str) else json.dumps(each) for each in says]
+        self.stays = stays
+        self.opened = False
+        self.heard: list[str] = []
+        self.closed: int | None = None
+        self._connects = True
+
+    @property
+    def refused(self) -> bool:
+        """Whether it was not let in at all."""
+        return self.closed is not None and not self.opened
+
+    async def receive(self) -> dict[str, Any]:
+        """Say the next."""
+        if self._connects:
+            self._connects = False
+            return {"type": "websocket.connect"}
+        if not self.says and self.stays:
+            await asyncio.Event().wait()
+        if not self.says:
+            return {"type": "websocket.disconnect", "code": 1005}
+        return {"type": "websocket.receive", "text": self.says.pop(0)}
+
+    async def send(self, message: Any) -> None:
+        """Hear something."""
+        if message["type"] == "websocket.accept":
+            self.opened = True
+        elif message["type"] == "websocket.send":
+            self.heard.append(message["text"])
+        else:
+            self.closed = message.get("code", 1000)
+
+
 @dataclass
 class Asked:
     """A station, what serves it, and a clock that goes on only when told."""
 
     station: AStation
-    api: Api
+    api: Asgi
     times: list[float]
     paused: list[float]
 
@@ -122,19 +243,8 @@ def request(
     if not isinstance(body, bytes):
         body = (body if isinstance(body, str) else json.dumps(body)).encode()
 
-    async def read(most: int) -> bytes:
-        assert isinstance(body, bytes)
-        return body
-
-    return Request(
-        method=method,
-        path=path,
-        query=query,
-        headers=OURS if headers is None else headers,
-        read=read,
-        client="127.0.0.1",
-        local="127.0.0.1",
-    )
+    sent = OURS if headers is None else headers
+    return Request(method=method, path=path, query=query, headers=sent, body=body)
 
 
 def asked(
@@ -164,7 +274,7 @@ def asked(
         pause=pause,
         logo=logo,
     )
-    return Asked(station, api, times, paused)
+    return Asked(station, Asgi(api), times, paused)
 
 
 def said(reply: Reply) -> str:

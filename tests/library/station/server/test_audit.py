@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from starlette.requests import HTTPConnection
+
 from pluto_fleet.station.web.audit import Audit
 
 from .asking import OURS, asked, request, without
@@ -86,7 +88,8 @@ def test_it_grows_no_further_than_twice_its_size(tmp_path: Path) -> None:
     file = tmp_path / "audit.log"
     file.write_bytes(b"x" * (4 * 1024 * 1024))
     for n in range(2):
-        Audit(file, now=lambda: 0.0).done(request("POST", f"/{n}"), {}, 200, "")
+        asked = HTTPConnection(request("POST", f"/{n}").scope("http"))
+        Audit(file, now=lambda: 0.0).done(asked, {}, 200, "")
     assert len(lines(file)) == 2
     assert sorted(each.name for each in tmp_path.iterdir()) == ["audit.log", "audit.log.1"]
 
@@ -95,6 +98,6 @@ def test_where_nothing_can_be_written_a_stop_is_done_all_the_same(tmp_path: Path
     (tmp_path / "linked").symlink_to(tmp_path / "elsewhere")
     for file in (Path("/dev/full"), tmp_path, tmp_path / "no" / "audit.log", tmp_path / "linked"):
         ask = asked(file=file)
-        assert ask("POST", "/api/stop", {"id": "one"}).status == 200
-        assert ask.station.done == [("stop", {})]
+        assert ask("POST", "/api/stop", {"id": "one", "how": "rtl"}).status == 200
+        assert ask.station.done == [("stop", {"how": "rtl"})]
     assert not (tmp_path / "elsewhere").exists()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from starlette.requests import HTTPConnection
 
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.web.guard import (
@@ -14,9 +15,8 @@ from pluto_fleet.station.web.guard import (
     refusal,
     role_by,
 )
-from pluto_fleet.station.web.http import Request
 
-from .asking import without
+from .asking import Request, without
 
 LOOPBACK = Guard(host="127.0.0.1", port=8765)
 EVERYWHERE = Guard(
@@ -25,8 +25,8 @@ EVERYWHERE = Guard(
 
 
 def status(guard: Guard, headers: dict[str, str], access: Access) -> int | None:
-    asked = Request(method="", path="", headers=headers, local="127.0.0.1")
-    why = refusal(guard, asked, access)
+    asked = Request(method="GET", path="/", query={}, headers=headers, body=b"")
+    why = refusal(guard, HTTPConnection(asked.scope("http")), access)
     return None if why is None else why.status
 
 

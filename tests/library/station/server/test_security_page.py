@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import re
 
-from pluto_fleet.station.web.addresses import ADDRESSES, SMALL_BODY
-from pluto_fleet.station.web.server import BODY_WITHIN, BYTES_A_SECOND
+from pluto_fleet.station.operation import SMALL_BODY
+from pluto_fleet.station.web.api import BODY_WITHIN, BYTES_A_SECOND
+from pluto_fleet.station.web.handlers import OPERATIONS
 from tests.paths import ROOT
 
 PAGE = (ROOT / "docs" / "security.md").read_text("utf-8")
@@ -20,7 +21,7 @@ def test_each_thing_that_is_refused_is_said_once() -> None:
 
 
 def test_the_sizes_and_times_of_what_is_sent_are_those_of_the_code() -> None:
-    [large] = {address.most_bytes for address in ADDRESSES} - {SMALL_BODY}
+    [large] = {one.most_bytes for one in OPERATIONS.values()} - {SMALL_BODY}
     told = re.search(
         r"more than (\d+) MiB; content that does not come within (\d+) s"
         r" \(a floor plan: (\d+) MiB, (\d+) s\)",

@@ -19,13 +19,12 @@ import pytest
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.station.config import StationConfig
-from pluto_fleet.station.web.http import Reply
 from tests.library.files.an_app import APP, OWN
 from tests.library.station.jumping import run
 from tests.library.station.map.test_drawn import ward
 from tests.library.station.plan.test_library import library
 
-from .asking import OURS, Asked, AStation, asked, request
+from .asking import OURS, Asked, AStation, Reply, asked, request
 
 SESSIONS = sorted(Path(__file__).parent.glob("sessions/*.txt"))
 

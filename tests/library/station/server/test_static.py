@@ -58,7 +58,7 @@ def test_what_lies_in_subfolders_is_served_and_the_manifest_at_the_top(tmp_path:
 def test_a_page_takes_nothing_from_elsewhere() -> None:
     """It runs no script of its own text but the import map, by the hash of what is served."""
     page = asked()("GET", "/")
-    policy = dict(page.headers)["Content-Security-Policy"]
+    policy = page.header("content-security-policy")
     rules = dict(rule.strip().split(" ", 1) for rule in policy.split(";"))
     assert rules.pop("img-src") == "'self' data: blob:"
     (inline,) = re.findall(rb'<script type="importmap">(.*?)</script>', page.body, re.DOTALL)
@@ -70,7 +70,7 @@ def test_a_page_takes_nothing_from_elsewhere() -> None:
 
 def test_a_browser_that_has_a_page_is_not_sent_it_again() -> None:
     ask = asked()
-    mark = dict(ask("GET", "/").headers)["ETag"]
+    mark = ask("GET", "/").header("etag")
     again = ask("GET", "/", b"", {**OURS, "if-none-match": f'"other", {mark}'})
     assert (again.status, again.body) == (304, b"")
     assert ask("GET", "/", b"", {**OURS, "if-none-match": '"other"'}).status == 200
@@ -79,7 +79,7 @@ def test_a_browser_that_has_a_page_is_not_sent_it_again() -> None:
 def test_pages_travel_packed() -> None:
     ask = asked()
     reply = ask("GET", "/", b"", {**OURS, "accept-encoding": "br, gzip"})
-    assert dict(reply.headers)["Content-Encoding"] == "gzip"
+    assert reply.header("content-encoding") == "gzip"
     assert gzip.decompress(reply.body) == ask("GET", "/").body
 
 
@@ -89,7 +89,7 @@ def test_the_floor_plan_is_a_picture_that_can_do_nothing(tmp_path: Path) -> None
     ask = asked(station, token="sesame")
     reply = ask("GET", "/map", b"", knows)
     assert (reply.status, reply.type, reply.body) == (200, "image/svg+xml", SVG)
-    policy = dict(reply.headers)["Content-Security-Policy"]
+    policy = reply.header("content-security-policy")
     assert policy.endswith("sandbox") and "script" not in policy
     assert ask("GET", "/map").status == 401
     (tmp_path / "ward.svg").unlink()
@@ -103,7 +103,7 @@ def test_a_logo_can_do_nothing_and_is_seen_before_anyone_has_said_a_token(tmp_pa
     ask = asked(logo=logo, token="sesame")
     reply = ask("GET", "/logo", b"", without("origin"))
     assert (reply.status, reply.type, reply.body) == (200, "image/svg+xml", logo.content)
-    policy = dict(reply.headers)["Content-Security-Policy"]
+    policy = reply.header("content-security-policy")
     assert policy.endswith("sandbox") and "script" not in policy
     assert asked()("GET", "/logo").status == 404
 

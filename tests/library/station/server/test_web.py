@@ -59,7 +59,7 @@ def test_a_floor_plan_may_be_larger_than_other_bodies(tmp_path: Path) -> None:
         async with served(station=station) as there:
             for length, sent, answer in ((len(png), png, 200), (LARGEST + 1, b"", 413)):
                 about: Any = {"Content_Length": str(length), "Content_Type": "image/png"}
-                head = there.request("PUT", "/api/map/image", **about)
+                head = there.request("PUT", "/api/map/image?revision=0", **about)
                 assert status(await there.say(head, sent)) == answer
         assert station.map.image is not None and station.map.image.read_bytes() == png
 
@@ -213,7 +213,7 @@ def test_the_address_is_what_one_types() -> None:
 
 def test_without_the_extra_it_says_how_to_come_by_it(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "pluto_fleet.station.web.server")
-    monkeypatch.setitem(sys.modules, "starlette.requests", None)
+    monkeypatch.setitem(sys.modules, "uvicorn", None)
     options: Any = SimpleNamespace(refuse_what_is_simulated=lambda: None)
     with pytest.raises(BadInput, match=r"pip install 'alfalfa\[station\]'"):
         serve(APP, options)

@@ -1,0 +1,350 @@
+"""What is done at each address: a function of its name, with its checked parameters.
+
+`BadInput` is answered as a sentence, and `Stale` with the newest of what was to be changed.
+"""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+
+from starlette.requests import Request
+from starlette.responses import FileResponse, Response
+
+from ...files.reading import decoded
+from ...shared.domain.errors import BadInput
+from ...shared.domain.text import cut_off, printable
+from ..flight_files import FlightFiles
+from ..interface import CSV, GEOJSON, MCAP, TEXT, TOML, ZIP, Interface
+from ..json_text import json_text
+from ..operation import JSON, operations_of
+from ..preflight.start import PlannedStart
+from ..wire import MapData, Role
+from ..wire_app import PlanData
+from .audit import who
+
+if TYPE_CHECKING:
+    from starlette.types import Receive, Scope, Send
+
+    from ..station import Station
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+DESCRIPTION = Path(__file__).parent.parent / "openapi.json"
+"""The description of the interface, which is made of its declaration."""
+MISSIONS_FILE = "missions.toml"
+_LONGEST_NAME = 80
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Asked:
+    """A request that was let in."""
+
+    station: Station
+    request: Request
+    role: Role
+    given: Mapping[str, Any]
+    """What was sent, without what is supposed of the rest."""
+    body: bytes = b""
+
+
+Handler = Callable[..., Awaitable[Response | str]]
+"""It is given what is `Asked`, and the parameters of its operation by their names; a text is a sentence."""
+
+
+def json_reply(data: object, status: int = 200) -> Response:
+    """Answer with data as JSON; numbers that JSON lacks become texts."""
+    return Response(json_text(data).encode("ascii"), status, media_type=JSON)
+
+
+def said(text: str, status: int = 200) -> Response:
+    """Answer with a sentence."""
+    return json_reply({"said": text}, status)
+
+
+async def app(asked: Asked) -> Response:
+    """Answer with app and fleet, and with the role of who asks."""
+    return json_reply({**asked.station.described, "role": asked.role})
+
+
+async def description(_: Asked) -> Response:
+    """Answer with the description of this interface."""
+    return Response(_description(), media_type=JSON)
+
+
+@cache
+def _description() -> bytes:
+    return DESCRIPTION.read_bytes()
+
+
+async def command(asked: Asked, id: str, **given: Any) -> str:
+    """Carry out the command that the address names."""
+    name = asked.request.url.path.removeprefix("/api/")
+    return await asked.station.command(name, id, given, who(asked.request))
+
+
+# The plan
+
+
+async def plan(asked: Asked) -> Response:
+    """Answer with the plan, once all its problems are known."""
+    await asked.station.plan.examined()
+    return json_reply(asked.station.plan.data())
+
+
+async def plan_file(asked: Asked) -> Response:
+    """Answer with the plan as a missions file."""
+    return _text(asked.station.plan.export_toml(), MISSIONS_FILE, TOML)
+
+
+async def replace_plan(asked: Asked, revision: int, missions: object) -> Response:
+    """Replace the plan's missions."""
+    await asked.station.edit(revision, missions)
+    return await plan(asked)
+
+
+async def import_plan(asked: Asked, revision: int, file: str) -> Response:
+    """Replace the plan's missions by those of a file, whose name is not trusted."""
+    name = cut_off(printable(file.strip()), _LONGEST_NAME) or MISSIONS_FILE
+    await asked.station.plan.import_file(decoded(asked.body, name), revision, name)
+    return await plan(asked)
+
+
+async def add_example(asked: Asked, revision: int) -> Response:
+    """Add an example to the plan."""
+    asked.station.plan.example(revision)
+    return await plan(asked)
+
+
+async def saved_plans(asked: Asked) -> Response:
+    """Answer with all plans that are kept."""
+    library = asked.station.library
+    async with library.one_at_a_time:
+        return json_reply(await asyncio.to_thread(library.everything))
+
+
+async def save_plan(asked: Asked, name: str, **how: Any) -> Response:
+    """Keep the plan under a name."""
+    text = asked.station.plan.export_toml()
+    return await _kept(asked, lambda: asked.station.library.save(name, text, **how))
+
+
+async def delete_plan(asked: Asked, name: str) -> Response:
+    """Put a plan into the trash."""
+    return await _kept(asked, lambda: asked.station.library.delete(name))
+
+
+async def restore_plan(asked: Asked, id: str) -> Response:
+    """Take a plan out of the trash."""
+    return await _kept(asked, lambda: asked.station.library.restore(id))
+
+
+async def _kept(asked: Asked, change: Callable[[], None]) -> Response:
+    async with asked.station.library.one_at_a_time:
+        await asyncio.to_thread(change)
+    return await saved_plans(asked)
+
+
+async def open_plan(asked: Asked, name: str, revision: int, add: bool) -> Response:
+    """Take a plan that was kept in place of what has not been started, or beside it."""
+    drawn = asked.station.plan
+    text = await asyncio.to_thread(asked.station.library.text, name)
+    shapes, _ = await asyncio.to_thread(drawn.saved, text, name)
+    if add:
+        drawn.add(shapes, revision)
+    else:
+        drawn.take_instead(shapes, revision)
+    return await plan(asked)
+
+
+async def preflight(asked: Asked, only_failed: bool | None, **given: Any) -> Response:
+    """Answer what a Start would do; it is given up when its client goes away."""
+    start = PlannedStart(only_failed=only_failed is True, **given)
+    making = asyncio.ensure_future(asked.station.forecast(start))
+    gone = asyncio.ensure_future(_gone(asked.request))
+    try:
+        await asyncio.wait([making, gone], return_when=asyncio.FIRST_COMPLETED)
+        return json_reply(making.result()) if making.done() else Response(status_code=499)
+    finally:
+        making.cancel()
+        gone.cancel()
+        with suppress(asyncio.CancelledError, BadInput):
+            await making  # what it has begun has ended
+
+
+async def _gone(request: Request) -> None:
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+# The map
+
+
+async def map_data(asked: Asked) -> Response:
+    """Answer with the map."""
+    return json_reply(asked.station.map.data())
+
+
+async def change_map(asked: Asked, revision: int, **_: object) -> Response:
+    """Take what was drawn on the map; what was not sent stays."""
+    drawn = {name: value for name, value in asked.given.items() if name != "revision"}
+    await asked.station.map.change(revision, drawn)
+    return await map_data(asked)
+
+
+async def take_floor_plan(asked: Asked, revision: int, name: str) -> Response:
+    """Take a picture as the floor plan."""
+    await asked.station.map.take_picture(revision, name, asked.body)
+    return await map_data(asked)
+
+
+async def find_ways(asked: Asked, ways: object) -> Response:
+    """Answer with the ways between pairs of places."""
+    return json_reply(await asked.station.ways.ways(ways))
+
+
+async def sweep_area(asked: Asked, **_: object) -> Response:
+    """Answer with the targets of an area's trips."""
+    return json_reply(await asked.station.ways.sweep(dict(asked.given)))
+
+
+# Flights of the past, and results: of none, it is the flight of now
+
+
+async def _read(
+    asked: Asked,
+    question: Callable[Concatenate[FlightFiles, P], R],
+    *given: P.args,
+    **named: P.kwargs,
+) -> R:
+    """Read of a flight of the past, apart from the station's process."""
+    return await asked.station.files.ask(question, *given, **named)
+
+
+async def flights(asked: Asked) -> Response:
+    """Answer with a line for each flight."""
+    return Response(await _read(asked, _flights), media_type=JSON)
+
+
+def _flights(files: FlightFiles) -> str:
+    return json_text(files.past.flights())
+
+
+async def replay(asked: Asked, flight: str, start: float) -> Response:
+    """Answer with a part of a flight's replay."""
+    return Response(await _read(asked, _replay, flight, start), media_type=JSON)
+
+
+def _replay(files: FlightFiles, flight: str, start: float) -> str:
+    return json_text(files.past.replay(flight, start))
+
+
+async def report(asked: Asked, flight: str) -> Response:
+    """Answer with what is to be said of a flight on paper."""
+    return Response(await _read(asked, _report, flight), media_type=JSON)
+
+
+def _report(files: FlightFiles, flight: str) -> str:
+    return json_text(files.past.report(flight))
+
+
+async def mcap(asked: Asked, flight: str) -> Response:
+    """Answer with a flight as an MCAP file."""
+    return _download(await _read(asked, _mcap, flight), "flight.mcap", MCAP)
+
+
+def _mcap(files: FlightFiles, flight: str) -> bytes:
+    return files.past.mcap(flight)
+
+
+async def hours(asked: Asked) -> Response:
+    """Answer with what each drone has flown."""
+    return Response(await _read(asked, _hours), media_type=JSON)
+
+
+def _hours(files: FlightFiles) -> str:
+    return json_text(files.past.hours())
+
+
+async def console(asked: Asked, flight: str) -> Response:
+    """Answer with the console."""
+    text = await _read(asked, _console, flight) if flight else asked.station.console()
+    return _text(text, "console.txt", TEXT)
+
+
+def _console(files: FlightFiles, flight: str) -> str:
+    return files.past.console(flight)
+
+
+async def results(asked: Asked, flight: str) -> Response:
+    """Answer with the results, to be downloaded."""
+    text = await asked.station.exports.results(flight)
+    return _download(text.encode(), "results.json", JSON)
+
+
+async def results_table(asked: Asked, flight: str) -> Response:
+    """Answer with the table of values."""
+    return _text(await asked.station.exports.csv(flight), "results.csv", CSV)
+
+
+async def results_on_map(asked: Asked, flight: str) -> Response:
+    """Answer with the results that have a place."""
+    return _text(await asked.station.exports.geojson(flight), "results.geojson", GEOJSON)
+
+
+async def pictures(asked: Asked, flight: str) -> Response:
+    """Answer with an archive of the pictures."""
+    file = await asked.station.exports.archive(flight)
+    return _Passing(file, media_type=ZIP, filename="results.zip", stat_result=file.stat())
+
+
+async def photo(asked: Asked, result: int, flight: str, size: str) -> Response:
+    """Answer with the picture of a result."""
+    exports = asked.station.exports
+    content, kind = await exports.picture(flight, result, small=size == "thumb")
+    return Response(content, media_type=kind)
+
+
+class _Passing(FileResponse):
+    """A file that is deleted once it was sent, or could not be."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            Path(self.path).unlink(missing_ok=True)
+
+
+def _text(text: str, name: str, kind: str) -> Response:
+    return _download(text.encode("utf-8", "replace"), name, f"{kind}; charset=utf-8")
+
+
+def _download(content: bytes, name: str, kind: str) -> Response:
+    named = {"Content-Disposition": f'attachment; filename="{name}"'}
+    return Response(content, headers=named, media_type=kind)
+
+
+OPERATIONS = operations_of(Interface)
+"""All that can be asked, by name."""
+
+HANDLERS: Mapping[str, Handler] = {
+    **{name: command for name, one in OPERATIONS.items() if one.is_command},
+    **{
+        one.__name__: one
+        for one in (
+            *(app, description, plan, plan_file, replace_plan, import_plan, add_example),
+            *(saved_plans, save_plan, delete_plan, restore_plan, open_plan, preflight),
+            *(map_data, change_map, take_floor_plan, find_ways, sweep_area),
+            *(flights, replay, report, mcap, hours, console),
+            *(results, results_table, results_on_map, pictures, photo),
+        )
+    },
+}
+NEWEST: Mapping[Any, Callable[[Asked], Awaitable[Response]]] = {PlanData: plan, MapData: map_data}
+"""What answers with the newest of what was to be changed."""
