@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from ..jobs.reports import SILENCE, DroneReport
-from ..jobs.telemetry import Publisher
+from ..jobs.telemetry import Subscription
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from ..shared.domain.text import quoted
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..jobs.controls import FleetDrone
-    from ..jobs.telemetry import Subscription, Telemetry
+    from ..jobs.telemetry import Telemetry
     from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.errors import FlightFailed
@@ -116,8 +116,8 @@ class Team:
         """Start to connect to all drones, and to monitor them; waits for none."""
         if self._feed is not None:
             self._feed.start()
-        self._monitoring = Publisher(self.telemetry).subscribe(
-            self._look, every=EACH, view=lambda _, known: known.silence
+        self._monitoring = Subscription(
+            self.telemetry, self._look, every=EACH, view=lambda _, known: known.silence
         )
         for vehicle in self.vehicles.values():
             self._connect(vehicle)

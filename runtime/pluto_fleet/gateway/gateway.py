@@ -66,7 +66,6 @@ class Line(Link):
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
         super().__init__()
         self.gateway, self._lost = gateway, lost
-        self._report = self.take if gateway.line is None else gateway.line(self.take)
         self._is_heard = gateway.descent is None
         self.under_way: dict[object, Task[Any]] = {}
         """The orders that are answered when they are done, by their ids."""
@@ -151,7 +150,7 @@ class Line(Link):
         """Tell what came of a job."""
         said = "failed" if isinstance(result, FlightFailed) else "done"
         if self._is_heard:
-            self._report({said: number, **result_data(result)})
+            self.take({said: number, **result_data(result)})
 
     def leave(self) -> None:
         """Handle the end of its connection: jobs go on, all else is called off."""
@@ -235,8 +234,6 @@ class Gateway:
         self.jobs = Jobs(kernel, self.navigation.fly, self.keys, airspace, ledger)
         self.commander: Line | None = None
         """The line of the brain in command."""
-        self.line: Callable[[Report], Report] | None = None
-        """Wraps the listeners of reports, to simulate a lossy line to the brain."""
         self._epoch = 0
         self.descent: Task[None] | None = None
         """The task that brings all drones down, if any."""

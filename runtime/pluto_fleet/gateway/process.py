@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..jobs.reports import Down
-from ..jobs.telemetry import Publisher
 from ..process import locks
 from ..process.forked import deaf, in_children
 from ..process.ipc import listening
@@ -247,8 +246,7 @@ async def _command(
     gateway.take_in, gateway.rehearse = take_in, rehearse
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
-    publisher = Publisher(controls.telemetry)
-    server = Server(gateway, publisher, _say, ending.goodbye)
+    server = Server(gateway, _say, ending.goodbye)
     ending.server = server
 
     def pass_at(speed: float) -> None:
@@ -274,7 +272,7 @@ async def _command(
             last_words=0.0,
             turned_away=turned_away,
         ):
-            watching = seen.subscribe(publisher, settings.speed)
+            watching = seen.subscribe(settings.speed)
             try:
                 _say("the gateway is ready")
                 kernel.post(ending.look)

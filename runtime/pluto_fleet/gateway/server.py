@@ -12,6 +12,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..jobs.reports import Down
+from ..jobs.telemetry import Subscription
 from ..process.ipc import Message, line, message_in
 from ..shared.domain.errors import BadInput, Failure
 from ..shared.domain.text import quoted
@@ -22,7 +23,7 @@ from .wire import MAX_COMMAND, order_of, seen
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
 
-    from ..jobs.telemetry import Publisher, Subscription, Telemetry
+    from ..jobs.telemetry import Telemetry
     from .gateway import Gateway, Line
 
 _PENDING = 10_000
@@ -40,11 +41,8 @@ Say = Callable[[str], object]
 class Server:
     """All connections."""
 
-    def __init__(
-        self, gateway: Gateway, publisher: Publisher, say: Say, on_goodbye: Callable[[], object]
-    ) -> None:
-        self.gateway, self.publisher = gateway, publisher
-        self.say, self.on_goodbye = say, on_goodbye
+    def __init__(self, gateway: Gateway, say: Say, on_goodbye: Callable[[], object]) -> None:
+        self.gateway, self.say, self.on_goodbye = gateway, say, on_goodbye
         self.connected: list[Connection] = []
         self.pass_at: Callable[[float], object] | None = None
         """Lets time pass at another speed; None: the drones are real."""
@@ -202,8 +200,12 @@ class Connection:
         self.line = self._gateway.link(epoch, self._lost)
         self.line.hear = self._told
         self._tell_no_telemetry()  # this connection may have been in command before
-        self._telemetry = self._server.publisher.subscribe(
-            self._tell_seen, every=_EACH, view=self._seen, unchanged=_ALIVE
+        self._telemetry = Subscription(
+            self._gateway.navigation.telemetry,
+            self._tell_seen,
+            every=_EACH,
+            view=self._seen,
+            unchanged=_ALIVE,
         )
         self._tell({"linked": self._changed()})
         self._server.say(f"a brain commands, number {epoch}")
@@ -226,7 +228,7 @@ class Connection:
             self.leaves = True
             self._server.on_goodbye()
             return
-        order = order_of(message, self._server.publisher.drones)
+        order = order_of(message, self._gateway.navigation.telemetry)
         if order.get("id") in line.under_way or len(line.under_way) >= _PENDING:
             raise BadInput("too much is under way")
         try:

@@ -15,11 +15,12 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..jobs.telemetry import Subscription
 from ..shared.domain.errors import Failure
 from ..shared.hooks.plain_data import point_of
 
 if TYPE_CHECKING:
-    from ..jobs.telemetry import Publisher, Subscription, Telemetry
+    from ..jobs.telemetry import Telemetry
     from ..shared.domain.errors import FlightFailed
     from ..shared.domain.model import Point
 
@@ -81,11 +82,15 @@ class Sightings:
         finally:
             self._leaving.discard(drone)
 
-    def subscribe(self, publisher: Publisher, speed: float) -> Subscription[object]:
+    def subscribe(self, speed: float) -> Subscription[object]:
         """Store changes from now on, and now and then even without any."""
         every = max(SHORTEST, EACH / speed)
-        return publisher.subscribe(
-            lambda *_: self.keep(), every=every, view=self._state, unchanged=ANEW * every
+        return Subscription(
+            self._drones,
+            lambda *_: self.keep(),
+            every=every,
+            view=self._state,
+            unchanged=ANEW * every,
         )
 
     def keep(self) -> None:

@@ -1,4 +1,4 @@
-"""The telemetry of a fleet: one publisher, and subscribers, each with a rate of its own."""
+"""The telemetry of a fleet, and its subscribers, each with a rate of its own."""
 
 from __future__ import annotations
 
@@ -19,43 +19,26 @@ class Telemetry(model.Telemetry, Protocol):
         """Seconds since its last message; infinite: it has sent none."""
 
 
-class Publisher:
-    """Publishes the drones' telemetry, inside a running asyncio loop."""
-
-    def __init__(self, drones: Mapping[str, Telemetry]) -> None:
-        self.drones = drones
-        """By the drones' ids; the objects are always current."""
-
-    def subscribe(
-        self,
-        hear: Callable[[Mapping[str, V], float], object],
-        *,
-        every: float,
-        view: Callable[[str, Telemetry], V],
-        unchanged: float = 0.0,
-    ) -> Subscription[V]:
-        """Call a subscriber at its interval with the drones that have changed, and how late that is.
-
-        `view` returns what the subscriber wants to know about a drone. After `unchanged` seconds
-        without any change it is called with none.
-        """
-        return Subscription(self.drones, hear, every, view, unchanged)
-
-
 class Subscription(Generic[V]):
-    """One subscriber, which is called until it cancels."""
+    """One subscriber to the drones' telemetry, inside a running asyncio loop, until it cancels."""
 
     def __init__(
         self,
         drones: Mapping[str, Telemetry],
         hear: Callable[[Mapping[str, V], float], object],
+        *,
         every: float,
         view: Callable[[str, Telemetry], V],
-        unchanged: float,
+        unchanged: float = 0.0,
     ) -> None:
+        """`hear` is called at this interval with the drones that have changed, and how late that is.
+
+        `drones` are always current; `view` returns what the subscriber wants to know about one. After
+        `unchanged` seconds without any change `hear` is called with none.
+        """
         self._drones, self._hear, self._view = drones, hear, view
         self._every, self._unchanged = every, unchanged
-        self.told: dict[str, V] = {}
+        self._told: dict[str, V] = {}
         """What the subscriber was last sent of each drone."""
         self._loop = asyncio.get_running_loop()
         self._told_at = self._loop.time()
@@ -67,9 +50,9 @@ class Subscription(Generic[V]):
         news = {
             drone: value
             for drone, value in news.items()
-            if drone not in self.told or value != self.told[drone]
+            if drone not in self._told or value != self._told[drone]
         }
-        self.told.update(news)
+        self._told.update(news)
         return news
 
     def cancel(self) -> None:

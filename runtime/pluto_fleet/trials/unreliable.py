@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from ..gateway.gateway import Line
     from ..jobs.link import Message, Order
     from ..jobs.telemetry import Telemetry
-    from ..shared.time.kernel import Kernel
     from .case import Weather
+    from .lives import TrialLife
 
 T = TypeVar("T")
 
@@ -143,17 +143,10 @@ def _nothing(_: object) -> None:
 class UnreliableLink(Link):
     """A link with delayed messages in both directions, in order."""
 
-    def __init__(
-        self,
-        line: Line,
-        brain: Kernel,
-        slow: float,
-        fired: Counter[str],
-        sent: Callable[[str], object],
-    ) -> None:
+    def __init__(self, line: Line, life: TrialLife, slow: float) -> None:
         super().__init__()
-        self._line, self._world, self._brain = line, line.gateway.kernel, brain
-        self._slow, self._fired, self._sent = slow, fired, sent
+        self._line, self._world, self._life = line, line.gateway.kernel, life
+        self._slow, self._fired = slow, life.run.fired
         self.alive = True
         self._flights: set[int] = set()
         line.hear = self._told
@@ -171,7 +164,7 @@ class UnreliableLink(Link):
         if order["do"] in ("fly", "attach"):
             self._flights.add(order["id"])
         if order["do"] == "fly":
-            self._sent(order["flight"])
+            self._life.sent(order["flight"])
         self._pass(partial(self._line.send, order))
 
     def _pass(self, message: Callable[[], object]) -> None:
@@ -189,8 +182,12 @@ class UnreliableLink(Link):
             message()
 
     def _told(self, message: Message) -> None:
-        if message.get("failed") in self._flights:
+        is_report = message.get("done", message.get("failed")) in self._flights
+        if is_report and self._life.run.report_is_lost():
+            self._line.gateway.cut()
+            return
+        if is_report and "failed" in message:
             self._fired[f"flight: {failure_of(message).failure.value}"] += 1
         if not self.alive:
             self._fired["report to nobody"] += 1
-        self._pass(partial(self._brain.post, self.take, message))
+        self._pass(partial(self._life.kernel.post, self.take, message))

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
-from ..gateway.lossy_line import LOST, LossyLine
 from ..shared.alone.faults import Faults
 from ..shared.alone.world import World
 from ..shared.time.kernel import FLEET
@@ -16,7 +15,7 @@ from ..shared.time.virtual import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
-from .case import Strike, StrikeKind
+from .case import Strike
 from .record import TrialRecord
 
 if TYPE_CHECKING:
@@ -93,7 +92,7 @@ class TrialWorld:
         controls: Controls = self.navigation
         if radio:
             controls = Radio(self.world, self.navigation, self.radio_delay)
-        gateway = Gateway(
+        return Gateway(
             self.world,
             controls,
             self.drones,
@@ -102,16 +101,13 @@ class TrialWorld:
             apart=fleet.apart,
             max_airborne=fleet.max_airborne,
         )
-        if any(strike.kind is StrikeKind.REPORT for strike in self.case.strikes):
-            gateway.line = LossyLine(gateway, self.report_delay)
-        return gateway
 
     def radio_delay(self, _: str) -> float:
         """Return the delay of a message to or from a drone."""
         self.fired["slow radio"] += 1
         return self.case.weather.radio
 
-    def report_delay(self) -> float:
-        """Return the delay of a report, or that it is lost."""
+    def report_is_lost(self) -> bool:
+        """Return whether a report is lost, and the connection with it."""
         lost, self.loses_report = self.loses_report, False
-        return LOST if lost else 0.0
+        return lost

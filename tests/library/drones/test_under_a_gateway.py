@@ -14,7 +14,6 @@ from pluto_fleet.drones.real_fleet import RealFleet
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
-from pluto_fleet.jobs.telemetry import Publisher
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.future import Future
@@ -103,7 +102,7 @@ async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: boo
     async with commanded(tmp_path, 2, PATIENCE) as (flown, gateway):
         over, link, lost = Future[None](), gateway.link(1), flown.drones["cf2"]
         ending = Ending(gateway, over, settings(real=NO_DRONES, speed=1.0))
-        server = Server(gateway, Publisher(flown.team.telemetry), flown.log.append, ending.goodbye)
+        server = Server(gateway, flown.log.append, ending.goodbye)
         ending.server = server
         ours, theirs = socket.socketpair()
         serving = asyncio.ensure_future(

@@ -2,17 +2,33 @@
 
 from __future__ import annotations
 
-from pluto_fleet.gateway.lossy_line import LossyLine
+from functools import partial
+
+from pluto_fleet.jobs.link import Message
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.hooks.context import Context
+from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
+
+
+def delayed(living: Living, seconds: float) -> None:
+    """Let reports of flights take some seconds to the brain."""
+    line, kernel = living.gateway.commander, living.kernel
+    assert line is not None
+    hear = line.hear
+
+    def late(message: Message) -> None:
+        arrives = partial(hear, message)
+        kernel.schedule(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
+
+    line.hear = late
 
 
 def picking(*, safe_time: float, late: float) -> Living:
     mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 5), safe_time=safe_time)
     living = Living(enterable(watch=apps.timed, attempts=3), mission)
-    living.gateway.line = LossyLine(living.gateway, lambda: late)
+    delayed(living, late)
     return living
 
 
@@ -47,5 +63,5 @@ def test_a_modifier_that_fails_what_was_done_fails_nothing() -> None:
     mission = apps.mission("a", apps.pick("p", 3), apps.release("r", 4))
     every = (Status.STANDBY, Status.COMPLETED, Status.FAILED)
     living = Living(enterable(watch=apps.modified(limit, *every)), mission)
-    living.gateway.line = LossyLine(living.gateway, lambda: 1.0)
+    delayed(living, 1.0)
     assert living.run() == ["COMPLETED"]

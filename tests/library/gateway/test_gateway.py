@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from pluto_fleet.gateway.gateway import Busy
-from pluto_fleet.gateway.lossy_line import LossyLine
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
@@ -273,18 +272,6 @@ def test_a_client_that_is_cut_off_hears_no_answer() -> None:
     assert not late.is_set
     assert not report.is_set
     assert field.navigation.bodies["cf1"].settings == {}
-
-
-def test_a_late_report_is_not_told_to_a_brain_that_is_gone() -> None:
-    """It is of another life."""
-    field, heard = Field(), list[object]()
-    field.gateway.line = line = LossyLine(field.gateway, lambda: 5.0)
-    field.link(1).fly(Task(), heard.append)
-    field.advance(17)
-    assert (line.late, heard) == (1, [])
-    field.link(2)
-    field.advance(100)
-    assert heard == []
 
 
 @pytest.mark.parametrize("carried", [True, False])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping
 
-from pluto_fleet.jobs.telemetry import Publisher, Telemetry
+from pluto_fleet.jobs.telemetry import Subscription, Telemetry
 from tests.kit.drones import run
 from tests.library.gateway.flights import Field
 
@@ -25,13 +25,13 @@ def test_each_subscriber_hears_at_its_own_rate_of_what_changed() -> None:
             field.navigation.bodies["cf1"].lift_off(field.kernel.now)
 
     async def hears() -> None:
-        publisher = Publisher(field.navigation.telemetry)
+        drones = field.navigation.telemetry
         subscriptions = (
-            publisher.subscribe(hear, every=0.01, view=landed, unchanged=60),
-            publisher.subscribe(
-                lambda news, _: slow.append(news), every=0.1, view=landed, unchanged=60
+            Subscription(drones, hear, every=0.01, view=landed, unchanged=60),
+            Subscription(
+                drones, lambda news, _: slow.append(news), every=0.1, view=landed, unchanged=60
             ),
-            publisher.subscribe(lambda _, late: looks.append(late), every=0.01, view=landed),
+            Subscription(drones, lambda _, late: looks.append(late), every=0.01, view=landed),
         )
         while not slow or len(looks) < 3:
             await asyncio.sleep(0.01)
