@@ -30,7 +30,7 @@ from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway, Rehearse, TakeIn
-from .ledger import FileLedger
+from .ledger import Ledger
 from .server import Server
 from .settings import settings_of
 from .sightings import SEEN, Sightings
@@ -235,7 +235,7 @@ async def _command(
         controls,
         settings.drones,
         settings.airspace,
-        ledger=FileLedger(folder / LEDGER),
+        ledger=Ledger(folder / LEDGER),
         apart=settings.apart,
         slack=_slack(settings),
         max_airborne=settings.max_airborne,

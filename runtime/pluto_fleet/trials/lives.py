@@ -57,7 +57,7 @@ class TrialLife:
             self.kernel, case.weather, run.chance, run.fired, self.hook_returned
         )
         line = run.gateway.link(run.lives, self.lost)
-        self.wire = UnreliableLink(line, self, case.weather.slow)
+        self.wire = UnreliableLink(line, run, self.kernel, self.sent)
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
         self.unknown: dict[str, None] = {}

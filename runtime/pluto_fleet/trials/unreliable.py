@@ -19,8 +19,9 @@ if TYPE_CHECKING:
     from ..gateway.gateway import Line
     from ..jobs.link import Message, Order
     from ..jobs.telemetry import Telemetry
+    from ..shared.time.kernel import Kernel
     from .case import Weather
-    from .lives import TrialLife
+    from .world import TrialWorld
 
 T = TypeVar("T")
 
@@ -143,10 +144,13 @@ def _nothing(_: object) -> None:
 class UnreliableLink(Link):
     """A link with delayed messages in both directions, in order."""
 
-    def __init__(self, line: Line, life: TrialLife, slow: float) -> None:
+    def __init__(
+        self, line: Line, trial: TrialWorld, brain: Kernel, sent: Callable[[str], object]
+    ) -> None:
+        """`sent` is called with each flight that is ordered."""
         super().__init__()
-        self._line, self._world, self._life = line, line.gateway.kernel, life
-        self._slow, self._fired = slow, life.run.fired
+        self._line, self._trial, self._brain, self._sent = line, trial, brain, sent
+        self._slow, self._fired = trial.case.weather.slow, trial.fired
         self.alive = True
         self._flights: set[int] = set()
         line.hear = self._told
@@ -164,16 +168,15 @@ class UnreliableLink(Link):
         if order["do"] in ("fly", "attach"):
             self._flights.add(order["id"])
         if order["do"] == "fly":
-            self._life.sent(order["flight"])
+            self._sent(order["flight"])
         self._pass(partial(self._line.send, order))
 
     def _pass(self, message: Callable[[], object]) -> None:
         if self._slow:
             self._fired["slow line"] += 1
-            now = self._world.now
-            self._world.schedule(
-                now + self._slow, EventKind.FLIGHT, FLEET, partial(self._go, message)
-            )
+            world = self._trial.world
+            arrives = partial(self._go, message)
+            world.schedule(world.now + self._slow, EventKind.FLIGHT, FLEET, arrives)
         else:
             self._go(message)
 
@@ -183,11 +186,11 @@ class UnreliableLink(Link):
 
     def _told(self, message: Message) -> None:
         is_report = message.get("done", message.get("failed")) in self._flights
-        if is_report and self._life.run.report_is_lost():
+        if is_report and self._trial.report_is_lost():
             self._line.gateway.cut()
             return
         if is_report and "failed" in message:
             self._fired[f"flight: {failure_of(message).failure.value}"] += 1
         if not self.alive:
             self._fired["report to nobody"] += 1
-        self._pass(partial(self._life.kernel.post, self.take, message))
+        self._pass(partial(self._brain.post, self.take, message))

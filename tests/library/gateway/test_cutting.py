@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.gateway.ledger import FileLedger
+from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.gateway.process import LEDGER
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.process.ipc import line
@@ -94,15 +94,14 @@ class Kept(Field):
 
     def __init__(self, folder: Path) -> None:
         self.file = folder / LEDGER
-        super().__init__(ledger=FileLedger(self.file))
+        super().__init__(ledger=Ledger(self.file))
 
     def is_killed(self) -> None:
         """Kill the gateway and begin another, while cf1 is switched off and on again."""
         self.gateway.crash()
-        assert isinstance(self.ledger, FileLedger)
         self.ledger.close()
         self.navigation.mended("cf1")
-        self.ledger = FileLedger(self.file)
+        self.ledger = Ledger(self.file)
         self.another()
 
     def problems(self, epoch: int) -> tuple[str, ...]:
@@ -136,9 +135,9 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
     on_record: list[list[str]] = []
 
     async def killed(_: object, drone: str) -> None:
-        there = FileLedger(field.file)
+        there = Ledger(field.file)
+        on_record.append(there.cut)
         there.close()
-        on_record.append(list(there.cut))
 
     link = field.link(1)
     fly(field.kernel, link.goes("cf1", THERE))
