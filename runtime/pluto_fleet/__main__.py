@@ -46,7 +46,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _calibrated(words: Sequence[str]) -> int:
-    from .calibration.command import main as calibrate
+    from .cli.calibrate import main as calibrate
 
     return calibrate(words)
 

@@ -10,8 +10,8 @@ from pathlib import Path
 from traceback import format_exc
 from typing import Any
 
-from pluto_fleet.calibration.command import main as calibrate
 from pluto_fleet.cli import main
+from pluto_fleet.cli.calibrate import main as calibrate
 from pluto_fleet.flight.lives import reopen
 from pluto_fleet.flight.mission_status import records_in
 from pluto_fleet.report.report import report_of, waiting_lines

@@ -16,6 +16,7 @@ from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number, place, printable
 from .drone_status import heard
+from .written import write_new
 
 if TYPE_CHECKING:
     from ..app import App
@@ -34,15 +35,7 @@ def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: s
         raise BadInput(f"{path}: not written, for no drone has answered")
     content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
     fleet_of(parsed(str(path), content), app)  # check that it is valid
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(content)
-    except FileExistsError:
-        raise BadInput(
-            f"{path}: there is such a file already, and it is never overwritten"
-        ) from None
-    except OSError as error:
-        raise BadInput(f"{path}: cannot be written: {error.strerror or error}") from None
+    write_new(path, content, "the fleet")
     output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
 
 

@@ -19,6 +19,7 @@ from ..shared.domain.text import counted, percent, place, quoted
 from ..shared.domain.trace import dumped
 from .drone_file import write_fleet
 from .drone_status import DroneQuery, answers, found, heard, identified
+from .written import refuse_if_there
 
 if TYPE_CHECKING:
     from ..app import App
@@ -60,8 +61,7 @@ def _refuse_what_does_not_go_together(options: Command) -> None:
         return
     if options.fleet is not None:
         raise BadInput(f"--save writes a new fleet file, and {options.fleet} is one: leave one out")
-    if options.save.exists():
-        raise BadInput(f"{options.save}: there is such a file already, and it is never overwritten")
+    refuse_if_there(options.save)
 
 
 def _fleet(app: App, path: Path) -> FleetFile:

@@ -30,7 +30,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number
 from .plans import load, waiting
-from .preflight import OR_SIMULATED, check_real, made, warn_of_the_radio
+from .preflight import check_flight, made
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -85,15 +85,12 @@ def dry_run(app: App, options: Options) -> int:
 def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     """Yield the known reasons why `fly` would not begin, or not fly some drone."""
     try:
-        where = str(options.fleet or app.name)
-        sim = options.crtp_sim is not None
-        check_real(app, plan.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
+        check_flight(app, plan.fleet, options)
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
     if options.crtp_sim is not None:  # they have all the equipment that the plan needs
         return
-    warn_of_the_radio(plan.fleet, where)
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}
     for drone in plan.fleet.drones:

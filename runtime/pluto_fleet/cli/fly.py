@@ -36,7 +36,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
 from .interrupts import Interrupts
 from .plans import load
-from .preflight import OR_SIMULATED, check_real, warn_of_the_radio
+from .preflight import check_flight, check_real
 from .shutdown import run as run_until_complete
 from .supervise import STOPS, Supervised, supervise
 
@@ -53,12 +53,7 @@ def fly(app: App, options: Options) -> int:
     """Fly the missions and report the outcome; an interrupt lands the drones."""
     options.refuse_what_is_simulated()
     plan = load(app, options)
-    if options.is_real:
-        where = str(options.fleet or app.name)
-        sim = options.crtp_sim is not None
-        check_real(app, plan.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
-        if not sim and not options.supervised:
-            warn_of_the_radio(plan.fleet, where)
+    check_flight(app, plan.fleet, options)
     journal = options.journal or place.new(app.name, time.time())
     if os.path.lexists(journal):
         raise exists(journal)

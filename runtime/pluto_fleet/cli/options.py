@@ -81,6 +81,7 @@ class Options:
     supervise: bool = False
     supervised: bool = False
     journal: Path | None = None
+    journals: list[Path] = field(default_factory=list)
     action: str = ""
     mission: str | None = None
     trip: str | None = None
@@ -218,6 +219,14 @@ TABLE = (
         "the map and the drones; default: the fleet.toml beside the missions, or else five drones on"
         " a plain of 20 × 20 m; real drones need it",
     ),
+    row("calibrate", "journals JOURNAL", "flown journals", nargs="+", type=Path),
+    row(
+        "calibrate",
+        "--fleet F.toml",
+        "whose [motion] says how legs are flown; default: that of the first journal",
+    ),
+    row("calibrate", "--write F.toml", "put what was found into the [motion] of this fleet file"),
+    row("calibrate", "--json", "print it for programs"),
     row("drones", "--fleet F.toml", "the fleet file whose drones are asked"),
     row(
         "fly serve resume",
@@ -436,6 +445,17 @@ def parse(app: App, argv: Sequence[str] | None) -> Options:
         if command == options.command and given and not getattr(options, other):
             refuse(sentence)
     return options
+
+
+def reader_of(command: str, prog: str, description: str) -> ArgumentParser:
+    """Return what reads the command line of a program with one command."""
+    parser = _plain(
+        CommandLine(
+            prog=prog, description=description, allow_abbrev=False, argument_default=SUPPRESS
+        )
+    )
+    _describe(command, parser)
+    return parser
 
 
 def all_commands(app: App) -> tuple[ArgumentParser, dict[str, ArgumentParser]]:

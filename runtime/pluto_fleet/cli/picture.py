@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..shared.domain.errors import BadInput
+from .written import written
 
 if TYPE_CHECKING:
     from types import ModuleType
@@ -37,8 +38,4 @@ def drawing() -> ModuleType:
 
 def write(path: Path, picture: bytes) -> None:
     """Write a picture into its file."""
-    try:
-        path.write_bytes(picture)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise BadInput(f"{path}: the plot cannot be written: {why}") from None
+    written(path, "the plot", lambda: path.write_bytes(picture))

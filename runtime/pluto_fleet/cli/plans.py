@@ -22,6 +22,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
 from ..shared.fleet.reach import idle_actions, reckoned
 from ..shared.time.hours import Hours, beginning
+from .written import refuse_if_there, write_new
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -161,8 +162,7 @@ def waiting(plan: LoadedPlan) -> Iterator[str]:
 
 def check(app: App, options: Options) -> int:
     """Confirm that the fleet can fly the missions, and keep its promises; else loading has raised an error."""
-    if options.write is not None and os.path.lexists(options.write):
-        raise BadInput(f"{options.write}: it is there already, and is not replaced")
+    refuse_if_there(options.write)
     plan = load(app, options)
     doubts = [
         *too_fast(app, plan.fleet),
@@ -187,7 +187,7 @@ def check(app: App, options: Options) -> int:
     for sentence in waiting(plan):
         output.line(sentence)
     if options.write is not None:
-        _write(options.write, plan.missions_text)
+        write_new(options.write, plan.missions_text, "the missions")
     last = (
         ""
         if plan.fleet.charges_at_home
@@ -200,13 +200,3 @@ def check(app: App, options: Options) -> int:
         f"a fleet of {counted(drones, 'drone')} can fly them{last}"
     )
     return 0
-
-
-def _write(path: Path, text: str) -> None:
-    """Write missions into a new file."""
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(text)
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise BadInput(f"{path}: the missions cannot be written: {why}") from None

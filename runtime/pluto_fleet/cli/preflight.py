@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation
     from ..files.drones import DroneEntry
     from ..files.fleet import FleetFile
+    from .options import Options
 
 
 OR_SIMULATED = "; or fly simulated drones: add --sim"
@@ -49,6 +50,16 @@ def check_real(
         if deaf:
             raise plugins.deaf(fleet.localization, deaf)
     _check_options(app, fleet, where)
+
+
+def check_flight(app: App, fleet: FleetFile, options: Options) -> None:
+    """Raise `BadInput` if what `fly` or `serve` is to fly are real drones that cannot be flown."""
+    if not options.is_real:
+        return
+    where, stand_ins = str(options.fleet or app.name), options.crtp_sim is not None
+    check_real(app, fleet, where, stand_ins=stand_ins, instead=OR_SIMULATED)
+    if not stand_ins and not options.supervised:
+        warn_of_the_radio(fleet, where)
 
 
 def warn_of_the_radio(fleet: FleetFile, where: str) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import os
 import secrets
 from collections.abc import Callable, Coroutine, Iterator
@@ -16,9 +15,9 @@ from ..files.reading import text_of
 from ..flight.mission_status import finished, records_in
 from ..jobs.reports import Down
 from ..journal import place
+from ..process import locks
 from ..process import respawn as again
 from ..process.apart import Apart
-from ..process.forked import not_for_children
 from ..process.text import in_shell
 from ..shared import output
 from ..shared.domain.app import moving
@@ -35,7 +34,7 @@ from ..station.web.guard import Guard, needs_token, proper_name
 from ..station.web.listening import address, listening, port_of
 from .interrupts import Interrupts
 from .plans import load_fleet
-from .preflight import OR_SIMULATED, check_real, warn_of_the_radio
+from .preflight import check_flight
 from .shutdown import run
 from .supervise import Supervised, supervise
 
@@ -58,12 +57,7 @@ def serve(app: App, options: Options) -> int:
     web = _web_server(app.name)  # before anything is written or flown
     config = _config(app, options)
     app = moving(app, config.fleet.motion)
-    if options.is_real:
-        where = str(options.fleet or app.name)
-        sim = options.crtp_sim is not None
-        check_real(app, config.fleet, where, stand_ins=sim, instead=OR_SIMULATED)
-        if not sim and not options.supervised:
-            warn_of_the_radio(config.fleet, where)
+    check_flight(app, config.fleet, options)
     _make_room(config)
     if options.supervise:
         return _supervised(app, options, config)
@@ -262,20 +256,17 @@ _TOKEN_BYTES = 32
 @contextmanager
 def _alone(config: StationConfig) -> Iterator[None]:
     """Lock the folder against other stations."""
-    with (config.own_folder / "lock").open("a+", encoding="ascii") as lock:
-        try:
-            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            lock.seek(0)
-            raise BadInput(
-                f"{config.folder}: another station is being served from there"
-                f" (process {lock.read()}): end that one, or name another folder with --folder"
-            ) from None
-        not_for_children(lock.fileno())
-        lock.truncate(0)
-        lock.write(str(os.getpid()))
-        lock.flush()
+    file = config.own_folder / "lock"
+    lock = locks.take(file)
+    if lock is None:
+        raise BadInput(
+            f"{config.folder}: another station is being served from there"
+            f" (process {locks.holder(file)}): end that one, or name another folder with --folder"
+        )
+    try:
         yield
+    finally:
+        os.close(lock)
 
 
 def _supervised(app: App, options: Options, config: StationConfig) -> int:

@@ -22,6 +22,7 @@ from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
 from ..trials.case import fresh
 from .plans import LoadedPlan, load
+from .written import cannot
 
 if TYPE_CHECKING:
     from ..app import App
@@ -156,14 +157,14 @@ class _Trace:
             self._part = part if replaceable else None
             self._file = (self._part or path).open("w", encoding="utf-8")
         except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-            raise self._failed(error) from None
+            raise cannot(self._path, "the trace", error) from None
 
     def write(self, event: Event) -> None:
         """Write an event as one line."""
         try:
             self._file.write(line(event) + "\n")
         except OSError as error:
-            raise self._failed(error) from None
+            raise cannot(self._path, "the trace", error) from None
 
     def finish(self) -> None:
         """Give the complete file its name."""
@@ -172,7 +173,7 @@ class _Trace:
             if self._part is not None:
                 self._part.replace(self._whole)
         except OSError as error:
-            raise self._failed(error) from None
+            raise cannot(self._path, "the trace", error) from None
 
     def drop(self) -> None:
         """Remove an incomplete file; does nothing after `finish`."""
@@ -180,7 +181,3 @@ class _Trace:
             self._file.close()
         if self._part is not None:
             self._part.unlink(missing_ok=True)
-
-    def _failed(self, error: Exception) -> BadInput:
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        return BadInput(f"{self._path}: the trace cannot be written: {why}")

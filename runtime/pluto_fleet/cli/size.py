@@ -24,6 +24,7 @@ from ..sizing.question import Question
 from ..sizing.report import data, report
 from .picture import drawing, kind_of, write
 from .plans import load
+from .written import refuse_if_there, write_new
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -44,8 +45,7 @@ def size(app: App, options: Options) -> int:
     if options.plot is not None:
         kind_of(options.plot)
         drawing()  # raises before anything flies
-    if options.write is not None and options.write.exists():
-        raise BadInput(f"{options.write}: it is there already, and is not replaced")
+    refuse_if_there(options.write)
     plan = load(app, options)
     given = len(plan.fleet.drones)
     stock = Stock(
@@ -130,7 +130,9 @@ def _tell(answer: Answer, app: App, options: Options, start: str) -> None:
     if options.plot is not None:
         _plot(options.plot, app.name, answer)
     if options.write is not None and answer.found is not None:
-        _write(options.write, answer)
+        fleet = answer.stock.of(answer.found.counts)
+        assert fleet is not None
+        write_new(options.write, fleet_text(fleet), "the fleet")
     if options.json:
         when = {"start": start} if start else {}
         output.line(dumped({**data(answer, app.name, options.seed), **when}))
@@ -139,18 +141,6 @@ def _tell(answer: Answer, app: App, options: Options, start: str) -> None:
         output.line(f"starts at {start}")
     for line in report(answer):
         output.line(line)
-
-
-def _write(path: Path, answer: Answer) -> None:
-    assert answer.found is not None
-    fleet = answer.stock.of(answer.found.counts)
-    assert fleet is not None
-    try:
-        with path.open("x", encoding="utf-8") as file:
-            file.write(fleet_text(fleet))
-    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-        why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-        raise BadInput(f"{path}: the fleet cannot be written: {why}") from None
 
 
 def _plot(path: Path, name: str, answer: Answer) -> None:

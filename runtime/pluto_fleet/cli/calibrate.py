@@ -4,68 +4,39 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..calibration.commands import read_all
+from ..calibration.fit import calibrated
+from ..calibration.report import as_data, report
+from ..calibration.write import write
 from ..files.fleet import read_motion
 from ..files.reading import Table, parsed, text_of
+from ..process.exit_code import BAD_INPUT
 from ..shared import output
-from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CRAZYFLIE
-from .commands import read_all
-from .fit import calibrated
-from .report import as_data, report
-from .write import write
+from .options import Options, reader_of
 
 if TYPE_CHECKING:
+    from ..calibration.commands import Flights
     from ..shared.domain.motion import Motion
-    from .commands import Flights
 
 _ABOUT = """Finds how drones really move, from the journals of their flights: their pace, what they take beside
 their ways, how much that varies, and their batteries; and how long actions of an app's own took."""
 
-NOTHING_FOUND, BAD_INPUT = 1, 2
-
-
-@dataclass
-class Options:
-    """The parsed options. No slots: argparse sets further attributes."""
-
-    journals: list[Path] = field(default_factory=list)
-    fleet: Path | None = None
-    write: Path | None = None
-    json: bool = False
+NOTHING_FOUND = 1
 
 
 def main(argv: Sequence[str]) -> int:
     """Run the command, and return its exit code."""
     try:
-        options = _parsed(argv)
+        options = reader_of("calibrate", "pluto-fleet calibrate", _ABOUT).parse_args(
+            argv, namespace=Options()
+        )
     except SystemExit as end:  # argparse has printed the help, or what is wrong
         return end.code if isinstance(end.code, int) else BAD_INPUT
     return calibrate(options)
-
-
-def _parsed(argv: Sequence[str]) -> Options:
-    parser = CommandLine(prog="pluto-fleet calibrate", description=_ABOUT, allow_abbrev=False)
-    vars(parser)["color"] = False  # from Python 3.14 on it would be True
-    parser.add_argument("journals", nargs="+", type=Path, metavar="JOURNAL", help="flown journals")
-    parser.add_argument(
-        "--fleet",
-        type=Path,
-        metavar="F.toml",
-        help="whose [motion] says how legs are flown; default: that of the first journal",
-    )
-    parser.add_argument(
-        "--write",
-        type=Path,
-        metavar="F.toml",
-        help="put what was found into the [motion] of this fleet file",
-    )
-    parser.add_argument("--json", action="store_true", help="print it for programs")
-    return parser.parse_args(argv, namespace=Options())
 
 
 def calibrate(options: Options) -> int:

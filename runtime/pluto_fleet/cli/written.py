@@ -1,0 +1,40 @@
+"""Files that commands write because their user names them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from ..shared.domain.errors import BadInput
+
+
+def refuse_if_there(path: Path | None) -> None:
+    """Raise `BadInput` if there is a file of this name: none is replaced."""
+    if path is not None and os.path.lexists(path):
+        raise BadInput(f"{path}: it is there already, and is not replaced")
+
+
+def write_new(path: Path, text: str, what: str) -> None:
+    """Write a text into a new file."""
+    refuse_if_there(path)
+
+    def write() -> None:
+        with path.open("x", encoding="utf-8") as file:
+            file.write(text)
+
+    written(path, what, write)
+
+
+def written(path: Path, what: str, write: Callable[[], object]) -> None:
+    """Write a file; raise `BadInput` if it cannot be written."""
+    try:
+        write()
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise cannot(path, what, error) from None
+
+
+def cannot(path: Path, what: str, error: Exception) -> BadInput:
+    """Return the error that something cannot be written into a file."""
+    why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return BadInput(f"{path}: {what} cannot be written: {why}")
