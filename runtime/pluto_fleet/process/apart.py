@@ -12,18 +12,15 @@ import os
 import pickle
 import signal
 import socket
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
+from functools import partial
 from multiprocessing.connection import Connection, Pipe
-from typing import Concatenate, Generic, NoReturn, ParamSpec, Protocol, TypeVar, cast
+from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar, cast
 
-from ..shared import output
-from ..shared.domain.errors import ANY_ERROR
 from .at_once import at_once
-from .beside import Died
-from .forked import leave, not_for_children, refused
-from .workers import Raised, portable
+from .copies import Died, Raised, forked, hear_signals, outcome
+from .forked import not_for_children
 
 T = TypeVar("T")
 T_co = TypeVar("T_co", covariant=True)
@@ -56,11 +53,7 @@ class Apart(Generic[T]):
 
     def __init__(self, what: T) -> None:
         self._asked, asked = socket.socketpair()
-        output.flush()
-        self._waits = os.fork()
-        if self._waits == 0:
-            self._asked.close()
-            _wait(asked, what)
+        self._waits = forked(partial(_wait, self._asked, asked, what))
         asked.close()
         not_for_children(self._asked.fileno())
         self._places = asyncio.Semaphore(PROCESSES)
@@ -115,46 +108,25 @@ class _Copy:
             pipe.shutdown(socket.SHUT_RDWR)
 
 
-def _wait(asked: socket.socket, what: object) -> NoReturn:
+def _wait(asks: socket.socket, asked: socket.socket, what: object) -> None:
     """Make a copy that answers for each pipe that comes, until the first process has gone; then end all."""
-    try:
-        os.setpgid(0, 0)
-        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-            signal.signal(number, signal.SIG_IGN)  # the first process says when they end
-        signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how one has ended
-        os.nice(NICE)
-        while True:
-            _, pipes, *_ = socket.recv_fds(asked, 1, 1)
-            if not pipes:
-                break
-            if os.fork() == 0:
-                asked.close()
-                with refused():
-                    _answer(Connection(pipes[0]), what)
-            os.close(pipes[0])
-        os.killpg(0, signal.SIGKILL)
-    finally:
-        leave(0)
+    asks.close()
+    os.setpgid(0, 0)
+    hear_signals(signal.SIG_IGN)  # the first process says when they end
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how one has ended
+    os.nice(NICE)
+    while pipes := socket.recv_fds(asked, 1, 1)[1]:
+        forked(partial(_answer, asked, pipes[0], what))
+        os.close(pipes[0])
+    os.killpg(0, signal.SIGKILL)
 
 
-def _answer(pipe: Connection, what: object) -> NoReturn:
+def _answer(asked: socket.socket, descriptor: int, what: object) -> None:
     """Answer what is asked through a pipe, until that is closed."""
-    try:
-        with suppress(EOFError, OSError):
-            while True:
-                pipe.send_bytes(_told(what, *pipe.recv()))
-    finally:
-        leave(0)
-
-
-def _told(
-    what: object,
-    question: Callable[..., object],
-    given: tuple[object, ...],
-    named: dict[str, object],
-) -> bytes:
-    try:
-        return pickle.dumps(question(what, *given, **named))
-    except ANY_ERROR as error:
-        trace = "".join(traceback.format_exception(error))
-        return pickle.dumps(Raised(portable(error), trace))
+    asked.close()
+    pipe = Connection(descriptor)
+    with suppress(EOFError, OSError):
+        while True:
+            question, given, named = pipe.recv()
+            told = outcome(lambda: pickle.dumps(question(what, *given, **named)))  # noqa: B023
+            pipe.send_bytes(pickle.dumps(told) if isinstance(told, Raised) else told)

@@ -10,19 +10,18 @@ from __future__ import annotations
 import os
 import pickle
 import signal
-import traceback
-import warnings
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
+from functools import partial
 from io import StringIO
 from multiprocessing.connection import Connection, Pipe, wait
 from types import FrameType
 from typing import Any, NamedTuple, TypeVar
 
 from ..shared import output
-from ..shared.domain.errors import ANY_ERROR
-from .forked import leave, not_for_children, refused
+from .copies import BY_A_PERSON, Raised, forked, hear_signals, how_it_ended, outcome
+from .forked import not_for_children
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -32,9 +31,6 @@ _ENOUGH, _MOST = 20, 50
 
 _A_MOMENT = 0.5
 """Seconds: a signal that comes just before a wait is handled only after it."""
-
-_BY_A_PERSON = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-"""The signals that ask a process to end; the first raises, so its handler is replaced first."""
 
 
 class WorkerDied(Exception):
@@ -57,11 +53,6 @@ class _Done(NamedTuple):
     out: str
     err: str
     """What the task has printed."""
-
-
-class Raised(NamedTuple):
-    error: BaseException
-    trace: str
 
 
 Message = _Done | Raised
@@ -121,60 +112,35 @@ def _begin(
     workers: dict[Connection, _Worker],
 ) -> None:
     receives, sends = Pipe(duplex=False)
-    output.flush()
+
+    def begun() -> None:
+        for pipe in (receives, *workers):
+            pipe.close()  # else a worker would not notice that its reader has gone
+        not_for_children(sends.fileno())  # else the reader would wait for a hook's children, too
+        hear_signals(signal.SIG_DFL)
+        _work(work, tasks, places, sends)
+
     with _held():  # until the worker is known: else nothing would end it
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", DeprecationWarning)  # threads that a hook has begun
-            process = os.fork()
-        if process == 0:
-            for pipe in (receives, *workers):
-                pipe.close()  # else a worker would not notice that its reader has gone
-            _work(work, tasks, places, sends)
-        workers[receives] = _Worker(process, deque(places))
+        workers[receives] = _Worker(forked(begun), deque(places))
     sends.close()
 
 
 def _work(
-    work: Callable[[T], R],
-    tasks: Sequence[T],
-    places: Sequence[int],
-    sends: Connection,
+    work: Callable[[T], R], tasks: Sequence[T], places: Sequence[int], sends: Connection
 ) -> None:
-    """Do tasks, up to the first error, and leave: in a worker nothing returns."""
-    code = 1
-    try:
-        not_for_children(sends.fileno())  # else the reader would wait for a hook's children, too
-        for number in _BY_A_PERSON:
-            if signal.getsignal(number) is not signal.SIG_IGN:  # as with nohup
-                signal.signal(number, signal.SIG_DFL)
-        with refused():
-            for place in places:
-                message = _outcome(work, tasks[place])
-                sends.send(message)
-                if isinstance(message, Raised):
-                    break
-        code = 0
-    finally:
-        leave(code)
+    """Do tasks, up to the first error."""
 
-
-def _outcome(work: Callable[[T], R], task: T) -> Message:
-    out, err = StringIO(), StringIO()
-    try:
+    def done(place: int) -> _Done:
+        out, err = StringIO(), StringIO()
         with redirect_stdout(out), redirect_stderr(err):
-            result = work(task)
-    except ANY_ERROR as error:
-        trace = "".join(traceback.format_exception(error))
-        return Raised(portable(error), trace)
-    return _Done(result, out.getvalue(), err.getvalue())
+            result = work(tasks[place])
+        return _Done(result, out.getvalue(), err.getvalue())
 
-
-def portable(error: BaseException) -> BaseException:
-    """Return an error that another process can read."""
-    with suppress(*ANY_ERROR):  # its class may be a hook's own
-        if type(pickle.loads(pickle.dumps(error))) is type(error):
-            return error
-    return RuntimeError(f"{type(error).__name__}: {error}")
+    for place in places:
+        message = outcome(partial(done, place))
+        sends.send(message)
+        if isinstance(message, Raised):
+            break
 
 
 def _take(pipe: Connection, workers: dict[Connection, _Worker], done: dict[int, Message]) -> None:
@@ -198,15 +164,6 @@ def _take(pipe: Connection, workers: dict[Connection, _Worker], done: dict[int, 
     done[place] = message
 
 
-def how_it_ended(status: int) -> str:
-    if status >= 0:
-        return f"ended by itself with exit code {status}"
-    try:
-        return f"was killed by {signal.Signals(-status).name}"
-    except ValueError:
-        return f"was killed by signal {-status}"
-
-
 @contextmanager
 def _held() -> Iterator[None]:
     """Hold back the signals that ask this process to end; they are handled as this context ends.
@@ -216,7 +173,7 @@ def _held() -> Iterator[None]:
     noted: set[int] = set()
     handlers: dict[signal.Signals, Any] = {}
     with suppress(ValueError):  # not in the main thread
-        for number in _BY_A_PERSON:
+        for number in BY_A_PERSON:
             if callable(signal.getsignal(number)):
                 handlers[number] = signal.signal(number, lambda number, _: noted.add(number))
     try:
@@ -263,7 +220,7 @@ def _ending(workers: dict[Connection, _Worker]) -> Iterator[set[int]]:
     interrupt = signal.getsignal(signal.SIGINT)
     before: dict[signal.Signals, Any] = {}
     with suppress(ValueError):  # not in the main thread
-        for number in _BY_A_PERSON[1:]:
+        for number in BY_A_PERSON[1:]:
             if signal.getsignal(number) is signal.SIG_DFL:
                 before[number] = signal.signal(number, ended)
         if callable(interrupt):

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.process.apart import PROCESSES, Apart
-from pluto_fleet.process.beside import Died
+from pluto_fleet.process.copies import Died
 from pluto_fleet.shared.domain.errors import BadInput
 
 from .holding import held

@@ -8,7 +8,8 @@ from collections.abc import Callable, Iterator
 
 import pytest
 
-from pluto_fleet.process.beside import Died, in_a_copy
+from pluto_fleet.process.beside import in_a_copy
+from pluto_fleet.process.copies import Died
 
 pytestmark = pytest.mark.process
 

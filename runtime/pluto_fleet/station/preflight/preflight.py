@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...process.beside import Died, in_a_copy
+from ...process.beside import in_a_copy
+from ...process.copies import Died
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import duration
 from ..history.folder import rehearsals_in

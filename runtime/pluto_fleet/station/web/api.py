@@ -21,7 +21,7 @@ from starlette.requests import ClientDisconnect, HTTPConnection, Request
 from starlette.responses import Response
 from starlette.routing import Route, WebSocketRoute
 
-from ...process.beside import Died
+from ...process.copies import Died
 from ...shared.domain.errors import BadInput
 from ..map.drawn import StaleMap
 from ..operation import JSON, SMALL_BODY, Operation
