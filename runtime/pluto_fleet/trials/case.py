@@ -119,6 +119,10 @@ class Weather:
     """The share of runs that resume from a snapshot and not from the first row."""
 
 
+class BrokenHook(RuntimeError):
+    """An unexpected error of a hook."""
+
+
 FAIR = Weather()
 
 _SHARES = ("crash", "link", "action", "battery", "hook", "block", "late", "snapshot")

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..journal.fold import Record, Records
 from ..shared.alone.simulate import Bound
+from .case import BrokenHook
 from .invariants import ENDS, Invariants, items_of
 from .rules import at, listed
-from .unreliable import BrokenHook
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

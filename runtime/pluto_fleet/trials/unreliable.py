@@ -14,6 +14,7 @@ from ..shared.domain.guard import guarded
 from ..shared.fleet.orders import failure_of
 from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
 from ..shared.time.virtual import VirtualTime
+from .case import BrokenHook
 
 if TYPE_CHECKING:
     from ..gateway.gateway import Line
@@ -27,10 +28,6 @@ T = TypeVar("T")
 
 _HOOK_BLOCKS_FOR = 30.0
 """Seconds for which a hook blocks."""
-
-
-class BrokenHook(RuntimeError):
-    """An unexpected error of a hook."""
 
 
 class UnreliableTime(VirtualTime):
