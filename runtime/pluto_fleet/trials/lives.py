@@ -57,7 +57,9 @@ class TrialLife:
             self.kernel, case.weather, run.chance, run.fired, self.hook_returned
         )
         line = run.gateway.link(run.lives, self.lost)
-        self.wire = UnreliableLink(line, run, self.kernel, self.sent)
+        self.wire = UnreliableLink(
+            line, self.kernel, case.weather.slow, run.fired, self.sent, run.report_is_lost
+        )
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
         self.unknown: dict[str, None] = {}

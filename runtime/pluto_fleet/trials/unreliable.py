@@ -22,7 +22,6 @@ if TYPE_CHECKING:
     from ..jobs.telemetry import Telemetry
     from ..shared.time.kernel import Kernel
     from .case import Weather
-    from .world import TrialWorld
 
 T = TypeVar("T")
 
@@ -142,12 +141,19 @@ class UnreliableLink(Link):
     """A link with delayed messages in both directions, in order."""
 
     def __init__(
-        self, line: Line, trial: TrialWorld, brain: Kernel, sent: Callable[[str], object]
+        self,
+        line: Line,
+        brain: Kernel,
+        slow: float,
+        fired: Counter[str],
+        sent: Callable[[str], object],
+        report_is_lost: Callable[[], bool],
     ) -> None:
-        """`sent` is called with each flight that is ordered."""
+        """`sent` is called with each flight that is ordered, `report_is_lost` at each report of one."""
         super().__init__()
-        self._line, self._trial, self._brain, self._sent = line, trial, brain, sent
-        self._slow, self._fired = trial.case.weather.slow, trial.fired
+        self._line, self._world, self._brain = line, line.gateway.kernel, brain
+        self._slow, self._fired = slow, fired
+        self._sent, self._report_is_lost = sent, report_is_lost
         self.alive = True
         self._flights: set[int] = set()
         line.hear = self._told
@@ -171,7 +177,7 @@ class UnreliableLink(Link):
     def _pass(self, message: Callable[[], object]) -> None:
         if self._slow:
             self._fired["slow line"] += 1
-            world = self._trial.world
+            world = self._world
             arrives = partial(self._go, message)
             world.schedule(world.now + self._slow, EventKind.FLIGHT, FLEET, arrives)
         else:
@@ -183,7 +189,7 @@ class UnreliableLink(Link):
 
     def _told(self, message: Message) -> None:
         is_report = message.get("done", message.get("failed")) in self._flights
-        if is_report and self._trial.report_is_lost():
+        if is_report and self._report_is_lost():
             self._line.gateway.cut()
             return
         if is_report and "failed" in message:
