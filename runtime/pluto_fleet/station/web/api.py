@@ -90,9 +90,9 @@ class Api(Starlette):
         self._picture = picture(station.image)
         self._live = LiveUpdates(station, guard, audit, clock)
         self._handlers = {**HANDLERS, "live": self._live.poll}
-        static = dict(pages())
+        self._static = dict(pages())
         if logo is not None:
-            static["/logo"] = logo_file(logo)
+            self._static["/logo"] = logo_file(logo)
         path = attrgetter("path")
         routes = [
             WebSocketRoute(LIVE, self._live.talk),
@@ -101,12 +101,12 @@ class Api(Starlette):
                 for address, operations in groupby(sorted(OPERATIONS.values(), key=path), key=path)
             ),
             Route("/map", self._floor_plan),
-            *(Route(address, _page(held)) for address, held in static.items()),
         ]
         door = Middleware(_Door, guard=guard, audit=audit, pause=pause)
         refused = {Refused: self._refused, HTTPException: self._not_there}
         super().__init__(routes=routes, middleware=[door], exception_handlers=refused)
         self.router.redirect_slashes = False
+        self.router.default = self._page
 
     def end(self) -> None:
         """Close the connections of all pages."""
@@ -124,6 +124,15 @@ class Api(Starlette):
         allowed = ", ".join(sorted({*methods} - {"HEAD"}))
         why = refusals.wrong_method(allowed) if allowed else refusals.NO_SUCH_PAGE
         return await self._refused(request, Refused(why))
+
+    async def _page(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer with a page's file, at an address that nothing else has."""
+        is_read = scope["type"] == "http" and scope["method"] in ("GET", "HEAD")
+        held = self._static.get(scope["path"]) if is_read else None
+        if held is None:
+            await self.router.not_found(scope, receive, send)
+        else:
+            await _file_reply(held, Request(scope))(scope, receive, send)
 
     async def _floor_plan(self, request: Request) -> Response:
         """Answer with the floor plan, read once: another one has another name."""
@@ -181,10 +190,6 @@ def _noted(operation: Operation, given: Mapping[str, object]) -> Mapping[str, ob
     """Return what the audit has of a change: of the plan, not the plan itself."""
     whole = operation.stale is not PlanData
     return {name: value for name, value in given.items() if whole or name != "missions"}
-
-
-def _page(held: StaticFile) -> Callable[[Request], Response]:
-    return lambda request: _file_reply(held, request)
 
 
 def _file_reply(held: StaticFile, request: Request) -> Response:

@@ -128,9 +128,10 @@ def refusal(guard: Guard, connection: HTTPConnection, access: Access) -> Refusal
     return refusals.NO_TOKEN if role_of(guard, connection) is None else None
 
 
-def header(connection: HTTPConnection, name: str) -> str:
+def header(connection: HTTPConnection, name: str, otherwise: str = "") -> str:
     """Return a header; repeated ones are joined, which makes them invalid."""
-    return ", ".join(connection.headers.getlist(name))
+    found = connection.headers.getlist(name)
+    return ", ".join(found) if found else otherwise
 
 
 def client_of(connection: HTTPConnection) -> str:
@@ -161,7 +162,7 @@ def bearer(authorization: str) -> str:
 
 def _is_same_site(connection: HTTPConnection, host: str, access: Access) -> bool:
     """Whether the request comes from one of our pages, or not from a page."""
-    site = header(connection, "sec-fetch-site") or "same-origin"
+    site = header(connection, "sec-fetch-site", "same-origin")
     match access:
         case Access.LIVE:  # browsers differ in the site of a ws: address
             near = site != "cross-site"
@@ -169,9 +170,8 @@ def _is_same_site(connection: HTTPConnection, host: str, access: Access) -> bool
             near = site in ("same-origin", "none")
         case _:
             near = site == "same-origin"
-    origin = header(connection, "origin").lower()
-    has_one = "origin" in connection.headers
-    return near and (not has_one or origin in (f"http://{host}", f"https://{host}"))
+    origin = header(connection, "origin", f"http://{host}").lower()
+    return near and origin in (f"http://{host}", f"https://{host}")
 
 
 def _is_ours(guard: Guard, host: str, local: str) -> bool:
@@ -221,18 +221,18 @@ _DATA = "default-src 'none'; frame-ancestors 'none'; sandbox"
 _ALONE = "Cross-Origin-Opener-Policy"
 """A header that browsers respect only on this machine or over TLS, and else complain about."""
 
-_ALWAYS = {
-    "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
-}
+_ALWAYS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"x-frame-options", b"DENY"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"permissions-policy", b"camera=(), geolocation=(), microphone=(), payment=(), usb=()"),
+)
 
 
 def safe_headers(connection: HTTPConnection, headers: MutableHeaders) -> None:
     """Add all security headers to those of an answer."""
-    headers.update(_ALWAYS)
+    headers.raw.extend(_ALWAYS)
     headers.setdefault("Cache-Control", "no-store")
     headers["Content-Security-Policy"] = _policy(connection.scope["path"], headers)
     if is_loopback(header(connection, "host").rpartition(":")[0]):

@@ -10,8 +10,9 @@ from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from operator import methodcaller
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response
@@ -31,10 +32,8 @@ from .audit import who
 if TYPE_CHECKING:
     from starlette.types import Receive, Scope, Send
 
+    from ..history.past import PastFlights
     from ..station import Station
-
-P = ParamSpec("P")
-R = TypeVar("R")
 
 DESCRIPTION = Path(__file__).parent.parent / "openapi.json"
 """The description of the interface, which is made of its declaration."""
@@ -217,64 +216,50 @@ async def sweep_area(asked: Asked, **_: object) -> Response:
 # Flights of the past, and results: of none, it is the flight of now
 
 
-async def _read(
-    asked: Asked,
-    question: Callable[Concatenate[FlightFiles, P], R],
-    *given: P.args,
-    **named: P.kwargs,
-) -> R:
-    """Read of a flight of the past, apart from the station's process."""
-    return await asked.station.files.ask(question, *given, **named)
-
-
 async def flights(asked: Asked) -> Response:
     """Answer with a line for each flight."""
-    return Response(await _read(asked, _flights), media_type=JSON)
-
-
-def _flights(files: FlightFiles) -> str:
-    return json_text(files.past.flights())
+    return await _past(asked, methodcaller("flights"))
 
 
 async def replay(asked: Asked, flight: str, start: float) -> Response:
     """Answer with a part of a flight's replay."""
-    return Response(await _read(asked, _replay, flight, start), media_type=JSON)
-
-
-def _replay(files: FlightFiles, flight: str, start: float) -> str:
-    return json_text(files.past.replay(flight, start))
+    return await _past(asked, methodcaller("replay", flight, start))
 
 
 async def report(asked: Asked, flight: str) -> Response:
     """Answer with what is to be said of a flight on paper."""
-    return Response(await _read(asked, _report, flight), media_type=JSON)
+    return await _past(asked, methodcaller("report", flight))
 
 
-def _report(files: FlightFiles, flight: str) -> str:
-    return json_text(files.past.report(flight))
+async def hours(asked: Asked) -> Response:
+    """Answer with what each drone has flown."""
+    return await _past(asked, methodcaller("hours"))
+
+
+async def _past(asked: Asked, question: Callable[[PastFlights], object]) -> Response:
+    """Read of flights of the past, and write that as JSON, apart from the station's process."""
+    return Response(await asked.station.files.ask(_json, question), media_type=JSON)
+
+
+def _json(files: FlightFiles, question: Callable[[PastFlights], object]) -> str:
+    return json_text(question(files.past))
 
 
 async def mcap(asked: Asked, flight: str) -> Response:
     """Answer with a flight as an MCAP file."""
-    return _download(await _read(asked, _mcap, flight), "flight.mcap", MCAP)
+    return _download(await asked.station.files.ask(_mcap, flight), "flight.mcap", MCAP)
 
 
 def _mcap(files: FlightFiles, flight: str) -> bytes:
     return files.past.mcap(flight)
 
 
-async def hours(asked: Asked) -> Response:
-    """Answer with what each drone has flown."""
-    return Response(await _read(asked, _hours), media_type=JSON)
-
-
-def _hours(files: FlightFiles) -> str:
-    return json_text(files.past.hours())
-
-
 async def console(asked: Asked, flight: str) -> Response:
     """Answer with the console."""
-    text = await _read(asked, _console, flight) if flight else asked.station.console()
+    if flight:
+        text = await asked.station.files.ask(_console, flight)
+    else:
+        text = asked.station.console()
     return _text(text, "console.txt", TEXT)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 
 import pytest
 from hypothesis import given, settings
@@ -29,6 +30,24 @@ def test_what_is_not_is_refused_and_nothing_else(text: str) -> None:
         return
     assert json.loads(f"[{text}]") == data
     json.dumps(data, allow_nan=False, ensure_ascii=False).encode()
+
+
+JSON = st.recursive(
+    st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False) | st.text(max_size=3),
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3), inner),
+    max_leaves=10,
+)
+
+
+@settings(max_examples=20, derandomize=True, deadline=None)
+@given(data=st.data())
+def test_whatever_is_sent_to_whichever_address_is_taken_or_refused(data: st.DataObject) -> None:
+    for one in OPERATIONS.values():
+        fields = {name: data.draw(JSON) for name in one.body or () if data.draw(st.booleans())}
+        with suppress(BadInput):
+            one.sent(json.dumps(fields).encode())
+        with suppress(BadInput):
+            one.asked({name: data.draw(st.text(max_size=3)) for name in one.query})
 
 
 @pytest.mark.parametrize(
