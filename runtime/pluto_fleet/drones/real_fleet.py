@@ -99,14 +99,3 @@ def _wanted(trips: Iterable[RequiredAction]) -> tuple[RequiredAction, ...]:
         if wanted.action in BUILT_IN and wanted not in found:
             found.append(wanted)
     return tuple(found)
-
-
-def real_of(data: Mapping[str, Any]) -> RealFleet:
-    """Return what was written down, by `asdict`."""
-    return RealFleet(
-        drones=tuple(RealDrone(**drone) for drone in data["drones"]),
-        localization=data["localization"],
-        localization_options=data["localization_options"],
-        wanted=tuple(RequiredAction(**wanted) for wanted in data["wanted"]),
-        silence=data.get("silence", SILENCE),
-    )

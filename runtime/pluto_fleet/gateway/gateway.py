@@ -285,14 +285,15 @@ class Gateway:
     def join(self, joining: Mapping[str, Any]) -> str:
         """Take a drone in, unless it is there already; return why that cannot be, or nothing."""
         try:
-            drone, real = joining_of(joining)
+            told = joining_of(joining)
+            drone = told.drone
             if drone.id in self.keys:
                 return ""
-            self.take_in(drone, real)
+            self.take_in(drone, told.real)
         except BadInput as error:
             return str(error)
-        except (KeyError, TypeError, ValueError) as error:
-            return f"that is no drone: {type(error).__name__}: {error}"
+        except ValueError as error:
+            return f"that is no drone: {error}"
         self.drones = (*self.drones, drone)
         self.keys[drone.id] = FLEET + 1 + drone.index  # its jobs have the same mapping
         self.jobs.boots[drone.id] = 0

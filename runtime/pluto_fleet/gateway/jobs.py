@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import DroneReport, Entry, JobState, reported_result
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.hooks.plain_data import point_of
 from ..shared.time.kernel import EventKind, Kernel, Key
 
 if TYPE_CHECKING:
@@ -86,7 +87,7 @@ class Jobs:
         other = self._current.get(drone)
         if other is not None and other.flies:
             return f"{drone} flies already, for {other.id}"
-        problems = map(self._airspace.problem, order["stops"])
+        problems = map(self._airspace.problem, map(point_of, order["stops"]))
         return next((problem for problem in problems if problem is not None), None)
 
     def attach(self, id: str, report: Report) -> None:

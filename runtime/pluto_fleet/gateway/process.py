@@ -157,9 +157,8 @@ def _settings(file: Path) -> Settings:
     """Return the settings that the app has written."""
     try:
         return settings_of(json.loads(file.read_text(encoding="utf-8")))
-    except (AttributeError, KeyError, TypeError, ValueError) as error:
-        why = f"{type(error).__name__}: {error}"
-        raise BadInput(f"{file}: these are no settings of a gateway: {why}") from None
+    except ValueError as error:
+        raise BadInput(f"{file}: these are no settings of a gateway: {error}") from None
 
 
 async def run(folder: Path, settings: Settings) -> None:

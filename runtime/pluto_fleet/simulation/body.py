@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 from ..jobs.reports import DroneReport
 from ..shared.alone.faults import Drawn, befell
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.model import Category, Point  # settings are read by these types
 from ..shared.domain.motion import CLIMB_SPEED, Spread, varied
 from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import Charge, Leg, resting
@@ -26,7 +27,7 @@ from ..shared.time.kernel import FLEET, Key
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.fleet_data import FleetData
-    from ..shared.domain.model import Category, Item, Point
+    from ..shared.domain.model import Item
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

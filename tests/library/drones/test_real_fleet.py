@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 from math import dist
 from pathlib import Path
 
+import msgspec
 import pytest
 
-from pluto_fleet.drones.real_fleet import RealDrone, RequiredAction, real_fleet, real_of
+from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction, real_fleet
 from pluto_fleet.files.crtp_fleet import as_crtp_fleet
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
@@ -82,7 +83,8 @@ def test_what_goes_on_asks_for_the_same_as_when_it_began() -> None:
 def test_a_real_fleet_is_read_as_it_was_written() -> None:
     """All of it goes through a file."""
     whole = real_fleet(FLEET, MISSIONS)
-    assert real_of(json.loads(json.dumps(asdict(whole)))) == whole
+    told = json.dumps(msgspec.to_builtins(whole, enc_hook=dict))
+    assert msgspec.convert(json.loads(told), RealFleet) == whole
 
 
 def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:
