@@ -10,7 +10,7 @@ import sys
 from argparse import Action, ArgumentParser
 from collections.abc import Sequence
 
-from .process.exit_code import BAD_INPUT, ExitCode
+from .process.exit_code import BAD_INPUT, exit_code
 from .shared import output
 from .shared.domain.errors import BadInput
 from .shared.domain.text import quoted
@@ -38,17 +38,15 @@ def main(argv: Sequence[str] | None = None) -> int:
 
         return crtp(words[1:])
     output.prepare()
-    ending = ExitCode(_NAME)
-    with ending:
-        ending.code = _calibrated(words[1:]) if words[:1] == [_CALIBRATE] else _said(words)
-        output.flush()
-    return ending.code
+    return exit_code(_NAME, lambda: _ran(words))
 
 
-def _calibrated(words: Sequence[str]) -> int:
-    from .cli.calibrate import main as calibrate
+def _ran(words: Sequence[str]) -> int:
+    if words[:1] == [_CALIBRATE]:
+        from .cli.calibrate import main as calibrate
 
-    return calibrate(words)
+        return calibrate(words[1:])
+    return _said(words)
 
 
 def _said(words: Sequence[str]) -> int:

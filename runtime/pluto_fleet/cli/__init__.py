@@ -7,7 +7,7 @@ import sys
 from functools import partial
 from importlib import import_module
 
-from ..process.exit_code import BAD_INPUT, INTERNAL, ExitCode
+from ..process.exit_code import BAD_INPUT, INTERNAL, exit_code
 from ..shared import output
 
 TYPE_CHECKING = False  # `typing` itself is slow to import, and plutoc's `--version` does without
@@ -26,36 +26,31 @@ _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
 
 def start(name: str, load: Callable[[], object], package: str, seam: int) -> int:
     """Load an app and run the command that the program was called with."""
-    app: App | None = None
-    ending = ExitCode(name)
-    with ending:
-        from ..process.forked import end_if_forked, refused
-        from ..process.signal_guard import guard_hooks, interrupted_by_a_person
-        from ..shared.hooks.loading import loaded
-
-        guard_hooks()
-        parent = os.getpid()
-        if sys.argv[1:2] in _WITHOUT_HOOKS:
-            from ..app import bare
-
-            app = bare(name, package, seam)
-        else:
-            from ..app import described
-
-            with interrupted_by_a_person(), refused():
-                given = loaded(load)
-            end_if_forked(parent)  # as its hooks were loaded
-            app = described(given)
-    code = _heard(app) if app is not None else ending.code
+    code = exit_code(name, partial(_run, name, load, package, seam))
     if code == BAD_INPUT and "--supervised" in sys.argv:
         from .supervise import refuse
 
         refuse()  # it must not be started again
-    if app is not None:
-        from .shutdown import leave_in_time
+    from .shutdown import leave_in_time
 
-        leave_in_time(name, code)
+    leave_in_time(name, code)
     return code
+
+
+def _run(name: str, load: Callable[[], object], package: str, seam: int) -> int:
+    from ..app import bare, described
+    from ..process.forked import end_if_forked, refused
+    from ..process.signal_guard import guard_hooks, interrupted_by_a_person
+    from ..shared.hooks.loading import loaded
+
+    guard_hooks()
+    parent = os.getpid()
+    if sys.argv[1:2] in _WITHOUT_HOOKS:
+        return _heard(bare(name, package, seam))
+    with interrupted_by_a_person(), refused():
+        given = loaded(load)
+    end_if_forked(parent)  # as its hooks were loaded
+    return _heard(described(given))
 
 
 def _heard(app: App) -> int:
@@ -91,11 +86,7 @@ def main(app: Any, argv: Sequence[str] | None = None) -> int:
     from ..app import described
 
     output.prepare()
-    ending = ExitCode(app.name)
-    with ending:
-        ending.code = _command(described(app), argv)
-        output.flush()
-    return ending.code
+    return exit_code(app.name, lambda: _command(described(app), argv))
 
 
 def _command(app: App, argv: Sequence[str] | None) -> int:

@@ -65,9 +65,9 @@ class DroneQuery:
     """Whether it is in the fleet file."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class DroneAnswer:
-    """The outcome of a query."""
+    """The outcome of a query, as far as it has come."""
 
     asked: DroneQuery
     problems: tuple[str, ...] = ()
@@ -153,61 +153,48 @@ def no_answer(seconds: float) -> str:
     return f"no answer in {number(seconds)} s"
 
 
-@dataclass(slots=True)
-class _Heard:
-    """The latest telemetry of a drone."""
-
-    telemetry: DroneTelemetry | None = None
-    problems: tuple[str, ...] = ()
-    facts: Mapping[str, str] = field(default_factory=dict)
-
-
 async def _answer(
     asked: DroneQuery, navigation: DroneNavigation, feeding: LocalizationFeed | None
 ) -> DroneAnswer:
-    so_far = _Heard()
+    answer = DroneAnswer(asked=asked)
     try:
         with lock_drones({asked.id: asked.uri or asked.id}):
             try:
-                (end,) = await asyncio.gather(
-                    _ask(asked, navigation, so_far), return_exceptions=True
-                )
+                await _ask(answer, navigation)
             finally:
                 await _let_go(navigation)
     except DroneInUse as held:  # an app flies it, and has exclusive access
-        return DroneAnswer(asked=asked, problems=(str(held),))
-    match end:
-        case None:
-            problems = so_far.problems
-            if not isfinite(sum(so_far.telemetry.position if so_far.telemetry else ())):
-                problems = (*problems, LOST)
-            lost = None if feeding is None else feeding.silent(asked.id)
-            if lost is not None:
-                problems = (*problems, lost)
-        case _Silent():
-            problems = (no_answer(CONNECT_WITHIN if so_far.telemetry is None else ANSWER_WITHIN),)
-        case Exception() if not isinstance(end, BadInput):
-            problems = (_why(end),)
-        case _:  # something that all drones need is missing
-            raise end
-    return DroneAnswer(
-        asked=asked, problems=problems, telemetry=so_far.telemetry, facts=so_far.facts
-    )
+        answer.problems = (str(held),)
+    except _Silent:
+        limit = CONNECT_WITHIN if answer.telemetry is None else ANSWER_WITHIN
+        answer.problems = (no_answer(limit),)
+    except BadInput:  # something that all drones need is missing
+        raise
+    except Exception as error:  # noqa: BLE001 - a navigation may raise anything
+        answer.problems = (_why(error),)
+    else:
+        assert answer.telemetry is not None
+        if not isfinite(sum(answer.telemetry.position)):
+            answer.problems = (*answer.problems, LOST)
+        lost = None if feeding is None else feeding.silent(asked.id)
+        if lost is not None:
+            answer.problems = (*answer.problems, lost)
+    return answer
 
 
-async def _ask(asked: DroneQuery, navigation: DroneNavigation, so_far: _Heard) -> None:
+async def _ask(answer: DroneAnswer, navigation: DroneNavigation) -> None:
     await _within(CONNECT_WITHIN, navigation.connect())
-    so_far.telemetry = navigation.telemetry
-    if so_far.telemetry.flying:
-        so_far.problems = (IN_THE_AIR,)
+    answer.telemetry = navigation.telemetry
+    if answer.telemetry.flying:
+        answer.problems = (IN_THE_AIR,)
         return
-    unset = [one async for one in _set(asked, navigation)]
+    unset = [one async for one in _set(answer.asked, navigation)]
     told = await _within(ANSWER_WITHIN, navigation.preflight())
-    so_far.problems = (*unset, *map(str, told))
+    answer.problems = (*unset, *map(str, told))
     if inspect.iscoroutinefunction(getattr(navigation, "facts", None)):
         facts = await _within(ANSWER_WITHIN, cast(Tells, navigation).facts())
-        so_far.facts = {str(name): str(fact) for name, fact in facts.items()}
-    so_far.telemetry = navigation.telemetry
+        answer.facts = {str(name): str(fact) for name, fact in facts.items()}
+    answer.telemetry = navigation.telemetry
 
 
 async def _set(asked: DroneQuery, navigation: DroneNavigation) -> AsyncIterator[str]:

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from copy import deepcopy
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -73,7 +72,7 @@ def dry_run(app: App, options: Options) -> int:
         on_event=None,
         around=around,
     )
-    for line in _lines(plan, outcome, given[0].commands, options.says_when):
+    for line in _lines(plan, outcome, given[0].rows, options.says_when):
         output.line(line)
     output.flush()
     refused = [] if options.sim else list(_refused(app, options, plan))
@@ -127,25 +126,12 @@ def _refuse_what_does_not_go_together(options: Options) -> None:
 
 
 def _lines(
-    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[LoggedCommand], starts: bool
+    plan: LoadedPlan, outcome: SimulationResult, commands: Sequence[Sequence[str]], starts: bool
 ) -> Iterator[str]:
     if starts:
         yield f"starts at {plan.hours.start}"
     yield from waiting(plan)
-    yield from table(
-        ("time", "drone", "command", "to", "at most"),
-        [
-            (
-                f"{command.time:.1f} s",
-                command.drone,
-                command.what,
-                "" if command.to is None else _place(command.to),
-                "" if command.speed is None else f"{number(command.speed)} m/s",
-            )
-            for command in commands
-        ],
-        right=(0,),
-    )
+    yield from table(("time", "drone", "command", "to", "at most"), commands, right=(0,))
     yield ""
     failed = [event for event in outcome.events if event["event"] == "trip.failed"]
     if failed:
@@ -160,18 +146,6 @@ def _place(point: Point) -> str:
     return f"({', '.join(number(round(along, 2)) for along in point)})"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LoggedCommand:
-    """One command to one drone."""
-
-    time: float
-    drone: str
-    what: str
-    to: Point | None = None
-    speed: float | None = None
-    """The maximum speed, in metres per second."""
-
-
 class CommandLog(ForwardingControls):
     """Controls that log each command and forward it to the simulated drones."""
 
@@ -181,14 +155,14 @@ class CommandLog(ForwardingControls):
         super().__init__(drones)
         self._kernel = kernel
         self._speeds, self._climb_limit = speeds, climb
-        self.commands: list[LoggedCommand] = []
+        self.rows: list[tuple[str, str, str, str, str]] = []
 
     def _note(
         self, drone: str, what: str, to: Point | None = None, speed: float | None = None
     ) -> None:
-        self.commands.append(
-            LoggedCommand(time=self._kernel.now, drone=drone, what=what, to=to, speed=speed)
-        )
+        where = "" if to is None else _place(to)
+        how_fast = "" if speed is None else f"{number(speed)} m/s"
+        self.rows.append((f"{self._kernel.now:.1f} s", drone, what, where, how_fast))
 
     def _here(self, drone: str, height: float) -> Point:
         x, y, _ = self._controls.telemetry[drone].location

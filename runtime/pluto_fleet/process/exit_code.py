@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import traceback
+from collections.abc import Callable
 from errno import ENAMETOOLONG
 
 from ..shared import output
@@ -13,41 +14,31 @@ from ..shared.domain.text import printable
 BAD_INPUT, INTERNAL, INTERRUPTED, CLOSED_PIPE = 2, 70, 130, 141
 
 
-class ExitCode:
-    """Turns the error that a command ends with, if any, into an exit code and a message."""
-
-    def __init__(self, name: str) -> None:
-        self.code = 0
-        self._name = name
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> bool:
-        name = self._name
-        match error:
-            case None:
-                return True
-            case BadInput():
-                output.tell("\n".join(map(printable, str(error).split("\n"))))
-                self.code = BAD_INPUT
-            case OSError() if error.errno == ENAMETOOLONG:
-                output.tell(f"{printable(str(error.filename))}: a name is too long")
-                self.code = BAD_INPUT
-            case output.ClosedPipe():
-                output.silence()
-                self.code = CLOSED_PIPE
-            case output.CannotWrite():
-                output.silence()
-                output.tell(f"{name}: the output cannot be written: {error}")
-                self.code = BAD_INPUT
-            case KeyboardInterrupt():
-                output.tell(f"{name}: interrupted")
-                self.code = INTERRUPTED
-            case _:  # even a SystemExit: it would pass for a proper end
-                _report_bug(name, error)
-                self.code = INTERNAL
-        return True
+def exit_code(name: str, run: Callable[[], int]) -> int:
+    """Run a command, and return its exit code; the error that it ends with, if any, becomes a message."""
+    try:
+        code = run()
+        output.flush()
+        return code
+    except BadInput as error:
+        output.tell("\n".join(map(printable, str(error).split("\n"))))
+        return BAD_INPUT
+    except output.ClosedPipe:
+        output.silence()
+        return CLOSED_PIPE
+    except output.CannotWrite as error:
+        output.silence()
+        output.tell(f"{name}: the output cannot be written: {error}")
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        output.tell(f"{name}: interrupted")
+        return INTERRUPTED
+    except BaseException as error:  # noqa: BLE001 - a SystemExit would pass for a proper end
+        if isinstance(error, OSError) and error.errno == ENAMETOOLONG:
+            output.tell(f"{printable(str(error.filename))}: a name is too long")
+            return BAD_INPUT
+        _report_bug(name, error)
+        return INTERNAL
 
 
 def _report_bug(name: str, error: BaseException) -> None:

@@ -10,7 +10,7 @@ from importlib import import_module
 def main(name: str, words: list[str]) -> int:
     """Try the app of this package, and return the exit code."""
     from ..app import described
-    from ..process.exit_code import ExitCode
+    from ..process.exit_code import exit_code
     from ..process.forked import refused
     from ..process.signal_guard import guard_hooks, interrupted_by_a_person
     from ..shared import output
@@ -22,16 +22,15 @@ def main(name: str, words: list[str]) -> int:
         command = [sys.executable, "-P", "-m", "pluto_fleet.trials", name, *words]
         return subprocess.run(command, capture_output=True, check=False).returncode
 
-    output.prepare()
-    guard_hooks()
-    ending = ExitCode(name)
-    with ending:
+    def tested() -> int:
         # a hook may raise KeyboardInterrupt or end the process, which is found then
         with interrupted_by_a_person(), refused():
             given = loaded(lambda: import_module(f"{name}.flow").APP)
-            ending.code = test(described(given), words, by_itself)
-        output.flush()
-    return ending.code
+            return test(described(given), words, by_itself)
+
+    output.prepare()
+    guard_hooks()
+    return exit_code(name, tested)
 
 
 if __name__ == "__main__":
