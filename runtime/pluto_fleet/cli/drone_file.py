@@ -52,13 +52,13 @@ def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -
         yield "[fleet]"
         yield f"navigation = {toml_value(navigation)}"
     categories = cycle(category.name for category in app.categories)
-    homes = _Homes(airspace)
+    taken: list[Corner] = []
     for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
         yield ""
         yield "[[drone]]"
         yield f'id = "cf{index}"'
         yield f"category = {toml_value(category)}{_choice(app)}"
-        yield homes.line(answer)
+        yield _home(answer, airspace, taken)
         if answer.asked.uri is not None:
             yield f"uri = {toml_value(answer.asked.uri)}"
 
@@ -68,31 +68,21 @@ def _choice(app: App) -> str:
     return f"  # one of: {', '.join(names)}" if len(names) > 1 else ""
 
 
-class _Homes:
-    """The drones' homes: their reported positions, or places in a row."""
+def _home(answer: DroneAnswer, airspace: Airspace, taken: list[Corner]) -> str:
+    """Return the line of a drone's home: its reported position, or the next free place of a row."""
 
-    def __init__(self, airspace: Airspace) -> None:
-        self._airspace = airspace
-        self._taken: list[Corner] = []
+    def is_free(spot: Corner) -> bool:
+        apart = all(dist(spot, other) >= APART for other in taken)
+        return apart and airspace.problem((*spot, 0.0)) is None
 
-    def line(self, answer: DroneAnswer) -> str:
-        """Return the line of the next drone's home."""
-        telemetry = heard(answer)
-        x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
-        said = round(x, 2) + 0.0, round(y, 2) + 0.0
-        if dist(said, (0.0, 0.0)) > _ORIGIN and self._is_free(said):
-            self._taken.append(said)
-            return f"home = {toml_value([*said])}  # where it stood"
-        free = self._next_of_row()
-        self._taken.append(free)
-        return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"
-
-    def _is_free(self, spot: Corner) -> bool:
-        if self._airspace.problem((*spot, 0.0)) is not None:
-            return False
-        return all(dist(spot, other) >= APART for other in self._taken)
-
-    def _next_of_row(self) -> Corner:
-        width, depth = self._airspace.size
-        row = ((float(x), y + 0.5) for y in range(int(depth)) for x in range(1, int(width)))
-        return next(spot for spot in row if self._is_free(spot))
+    telemetry = heard(answer)
+    x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
+    said = round(x, 2) + 0.0, round(y, 2) + 0.0
+    if dist(said, (0.0, 0.0)) > _ORIGIN and is_free(said):
+        taken.append(said)
+        return f"home = {toml_value([*said])}  # where it stood"
+    width, depth = airspace.size
+    row = ((float(x), y + 0.5) for y in range(int(depth)) for x in range(1, int(width)))
+    free = next(filter(is_free, row))
+    taken.append(free)
+    return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"

@@ -22,7 +22,7 @@ from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped
 from ..trials.case import fresh
 from .plans import LoadedPlan, load
-from .written import cannot
+from .written import cannot, written
 
 if TYPE_CHECKING:
     from ..app import App
@@ -126,58 +126,35 @@ def _tell(event: Event, progress: Progress) -> None:
 
 @contextmanager
 def trace_file(path: Path | None) -> Iterator[Callable[[Event], None]]:
-    """Give a function that writes an event; the file gets its name when it is complete."""
+    """Give a function that writes an event as a line; the file gets its name when it is complete."""
     if path is None:
         yield _forget
         return
-    trace = _Trace(path)
     try:
-        yield trace.write
-        trace.finish()
+        whole = Path(os.path.realpath(path))  # a link stays a link
+        if path.is_dir():
+            raise IsADirectoryError(0, "it is a folder")
+        part = whole.with_name(f".{whole.name}.{os.getpid()}.part")
+        # a pipe or a device cannot be replaced: it is written to directly
+        replaced = path.is_file() or not path.exists()
+        file = (part if replaced else path).open("w", encoding="utf-8")
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        raise cannot(path, "the trace", error) from None
+
+    def finish() -> None:
+        file.close()
+        if replaced:
+            part.replace(whole)
+
+    try:
+        yield lambda event: written(path, "the trace", lambda: file.write(line(event) + "\n"))
+        written(path, "the trace", finish)
     finally:
-        trace.drop()
+        with suppress(OSError):
+            file.close()
+        if replaced:
+            part.unlink(missing_ok=True)
 
 
 def _forget(event: Event) -> None:
     pass
-
-
-class _Trace:
-    """Writes a trace into a file."""
-
-    def __init__(self, path: Path) -> None:
-        self._path = path
-        try:
-            self._whole = Path(os.path.realpath(path))  # a link stays a link
-            if path.is_dir():
-                raise IsADirectoryError(0, "it is a folder")
-            # a pipe or a device cannot be replaced: write to it directly
-            replaceable = path.is_file() or not path.exists()
-            part = self._whole.with_name(f".{self._whole.name}.{os.getpid()}.part")
-            self._part = part if replaceable else None
-            self._file = (self._part or path).open("w", encoding="utf-8")
-        except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-            raise cannot(self._path, "the trace", error) from None
-
-    def write(self, event: Event) -> None:
-        """Write an event as one line."""
-        try:
-            self._file.write(line(event) + "\n")
-        except OSError as error:
-            raise cannot(self._path, "the trace", error) from None
-
-    def finish(self) -> None:
-        """Give the complete file its name."""
-        try:
-            self._file.close()
-            if self._part is not None:
-                self._part.replace(self._whole)
-        except OSError as error:
-            raise cannot(self._path, "the trace", error) from None
-
-    def drop(self) -> None:
-        """Remove an incomplete file; does nothing after `finish`."""
-        with suppress(OSError):
-            self._file.close()
-        if self._part is not None:
-            self._part.unlink(missing_ok=True)
