@@ -17,7 +17,6 @@ from plutoc.emit.markup import header, toml_text
 from plutoc.emit.merge_conflicts import sides
 from plutoc.graph.model import Graph
 from plutoc.registry import GROUP, STD
-from plutoc_runtime.alone.files import line_of_long_key
 
 NAME = "pluto.lock"
 HOOKS, FORMER = "hooks", "former_hooks"
@@ -34,6 +33,8 @@ _LINE = re.compile(
     re.ASCII,
 )
 """A line as we write it; what it is can be told without the lines before it."""
+_LONG_KEY = re.compile(r"(?:[\w-]+[ \t]*\.[ \t]*){100}")
+"""`tomllib` copies for each part of a key all before it."""
 _FORGOTTEN = re.compile(rf'\w+ = "(?:{"|".join(KINDS)})"|\[{FORMER}\]|', re.ASCII)
 _MADE_BY = re.compile(
     rb"""^[ \t]*"?plutoc"?[ \t]*[=:][ \t]*["']([^"'\r\n]{1,80})["']""", re.MULTILINE
@@ -176,7 +177,7 @@ def _newest(written: Iterable[str]) -> str | None:
 def _read(data: bytes) -> Lock:
     try:
         text = data.decode()
-        if line_of_long_key(text) is not None:
+        if _LONG_KEY.search(text):
             raise DamagedLock("one of its keys has too many parts")
         table = tomllib.loads(text)
     except UnicodeDecodeError:

@@ -18,7 +18,6 @@ from .files.fleet_text import fleet_text
 from .files.missions import load_missions
 from .files.missions_text import missions_text
 from .files.plan_check import endless, problems, wrong_fields
-from .files.reading import shortened
 from .flight.config import End, FlightResult, Stops
 from .flight.lives import FlightObserver, FlightSetup, reopen, run_flight
 from .flight.outcome import SimulationResult
@@ -34,6 +33,7 @@ from .shared.domain.errors import BadInput
 from .shared.domain.model import Item, Mission, Point, Trip
 from .shared.domain.status import Status, TripStatus
 from .shared.domain.trace import Event
+from .shared.domain.values import shortened
 from .shared.hooks.loading import loaded
 
 __all__ = [

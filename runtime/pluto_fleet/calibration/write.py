@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from ..files.fleet import read_motion
-from ..files.reading import Table, parsed
+from ..files.reading import PlanTable, parsed
+from ..shared.alone.files import read_motion
 from ..shared.domain.errors import BadInput
 from .report import in_file
 
@@ -54,7 +54,7 @@ def _changed(path: Path, text: str, values: dict[str, str]) -> tuple[dict[str, o
     if text.count("\n") == text.count("\r\n") > 0:  # new lines end as all others do
         after = after.replace("\r\n", "\n").replace("\n", "\r\n")
     read = parsed(f"{path}, with what was found", after)
-    read_motion(Table(read, read.data))
+    read_motion(PlanTable(read, read.data))
     read.refuse_if_bad()
     return changed, after
 

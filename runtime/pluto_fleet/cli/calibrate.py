@@ -10,10 +10,10 @@ from ..calibration.commands import read_all
 from ..calibration.fit import calibrated
 from ..calibration.report import as_data, report
 from ..calibration.write import write
-from ..files.fleet import read_motion
-from ..files.reading import Table, parsed, text_of
+from ..files.reading import PlanTable, parsed, text_of
 from ..process.exit_code import BAD_INPUT
 from ..shared import output
+from ..shared.alone.files import read_motion
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CRAZYFLIE
 from .options import Options, reader_of
@@ -85,6 +85,6 @@ def _agree(given: Motion, target: Motion, options: Options) -> None:
 
 def _motion(called: str, text: str) -> Motion:
     document = parsed(called, text)
-    motion = read_motion(Table(document, document.data))
+    motion = read_motion(PlanTable(document, document.data))
     document.refuse_if_bad()
     return motion

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
 from ..files.drones import which
-from ..files.errors import near
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
+from ..files.reading import near
 from ..journal.place import folder_of
 from ..report.terminal import table
 from ..shared import output

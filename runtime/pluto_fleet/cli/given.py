@@ -7,8 +7,7 @@ from collections.abc import Iterator, Mapping
 from datetime import time
 from pathlib import Path
 
-from ..files.errors import listed
-from ..files.reading import read
+from ..files.reading import listed, read
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 

@@ -15,11 +15,12 @@ from ..files.missions_text import missions_text
 from ..files.plan_check import endless, look_alikes, problems, uncharged
 from ..files.plan_waits import waits
 from ..files.promise_check import impossible
-from ..files.reading import parsed, read, shortened, text_of
+from ..files.reading import parsed, read, text_of
 from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, printable
+from ..shared.domain.values import shortened
 from ..shared.fleet.reach import idle_actions, reckoned
 from ..shared.time.hours import Hours, beginning
 from .written import refuse_if_there, write_new

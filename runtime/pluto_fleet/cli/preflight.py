@@ -11,12 +11,11 @@ from ..drones import plugins
 from ..drones.loading import canonical_uri, hears, load_localization, load_navigation
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
-from ..files import errors
 from ..files.drones import which
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, shared_by_air
-from ..files.reading import shortened
 from ..shared import output
 from ..shared.domain.errors import BadInput
+from ..shared.domain.values import shortened
 
 if TYPE_CHECKING:
     from ..app import App
@@ -89,7 +88,7 @@ def _check_alone(fleet: FleetFile, drone: DroneEntry, reached: dict[str, str]) -
         return
     other = reached.setdefault(which(uri), drone.id)
     if other != drone.id:
-        raise BadInput(f"{drone.id}: {errors.shared_uri(other, None)}")
+        raise BadInput(f"{drone.id}: uri is that of {other}: it would be one and the same drone")
 
 
 def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from math import isfinite, sqrt
 from typing import TYPE_CHECKING
 
-from ..files.errors import near
+from ..files.reading import near
 from ..shared.domain.text import number, quoted
 
 if TYPE_CHECKING:

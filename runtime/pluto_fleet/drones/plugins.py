@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import Enum
 
-from ..files.errors import near
+from ..files.reading import near
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 

@@ -6,22 +6,23 @@ from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
 from math import dist
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..extras import has
+from ..shared.alone.files import read_fields
 from ..shared.domain import values
+from ..shared.domain.actions import PICK, RELEASE
+from ..shared.domain.fields import Entity
 from ..shared.domain.quantities import Type
-from ..shared.domain.text import quoted
-from . import errors
-from .reading import MadeOfArea
+from ..shared.domain.text import number, quoted
+from ..shared.domain.values import Table, read_parameters
+from .reading import Document, MadeOfArea, PlanTable, no_such_name
 
 if TYPE_CHECKING:
-    from ..shared.domain.airspace import Airspace, Corner, Polygon
-    from ..shared.domain.model import Point
-    from .reading import Document, Table
-
-BASIC = ("name", "polygon", "action", "spacing", "height", "parameters")
-"""The keys of an area, beside a trip's fields."""
+    from ..app import App
+    from ..shared.domain.airspace import Airspace, Polygon
+    from ..shared.domain.model import Point, Trip
+    from ..shared.domain.values import Keys
 
 SPACING = values.Quantity(Type.LENGTH, 0.05, 10_000.0)
 """The side of the square around each place."""
@@ -31,32 +32,62 @@ MOST_AREAS = 10_000
 """The most trips that the areas of one file make, and the most areas of one file."""
 
 
-def named(table: Table, number: int, names: dict[str, Table]) -> str:
-    """Return what an area's trips are called, before their numbers."""
-    mission, known = table.who, table.valid_name("name")
-    table.who = f"{mission}, area {number if known is None else quoted(known)}"
-    name = table.read("name", values.name)
-    if name is None:
-        return f"area {number}."
-    table.differs("area", "name", name, names)
-    return f"{name} "
+def trips_of_areas(
+    mission: PlanTable, before: Sequence[Trip], app: App, airspace: Airspace
+) -> list[Trip]:
+    """Return the trips that the areas of a mission make, behind those before."""
+    found, areas = list[Any](), dict[str, Table]()
+    paths = {trip.name: (*mission.path, "trip", trip.index) for trip in before}
+    needed: Keys = {"polygon": None, "action": partial(values.one_of, app.actions), "spacing": None}
+    others: Keys = {"name": values.name, "height": None, "parameters": None}
+    for place, table in enumerate(mission.tables("area"), 1):
+        given = read_fields(table, app, Entity.TRIP, needed, others)
+        name = given.pop("name", None)
+        table.differs("name", name, "area", areas)
+        prefix = f"area {place}." if name is None else f"{name} "
+        if given["action"] in (PICK, RELEASE):
+            said = f"{given['action']} takes an item, and an area has none: write [[mission.trip]]"
+            table.problem(said, "action")
+        action = app.actions.get(given["action"])
+        parameters = read_parameters(table.table("parameters"), action) if action else {}
+        flown = [*before, *found]
+        places = read_places(table, airspace, flown[-1].target if flown else None)
+        made = [
+            app.trip(
+                **{**given, "parameters": {**parameters}},
+                name=f"{prefix}{count}",
+                target=target,
+                index=len(flown) + count - 1,
+            )
+            for count, target in enumerate(places, 1)
+        ]
+        same = next((trip.name for trip in made if trip.name in paths), None)
+        if same is not None:
+            line = table.document.line((*paths[same], "name"))
+            where = f", in line {line}" if line else ""
+            said = f"makes a trip {quoted(same)}, and there is another{where}: rename that, or the area"
+            table.problem(said)
+        paths.update((trip.name, table.path) for trip in made)
+        found += made
+    return found
 
 
-def read_places(table: Table, airspace: Airspace, before: Point | None) -> Sequence[Point]:
+def read_places(table: PlanTable, airspace: Airspace, before: Point | None) -> Sequence[Point]:
     """Return the places of an area in the order in which they are flown to, and note what it has become.
 
     `before`: the last place of the mission before it.
     """
-    corners = table.read("polygon", partial(_corners, table.document), required=True)
-    spacing = table.read("spacing", SPACING, required=True)
-    height = table.read("height", values.HEIGHT)
+    document = table.document
+    corners = table.value("polygon", partial(_corners, document))
+    spacing = table.value("spacing", SPACING)
+    height = table.value("height", values.HEIGHT)
     z = airspace.cruise_height if height is None else height
     if z > airspace.ceiling:
-        table.problem(errors.area_too_high(z, airspace.ceiling), "height")
+        said = f"height, {number(z)} m, is above the ceiling, {number(airspace.ceiling)} m"
+        table.problem(said, "height")
     if not has("areas"):
-        table.problem(errors.no_shapely())
+        table.problem(_NO_SHAPELY)
         return ()
-    document = table.document
     if corners is None or document.swept > MOST_IN_ALL:  # of what is too much, one has told
         return ()
     from . import sweep as geometry  # shapely takes long to import
@@ -70,24 +101,22 @@ def read_places(table: Table, airspace: Airspace, before: Point | None) -> Seque
         found = geometry.sweep(corners, spacing, airspace, before and before[:2])
     except geometry.TooManyPlaces:
         document.swept += geometry.MOST
-        table.problem(errors.too_many_places(spacing, geometry.MOST), "spacing")
+        said = f"makes more than {geometry.MOST:,} trips of this area: widen it"
+        table.problem(f"spacing {number(spacing)} m {said}", "spacing")
         return ()
     if not found.places:
-        table.problem(errors.nothing_permitted(), "polygon")
+        said = "covers nothing that may be flown over: it lies in no-fly areas, or off the map"
+        table.problem(f"polygon {said}", "polygon")
     document.swept += max(len(found.places), MOST_IN_ALL // MOST_AREAS)
     if document.swept > MOST_IN_ALL:
-        table.problem(errors.too_many_in_all(MOST_IN_ALL, MOST_AREAS), "spacing")
+        said = f"makes more than {MOST_IN_ALL:,} trips, or has more than {MOST_AREAS:,} areas"
+        table.problem(f"with this area the file {said}: widen the spacing", "spacing")
         return ()
     places = [(x, y, z) for x, y in found.places]
+    metres = sum(_metres(airspace, a, b) for a, b in pairwise(places))
+    made = MadeOfArea(who=table.who, trips=len(places), metres=metres, forbidden=found.forbidden)
+    document.areas.append(made)
     document.is_made = True
-    document.areas.append(
-        MadeOfArea(
-            who=table.who,
-            trips=len(places),
-            metres=sum(_metres(airspace, a, b) for a, b in pairwise(places)),
-            forbidden=found.forbidden,
-        )
-    )
     return places
 
 
@@ -99,17 +128,15 @@ def _metres(airspace: Airspace, start: Point, end: Point) -> float:
 
 def _corners(document: Document, value: object) -> Polygon:
     """Read the corners of an area, or the name of a zone of the map that has some."""
-    zones = {} if document.landmarks is None else document.landmarks.zone
-    if isinstance(value, str) and zones:
-        if value not in zones:
-            raise ValueError(errors.no_such_name("zone", value, zones))
-        return zones[value]
-    if not isinstance(value, list) or len(value) < 3:
-        raise ValueError("is not a list of at least three corners [x, y]")
-    corners: list[Corner] = []
-    for place, element in enumerate(value, 1):
-        try:
-            corners.append(values.corner(element))
-        except ValueError as error:
-            raise ValueError(f"has a corner {place} that {error}") from None
-    return tuple(corners)
+    zones = document.landmarks.zone
+    if not isinstance(value, str) or not zones:
+        return values.each(values.corner, "corner", (), value)
+    if value not in zones:
+        raise ValueError(no_such_name("zone", value, zones))
+    return zones[value]
+
+
+_NO_SHAPELY = (
+    "an area needs shapely, the extra `areas` of pluto-fleet:"
+    ' pip install "pluto-fleet[areas]", or "shapely>=2"'
+)

@@ -8,15 +8,15 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING
 
+from ..shared.alone.files import read_drones
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fleet_data import DroneData
 from ..shared.domain.text import quoted
-from ..shared.domain.values import Cells, crowded
-from . import errors
+from ..shared.domain.values import Table
 from .addresses import address_of
-from .options import Options, options_under
-from .reading import Document, Table, shortened
+from .options import Options, options_in
+from .reading import Document, PlanTable
 
 if TYPE_CHECKING:
     from ..app import App
@@ -41,21 +41,24 @@ class DroneEntry(DroneData):
     line: int | None = None
 
 
-def read_drones(
-    top: Table, app: App, airspace: Airspace | None, flown_by: str
+def drones_of(
+    top: PlanTable, app: App, airspace: Airspace | None, flown_by: str
 ) -> tuple[DroneEntry, ...]:
-    """Return the drones whose entries are valid; `flown_by`: the fleet's navigation."""
-    drones: list[DroneEntry] = []
-    ids: dict[str, Table] = {}
-    uris: dict[str, Table] = {}
-    homes = Cells()
-    for index, table in enumerate(top.tables("drone", "drone")):
-        drone = _drone(table, index, app, airspace, flown_by, ids, homes)
+    """Return the drones of a fleet; `flown_by`: how it is flown, where a drone says nothing of that."""
+    drones, uris = list[DroneEntry](), dict[str, Table]()
+    for table, given in read_drones(top, app, airspace):
+        navigation = table.value("navigation", values.name)
+        uri = table.value("uri", partial(_uri, navigation or flown_by))
         _answers_alone(table, uris)
-        if drone is not None:
-            drones.append(drone)
-    if top.data.get("drone", []) == []:
-        top.problem(errors.none_given("drone"))
+        drone = DroneEntry(
+            **given,
+            uri=uri,
+            navigation=navigation,
+            options=options_in(table.table("options")),
+            parameters=table.value("parameters", _parameters) or {},
+            line=table.document.line(table.path),
+        )
+        drones.append(drone)
     return tuple(drones)
 
 
@@ -67,82 +70,22 @@ def joining_drone(
     data: Mapping[str, object],
 ) -> DroneEntry:
     """Read a drone that joins these, given as in a fleet file; raise `BadInput` with all that is wrong."""
-    document = Document("", {"drone": [{**data}]})
-    table = Table(document, data, ("drone", 0))
-    homes, ids, uris = Cells(), dict[str, Table](), dict[str, Table]()
-    for one in drones:
-        other = Table(document, {}, who=f"drone {quoted(one.id)}")
-        crowded(one.home, one.id, homes)
-        ids[one.id] = other
-        if one.uri is not None:
-            uris[which(one.uri)] = other
-    drone = _drone(table, len(drones), app, airspace, flown_by, ids, homes)
-    _answers_alone(table, uris)
-    if document.problems or drone is None:
-        raise BadInput(shortened([one.sentence for one in document.problems]))
+    others = [_known(one) for one in drones]
+    document = Document("", {"drone": [*others, {**data}]})
+    *_, drone = drones_of(PlanTable(document, document.data), app, airspace, flown_by)
+    document.refuse_if_bad()
     if drone.home[2] != 0.0:  # what is known of ways from the docks on the ground would not hold
-        raise BadInput(f"{table.who}: a drone that joins has its dock on the ground: home = [x, y]")
+        raise BadInput(
+            f"drone {quoted(drone.id)}: a drone that joins has its dock on the ground: home = [x, y]"
+        )
     return drone
 
 
-def named_navigations(top: Table, of_fleet: str) -> list[str]:
-    """Return the navigations of all drones, also of entries with other mistakes."""
-    tables = top.data.get("drone")
-    entries = tables if isinstance(tables, list) else []
-    own = [entry.get("navigation") for entry in entries if isinstance(entry, dict)]
-    return list(dict.fromkeys([of_fleet, *(name for name in own if isinstance(name, str))]))
-
-
-def _drone(
-    table: Table,
-    index: int,
-    app: App,
-    airspace: Airspace | None,
-    flown_by: str,
-    ids: dict[str, Table],
-    homes: Cells,
-) -> DroneEntry | None:
-    known = table.valid_name("id")
-    table.who = f"drone {index + 1 if known is None else quoted(known)}"
-    table.only(("id", "category", "home", "uri", "navigation", "options", "parameters"), "a drone")
-    name = table.read("id", values.name, required=True)
-    if name is not None:
-        table.differs("drone", "id", name, ids)
-    category = _category(table, app)
-    home = table.position("home", airspace, 0.0, required=True)
-    navigation = table.read("navigation", values.name)
-    uri = table.read("uri", partial(_uri, navigation or flown_by))
-    options = options_under(table, "options", "drone.options")
-    parameters = table.read("parameters", _parameters)
-    crowd = None if home is None else crowded(home, name or f"{index + 1}", homes)
-    if crowd is not None:
-        table.problem(crowd, "home")
-    if name is None or category is None or home is None:
-        return None
-    return DroneEntry(
-        id=name,
-        category=category,
-        home=home,
-        uri=uri,
-        navigation=navigation,
-        options=options,
-        parameters=parameters or {},
-        line=table.line(),
-    )
-
-
-def _category(table: Table, app: App) -> str | None:
-    names = [category.name for category in app.categories]
-    if "category" not in table.data:
-        if len(names) == 1:  # the only category is the default
-            return names[0]
-        table.problem(errors.category_missing(names))
-        return None
-    name = table.read("category", values.text)
-    if name is not None and name not in names:
-        table.problem(errors.unknown_name("category", name, names, "this app has"), "category")
-        return None
-    return name
+def _known(drone: DroneEntry) -> dict[str, object]:
+    """Return a drone as a fleet file has it, by what no other one may have."""
+    table = {"id": drone.id, "category": drone.category, "home": [*drone.home]}
+    own = {"uri": drone.uri, "navigation": drone.navigation}
+    return {**table, **{key: value for key, value in own.items() if value is not None}}
 
 
 def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
@@ -150,7 +93,8 @@ def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
     if isinstance(uri, str):
         other = uris.setdefault(which(uri), table)
         if other is not table:
-            table.problem(errors.shared_uri(other.who, other.line("uri")), "uri")
+            said = f"uri is that of {other.who}{other.where('uri')}: it would be one and the same drone"
+            table.problem(said, "uri")
 
 
 def _parameters(value: object) -> Mapping[str, float]:

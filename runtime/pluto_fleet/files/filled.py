@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from .toml import TomlPath
+    from ..shared.domain.values import KeyPath
 
 _PART = re.compile(r"\{\{|\}\}|\{([^{}]*)\}|[{}]")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
@@ -25,7 +25,7 @@ class Filled(str):
     """The columns whose values are in it."""
 
 
-def columns_of(template: object) -> Iterator[tuple[TomlPath, str | None]]:
+def columns_of(template: object) -> Iterator[tuple[KeyPath, str | None]]:
     """Yield the columns that a template names, each with the path of its text; None: a brace alone."""
     if isinstance(template, str):
         for part in _PART.finditer(template):

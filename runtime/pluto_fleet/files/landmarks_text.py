@@ -16,11 +16,11 @@ from .landmarks import Picture
 from .toml import headers, places, toml_value
 
 if TYPE_CHECKING:
+    from ..shared.domain.values import KeyPath
     from .landmarks import Landmarks
-    from .toml import TomlPath
 
-_MAP: TomlPath = ("map",)
-_IMAGE: TomlPath = ("map", "image")
+_MAP: KeyPath = ("map",)
+_IMAGE: KeyPath = ("map", "image")
 
 Table = dict[str, Any]
 Size = tuple[float, float]
@@ -51,7 +51,7 @@ def with_landmarks(text: str, was: Landmarks, landmarks: Landmarks, size: Size) 
 class _Part:
     """A header with its values, and what stands between them and the next."""
 
-    path: TomlPath
+    path: KeyPath
     lines: list[str]
     rest: list[str]
 
@@ -161,21 +161,21 @@ def _parts(text: str) -> list[_Part]:
     """Cut a text at its headers; the first part has none."""
     lines, found = text.split("\n"), headers(text)
     starts = [0, *(line - 1 for line, _ in found)]
-    paths: list[TomlPath] = [(), *(path for _, path in found)]
+    paths: list[KeyPath] = [(), *(path for _, path in found)]
     return [
         _part(path, lines[start:end])
         for path, start, end in zip(paths, starts, [*starts[1:], len(lines)], strict=True)
     ]
 
 
-def _part(path: TomlPath, lines: Sequence[str]) -> _Part:
+def _part(path: KeyPath, lines: Sequence[str]) -> _Part:
     end = len(lines)
     while end and (not lines[end - 1].strip() or lines[end - 1].lstrip().startswith("#")):
         end -= 1
     return _Part(path, [*lines[:end]], [*lines[end:]])
 
 
-def _under(document: Any, path: TomlPath) -> Any:
+def _under(document: Any, path: KeyPath) -> Any:
     """Return the table of a path in a text that has just this one."""
     for step in path:
         document = document[0 if isinstance(step, int) else step]

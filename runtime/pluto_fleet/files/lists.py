@@ -6,19 +6,29 @@ import codecs
 import csv
 import re
 from collections.abc import Iterator, Mapping, Sequence
+from functools import partial
 from io import StringIO
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import quoted
-from . import errors
-from .filled import columns_of, filled, weight_of
-from .reading import MOST_SHOWN, Table, text_of
+from ..shared.domain.text import counted, quoted
+from ..shared.domain.values import MOST_TOLD
+from .filled import (
+    Filled,
+    as_numbers,
+    as_texts,
+    cells_in,
+    columns_of,
+    filled,
+    is_number,
+    weight_of,
+)
+from .reading import PlanTable, listed, near, text_of
 
 if TYPE_CHECKING:
-    from .toml import TomlPath
+    from ..shared.domain.values import KeyPath, Read
 
 MOST_ROWS = 10_000
 MOST_COLUMNS = 1_000
@@ -61,13 +71,13 @@ class _Made:
         """Count the text of a list."""
         self.read += len(text)
         if self.read > MOST_READ:
-            raise _TooMuch(errors.too_much("is too long", MOST_READ, "characters"))
+            raise _TooMuch(_too_much("is too long", MOST_READ, "characters"))
 
     def count_row(self) -> None:
         """Count a row of a list."""
         self.rows += 1
         if self.rows > MOST_ROWS:
-            raise _TooMuch(errors.too_much("has too many rows", MOST_ROWS, "missions"))
+            raise _TooMuch(_too_much("has too many rows", MOST_ROWS, "missions"))
 
     def count(self, template: object, rows: Sequence[Row]) -> None:
         """Count what becomes of a template with these rows."""
@@ -77,20 +87,66 @@ class _Made:
         for column, times in weight.columns.items():
             self.characters += times * sum(len(row[column]) for _, row in rows)
         if self.parts > MOST_PARTS:
-            raise _TooMuch(errors.too_much("makes too much", MOST_PARTS, "values"))
+            raise _TooMuch(_too_much("makes too much", MOST_PARTS, "values"))
         if self.characters > MOST_CHARACTERS:
-            raise _TooMuch(errors.too_much("makes too much", MOST_CHARACTERS, "characters"))
+            raise _TooMuch(_too_much("makes too much", MOST_CHARACTERS, "characters"))
 
 
-def each_row(top: Table) -> Iterator[Table]:
+class RowTable(PlanTable):
+    """A table that was made of a row of a list; what does not depend on the row is told once."""
+
+    row: str
+    """Such as `beds.csv, row 3`."""
+
+    def problem(self, text: str, *inside: str | int, is_missing: bool = False) -> None:
+        """Note a problem, with the columns whose values are in it."""
+        value: Any = self.data
+        for part in inside:
+            value = value.get(part) if isinstance(value, dict) else None
+        cells = [] if text.startswith("unknown key") else cells_in(value)
+        path = (*self.path, *inside)
+        if not cells and any(one.path == path and one.text == text for one in self.problems):
+            return
+        super().problem(f"{text}{_of_cells(cells)}", *inside, is_missing=is_missing)
+
+    def value(self, key: str, read: Read) -> Any:
+        """Return what stands under a key, where the values of a row may be numbers, too."""
+        return super().value(key, partial(_as_wanted, read))
+
+    def where(self, key: str) -> str:
+        """Say of which row it is, as a message continues."""
+        return f", of {self.row}"
+
+
+def _as_wanted(read: Read, value: object) -> object:
+    try:
+        return read(as_texts(value))
+    except ValueError:
+        return read(as_numbers(value))
+
+
+def _of_cells(cells: Sequence[Filled]) -> str:
+    """Say whose values stand in a text; only those that are no numbers, if any are not."""
+    odd = [cell for cell in cells if not is_number(cell)] or cells
+    columns = [*dict.fromkeys(column for cell in odd for column in cell.columns)]
+    if not columns:
+        return ""
+    said = f"column{'s' if len(columns) > 1 else ''} {' and '.join(map(quoted, columns))}"
+    if len(odd) == 1 < len(cells):
+        said += f": {quoted(odd[0])}"
+    for cell in odd:
+        if "," in cell and is_number(cell.replace(",", ".", 1)):
+            return f" ({said}; a number has a point: {cell.replace(',', '.')})"
+    return f" ({said})"
+
+
+def each_row(top: PlanTable) -> Iterator[PlanTable]:
     """Yield the missions' tables; of one with `each` a table for each row of its list."""
     made: _Made | None = _Made()
-    for index, table in enumerate(top.tables("mission", "mission")):
+    for table in top.tables("mission", needed=True):
         if "each" not in table.data:
             yield table
         elif made is not None:
-            known = table.valid_name("name")
-            table.who = f"mission {index + 1 if known is None else quoted(known)}"
             try:
                 yield from _of_rows(table, made)
             except _TooMuch as wrong:
@@ -98,33 +154,43 @@ def each_row(top: Table) -> Iterator[Table]:
                 made = None  # of no further list anything is read
 
 
-def _of_rows(table: Table, made: _Made) -> Iterator[Table]:
+def _of_rows(table: PlanTable, made: _Made) -> Iterator[PlanTable]:
+    document = table.document
     template = {key: value for key, value in table.data.items() if key != "each"}
-    table.document.is_made = True
-    list_ = table.read("each", _beside)
+    document.is_made = True
+    list_ = table.value("each", _beside)
     if list_ is None:
         return
-    if table.document.folder is None:
-        table.problem(errors.no_folder(list_), "each")
+    if document.folder is None:
+        said = (
+            f"each {quoted(list_)} lies beside a missions file, and this one is in no folder:"
+            " start with that file, --missions M.toml"
+        )
+        table.problem(said, "each")
         return
     try:
-        rows, odd = _rows(table.document.folder / list_, made)
+        rows, odd = _rows(document.folder / list_, made)
     except _TooMuch:
         raise
     except _Unusable as wrong:
-        odd, rows = [f"{wrong}"], []
+        rows, odd = [], [f"{wrong}"]
     for wrong_row in odd:
         table.problem(f"each {quoted(list_)} {wrong_row}", "each")
-    if not rows or odd:
+    if not rows or odd or not _are_known(table, template, [*rows[0][1]]):
         return
-    if _are_known(table, template, [*rows[0][1]]):
-        if len(rows) > 1 and "name" in template and not [*columns_of(template["name"])]:
-            table.problem(errors.same_for_all(template["name"], [*rows[0][1]]), "name")
-            return
-        made.count(template, rows)
-        for number, row in rows:
-            data = {key: filled(value, row) for key, value in template.items()}
-            yield Table(table.document, data, table.place, row=f"{list_}, row {number}")
+    if len(rows) > 1 and "name" in template and not [*columns_of(template["name"])]:
+        such = quoted(f"{template['name']} {{{next(iter(rows[0][1]))}}}")
+        said = "name is the same for every row, and names must differ: put a column into it"
+        table.problem(f"{said}, such as {such}", "name")
+        return
+    made.count(template, rows)
+    for number, row in rows:
+        data: Any = {key: filled(value, row) for key, value in template.items()}
+        known = quoted(data["name"]) if values.is_name(data.get("name")) else number
+        of_row = RowTable(document, data, table.path)
+        of_row.row = f"{list_}, row {number}"
+        of_row.who = f"mission {known} ({of_row.row})"
+        yield of_row
 
 
 def _beside(value: object) -> str:
@@ -138,20 +204,24 @@ def _beside(value: object) -> str:
     return name
 
 
-def _are_known(table: Table, template: Mapping[str, object], columns: Sequence[str]) -> bool:
+def _are_known(table: PlanTable, template: Mapping[str, object], columns: Sequence[str]) -> bool:
     """Return whether a list has all columns that a template names; what it has not is reported."""
     before = len(table.document.problems)
     for path, column in columns_of(dict(template)):
-        if len(table.document.problems) > before + MOST_SHOWN:
+        if len(table.document.problems) > before + MOST_TOLD:
             break
         if column is None:
-            table.problem(errors.brace_alone(_key(path)), *path)
+            said = "has a brace that is not one of a pair: a brace itself is written {{ or }}"
+            table.problem(f"{_key(path)} {said}", *path)
         elif column not in columns:
-            table.problem(errors.unknown_column(_key(path), column, columns), *path)
+            there_is = near(column, columns) or f"; the list has: {listed(columns)}"
+            brace = "" if "{" in column else "; a brace itself is written {{"
+            said = f"has an unknown column {quoted(column)}{there_is}{brace}"
+            table.problem(f"{_key(path)} {said}", *path)
     return len(table.document.problems) == before
 
 
-def _key(path: TomlPath) -> str:
+def _key(path: KeyPath) -> str:
     return next((str(part) for part in reversed(path) if isinstance(part, str)), "")
 
 
@@ -187,10 +257,13 @@ def _rows(path: Path, made: _Made) -> tuple[list[Row], list[str]]:
             if len(columns) < len(stripped) <= width:
                 raise _Unusable(_nameless(len(columns) + 1))
             if len(stripped) != len(columns):
-                odd.append(errors.other_width(number, len(stripped), len(columns)))
+                odd.append(
+                    f"has {counted(len(stripped), 'value')} in row {number}, and its first line"
+                    f" names {len(columns)}"
+                )
             rows.append((number, dict(zip(columns, stripped, strict=False))))
             if len(rows) > MOST_ROWS:
-                raise _TooMuch(errors.too_many_rows(MOST_ROWS))
+                raise _TooMuch(f"has more than {MOST_ROWS:,} rows")
             made.count_row()
     except csv.Error as error:
         said = _SAID.get(str(error), str(error))
@@ -230,7 +303,7 @@ def _delimiter(text: str) -> str:
 
 def _columns(names: Sequence[str]) -> list[str]:
     if len(names) > MOST_COLUMNS:
-        raise _Unusable(errors.too_many_columns(MOST_COLUMNS))
+        raise _Unusable(f"has more than {MOST_COLUMNS:,} columns")
     for place, name in enumerate(names, 1):
         if not name:
             raise _Unusable(_nameless(place))
@@ -247,6 +320,10 @@ def _columns(names: Sequence[str]) -> list[str]:
     if all(_is_number(name) for name in names):
         raise _Unusable("has no line that names its columns: its first line holds numbers")
     return [*names]
+
+
+def _too_much(what: str, most: int, of: str) -> str:
+    return f"{what}: all lists of a file make at most {most:,} {of}"
 
 
 def _nameless(place: int) -> str:

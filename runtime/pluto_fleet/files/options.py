@@ -6,10 +6,11 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from . import errors
+from ..shared.domain.text import quoted
+from .reading import listed, near
 
 if TYPE_CHECKING:
-    from .reading import Table
+    from ..shared.domain.values import Table
 
 Options = Mapping[str, object]
 """Texts, numbers, booleans, and lists and tables of these."""
@@ -20,35 +21,20 @@ DEEPEST = 8
 _LARGEST_WHOLE = 2**63
 
 
-def options_under(around: Table, key: str, header: str = "") -> Options:
-    """Return the options under a key; empty if there are none."""
-    table = around.table(key, header)
-    return {} if table is None else options_in(table)
-
-
 def options_in(table: Table) -> Options:
-    """Return a table's options; values that JSON cannot hold are reported."""
-    found: dict[str, object] = {}
-    for key in table.data:
-        value = table.read(key, plain)
-        if value is not None:
-            found[key] = value
-    return found
+    """Return a table's options; what JSON cannot hold is noted."""
+    return table.read({}, dict.fromkeys(table.data, plain))
 
 
 def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]:
-    """Return the tables `[navigation.NAME]` by name; one that no drone uses is reported."""
+    """Return the tables `[navigation.NAME]` by name; one that no drone uses is noted."""
     every = top.table("navigation")
-    if every is None:
-        return {}
-    found: dict[str, Options] = {}
     for name in every.data:
-        every.who = f"[navigation.{name}]"
         if name not in used:
-            every.problem(errors.navigation_unused(name, used), name)
-        else:
-            found[name] = options_under(every, name, f"navigation.{name}")
-    return found
+            every.who = f"[navigation.{name}]"
+            hint = near(name, used) or f"; in this fleet there is: {listed(used)}"
+            every.problem(f"nothing is flown by a navigation {quoted(name)}{hint}", name)
+    return {name: options_in(every.table(name)) for name in every.data if name in used}
 
 
 def plain(value: object, depth: int = 1) -> object:
@@ -70,18 +56,15 @@ def plain(value: object, depth: int = 1) -> object:
             return [_inner(element, depth) for element in value]
         case dict():
             return {key: _inner(element, depth) for key, element in value.items()}
-        case _:
-            raise ValueError("is a date or a time: put it in quotes")
+    raise ValueError("is a date or a time: put it in quotes")
 
 
 def _inner(value: object, depth: int) -> object:
     try:
         return plain(value, depth + 1)
     except ValueError as wrong:
-        words = str(wrong)
-        if words.startswith(_HAS) or words.endswith("too deep"):
-            raise
-        raise ValueError(f"{_HAS}{words}") from None
+        said = f"{wrong}".removeprefix(_HAS)
+        raise ValueError(said if said.endswith("too deep") else f"{_HAS}{said}") from None
 
 
 _HAS = "has an element that "

@@ -18,7 +18,7 @@ MOST_CORNERS = 200
 
 def outline(value: object) -> Polygon:
     """Read the corners of a polygon that does not cross itself."""
-    corners = tidy(values.area(value))
+    corners = tidy(values.polygon(value))
     if len(corners) > MOST_CORNERS:
         raise ValueError(f"has more than {MOST_CORNERS} corners")
     if (spot := crossing(corners)) is not None:

@@ -11,13 +11,11 @@ from ..shared.domain.fields import time_of_day
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import quoted
 from ..shared.domain.values import LARGEST, Quantity
-from . import errors
+from .reading import near
 
 if TYPE_CHECKING:
-    from ..app import App
     from ..shared.domain.model import Mission
-    from ..shared.domain.values import Read
-    from .reading import Table
+    from ..shared.domain.values import Read, Table
 
 _FROM_START = Quantity(Type.TIME, 0.0, LARGEST)
 
@@ -75,13 +73,9 @@ def promised(given: dict[str, Any]) -> Mapping[str, Any]:
     return {name: value for name, value in found.items() if value not in (None, [])}
 
 
-def read_promises(table: Table, app: App) -> Mapping[str, Any]:
-    """Return what is promised of a mission, and report what is wrong with it."""
-    given: dict[str, Any] = {}
-    for key, convert in KEYS.items():
-        value = table.read(key, convert)
-        if value is not None:
-            given[key] = value
+def read_promises(table: Table) -> Mapping[str, Any]:
+    """Return what is promised of a mission, and note what is wrong with it."""
+    given = {key: table.value(key, read) for key, read in KEYS.items()}
     try:
         return promised(given)
     except ValueError as error:
@@ -102,7 +96,7 @@ def misplaced(
         for one in earlier:
             if one not in places and one not in known:
                 said = f"comes after {quoted(one)}, and there is no such mission"
-                yield places[name], said + errors.near(one, places)
+                yield places[name], said + near(one, places)
     try:
         TopologicalSorter(after).prepare()
     except CycleError as error:

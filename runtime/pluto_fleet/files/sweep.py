@@ -50,10 +50,9 @@ class Sweep:
 
 def problem_of(corners: Sequence[Corner]) -> str | None:
     """Return what is wrong with an outline, or None."""
-    shape = Polygon(corners)
-    if shape.convex_hull.area <= _TINY:
-        return "covers no ground: its corners lie on one line"
-    found = shapely.is_valid_reason(shape)
+    if len(corners) < 3 or Polygon(corners).convex_hull.area <= _TINY:
+        return "covers no ground: an area has three corners [x, y], not on one line"
+    found = shapely.is_valid_reason(Polygon(corners))
     if found == _VALID:
         return None
     x, y = map(float, found.rpartition("[")[2].rstrip("]").split())

@@ -1,7 +1,6 @@
 """Writing TOML, and the lines of tables, keys and elements, which `tomllib` does not give.
 
-A path is made of keys and positions: `("mission", 0, "trip", 1, "action")`. The text has been
-accepted by `tomllib`, so nothing is checked here.
+The text has been accepted by `tomllib`, so nothing is checked here.
 """
 
 from __future__ import annotations
@@ -12,8 +11,9 @@ from bisect import bisect_right
 from collections.abc import Mapping
 from contextlib import suppress
 
-TomlPath = tuple[str | int, ...]
-TomlLines = Mapping[TomlPath, int]
+from ..shared.domain.values import KeyPath
+
+TomlLines = Mapping[KeyPath, int]
 """The line, from 1, of every table, key and element."""
 
 _BETWEEN = re.compile(r"(?:[ \t\n]|#[^\n]*)*")
@@ -25,6 +25,11 @@ _STRING = re.compile(
     r"|'[^'\n]*'",
     re.DOTALL,
 )
+MOST = 100
+"""Parts of one key: a plan's have two."""
+_PART = r"""(?:[A-Za-z0-9_-]++|"(?:[^"\\\n]|\\.)*+"|'[^'\n]*+')"""
+_NEXT = rf"(?:[ \t]*\.[ \t]*{_PART})"
+_LONG_KEY = re.compile(rf"{_PART}({_NEXT}{{{MOST}}})?{_NEXT}*+")
 _BARE = re.compile(r"[^,\]}\n#]+")
 
 
@@ -38,14 +43,14 @@ def places(text: str) -> TomlLines:
     return scanner.lines
 
 
-def headers(text: str) -> list[tuple[int, TomlPath]]:
+def headers(text: str) -> list[tuple[int, KeyPath]]:
     """Return the line and the path of each `[table]` and `[[table]]` of a TOML text, in their order."""
     scanner = _Scanner(text.replace("\r\n", "\n"))
     scanner.document()
     return scanner.headers
 
 
-def line_of(where: TomlLines, place: TomlPath) -> int | None:
+def line_of(where: TomlLines, place: KeyPath) -> int | None:
     """Return the line of a path, or of the nearest thing around it."""
     while place:
         if place in where:
@@ -54,16 +59,22 @@ def line_of(where: TomlLines, place: TomlPath) -> int | None:
     return None
 
 
+def line_of_long_key(text: str) -> int | None:
+    """Return the line, from 1, of a key with too many parts: `tomllib` copies for each all before it."""
+    long = next((key.start() for key in _LONG_KEY.finditer(text) if key[1]), None)
+    return None if long is None else text.count("\n", 0, long) + 1
+
+
 class _Scanner:
     def __init__(self, text: str) -> None:
-        self.lines: dict[TomlPath, int] = {}
-        self.headers: list[tuple[int, TomlPath]] = []
+        self.lines: dict[KeyPath, int] = {}
+        self.headers: list[tuple[int, KeyPath]] = []
         self._text, self._at = text, 0
         self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
-        self._counts: dict[TomlPath, int] = {}
+        self._counts: dict[KeyPath, int] = {}
 
     def document(self) -> None:
-        table: TomlPath = ()
+        table: KeyPath = ()
         while self._skip():
             if self._take("[["):
                 table = self._header(repeated=True)
@@ -72,10 +83,10 @@ class _Scanner:
             else:
                 self._pair(table)
 
-    def _header(self, *, repeated: bool) -> TomlPath:
+    def _header(self, *, repeated: bool) -> KeyPath:
         line = self._line()
         *outer, last = self._keys()
-        place: TomlPath = ()
+        place: KeyPath = ()
         for key in outer:
             place = (*place, key)
             if place in self._counts:  # [[mission.trip]] belongs to the mission begun last
@@ -90,7 +101,7 @@ class _Scanner:
         self.headers.append((line, place))
         return place
 
-    def _pair(self, table: TomlPath) -> None:
+    def _pair(self, table: KeyPath) -> None:
         line, place = self._line(), table
         for key in self._keys():
             place = (*place, key)
@@ -98,7 +109,7 @@ class _Scanner:
         self._need("=")
         self._value(place)
 
-    def _value(self, place: TomlPath) -> None:
+    def _value(self, place: KeyPath) -> None:
         self._skip()
         if self._take("{"):
             while self._skip() and not self._take("}"):

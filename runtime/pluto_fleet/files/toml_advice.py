@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 
-from ..shared.alone.files import USUAL
-
+USUAL = "texts, and numbers with a unit, stand in quotes, lists in [ ], and each key stands once"
 _TEXT = re.compile(r"""("(?:[^"\\]|\\.)*"|'[^']*')""")
 _COMMA = "a comma stands between two values"
 _PAIR = re.compile(r"""\s*([\w.-]+|"[^"]*")\s*=\s*(.*?)\s*""")

@@ -6,13 +6,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from ..files.missions import read_trips
 from ..files.missions_text import trip_table
 from ..files.plan_check import unflyable
-from ..files.reading import Document, Table, shortened
+from ..files.reading import Document, PlanTable
+from ..shared.alone.files import read_trips
 from ..shared.domain.actions import PICK
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import percent, quoted
+from ..shared.domain.values import shortened
 from ..shared.fleet.reach import Reach, chain_of
 from ..shared.hooks.plain_data import trip_data, trip_of
 from .reconcile import in_flight
@@ -96,10 +97,9 @@ class TripChange:
     def _read(self, given: Given) -> list[Trip]:
         tables = [*(trip_table(self._app, one) for one in self._before), *self._named(given)]
         document = Document("", {"mission": [{"name": self._mission, "trip": tables}]})
-        table = Table(document, {"trip": tables}, ("mission", 0), self._who)
+        table = PlanTable(document, {"trip": tables}, ("mission", 0), self._who)
         trips = read_trips(table, self._app, self._fleet.airspace)
-        if document.problems:
-            raise BadInput(shortened([one.sentence for one in document.problems]))
+        document.refuse_if_bad()
         return trips[len(self._before) :]
 
     def _named(self, given: Given) -> Iterator[object]:

@@ -10,11 +10,11 @@ from collections.abc import Coroutine, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..files.reading import shortened
 from ..process.text import of
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import place, quoted
+from ..shared.domain.values import shortened
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, Task
 from .control import Control

@@ -1,30 +1,32 @@
-"""What a plan may hold: its values, with messages such as `delay "3 m" is a length, not a time`.
+"""What a person may write: values, and tables of them, with messages such as `delay "3 m" is a length, not a time`.
 
-And what no value breaks alone: homes apart, and items picked and released in turn.
-
-Numbers have limits, so that nothing that is computed from them divides by zero or overflows.
+Numbers have limits, so that nothing that is computed from them divides by zero or overflows. Each mistake is noted
+with the path of its key; whoever reads goes on, with None in its place, and refuses all of it in the end.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from datetime import date, time
-from math import dist, isfinite
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from .actions import PICK, RELEASE
 from .airspace import covers_ground
 from .errors import BadInput
 from .fields import FieldType, time_of_day
 from .model import AfterTrip
 from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
-from .text import number, percent, quoted
+from .text import LONGEST, cut_off, percent, place, quoted
+from .text import shown as written
 
 if TYPE_CHECKING:
+    from typing import Self
+
     from .actions import Action
-    from .airspace import Corner
-    from .model import Item, Point, Trip
+    from .airspace import Airspace, Corner
+    from .model import Point
 
 Read = Callable[[Any], Any]
 """Converts a value; raises a `ValueError` whose message continues after the key and the value."""
@@ -38,55 +40,59 @@ def shown(value: object) -> str:
     match value:
         case str():
             return quoted(value)
-        case list() | dict():
-            return "{…}" if isinstance(value, dict) else "[…]" if value else "[]"
-        case date() | time():
-            return value.isoformat()
-        case float() | bool():
+        case bool() | date() | time():
             return f"{value}".lower()
-        case int() if abs(value) <= 10**30:  # 0xfff… may have more digits than Python writes
-            return f"{value}"
-    return "this number" if isinstance(value, int) else "this value"
+        case list():
+            return cut_off(f"[{', '.join(map(shown, value[:LONGEST]))}]", LONGEST)
+        case dict():
+            return "{…}"
+    return cut_off(written(value), LONGEST)
 
 
-def _such_as(*rules: tuple[Callable[[Any], object], str], to: Read | None = None) -> Read:
-    """Return a reader of what keeps these rules; each has the message about what breaks it."""
-
-    def read(value: object) -> object:
-        for holds, said in rules:
-            if not holds(value):
-                raise ValueError(said)
-        return value if to is None else to(value)
-
-    return read
+def is_name(value: object) -> bool:
+    """Return whether something can be a name, which stands in lists and logs."""
+    text = value if isinstance(value, str) else ""
+    return 0 < len(text) <= LONGEST_NAME and text == text.strip() and text.isprintable()
 
 
-_TEXT = (lambda value: isinstance(value, str), "is not a text: put it in quotes")
-_NUMBER = (lambda value: type(value) in (int, float), "is not a number")
-_WHOLE = (lambda value: type(value) is int, "is not a whole number")
-_FINITE = (lambda value: type(value) is int or isfinite(value), "is not a finite number")
-_SMALL = (lambda value: abs(value) <= LARGEST, "is too large")
-_ROUNDS = "is neither a whole number from 0 on nor true"
-_AREAS = "is not a list of areas, each a list of corners [x, y]"
-_AFTER = [one.value for one in AfterTrip]
+def _such(holds: Callable[[Any], object], said: str, value: object) -> object:
+    if not holds(value):
+        raise ValueError(said)
+    return value
 
-text = _such_as(_TEXT)
-name = _such_as(
-    _TEXT,
-    (str.strip, "is empty"),
-    (lambda value: value == value.strip(), "begins or ends with a blank"),
-    (lambda value: len(value) <= LONGEST_NAME, f"is longer than {LONGEST_NAME} characters"),
-    (str.isprintable, "holds a character that cannot be shown"),
-)
-"""A word that will stand in lists and logs."""
-boolean = _such_as((lambda value: isinstance(value, bool), "is neither true nor false"))
-real = _such_as(_NUMBER, _FINITE, _SMALL, to=float)
-integer = _such_as(_WHOLE, _SMALL)
-count = _such_as(_WHOLE, _SMALL, (lambda value: value >= 1, "is less than 1"))
-rounds = _such_as((lambda v: v is True or (type(v) is int and v >= 0), _ROUNDS), _SMALL)
-"""How many more; true: until stopped."""
-after_trip = _such_as((_AFTER.__contains__, f"is none of: {', '.join(_AFTER)}"), to=AfterTrip)
-areas = _such_as((lambda value: isinstance(value, list), _AREAS))
+
+def one_of(names: Collection[str], value: object) -> str:
+    """Read one of these words."""
+    if not isinstance(value, str) or value not in names:
+        raise ValueError(f"is none of: {', '.join(names) or 'there are none'}")
+    return value
+
+
+def _whole(least: float, value: object) -> object:
+    if type(value) is not int or not least <= value <= LARGEST:
+        raise ValueError(f"is not a whole number from {least:,.0f} to {LARGEST:,.0f}")
+    return value
+
+
+_NAME = f"is no name: a text of 1 to {LONGEST_NAME} characters that can be shown, no blank around"
+
+text: Read = partial(_such, lambda value: isinstance(value, str), "is not a text: put it in quotes")
+name: Read = partial(_such, is_name, _NAME)
+boolean: Read = partial(_such, lambda value: isinstance(value, bool), "is neither true nor false")
+integer: Read = partial(_whole, -LARGEST)
+count: Read = partial(_whole, 1)
+
+
+def rounds(value: object) -> object:
+    """Read how many more; true: until stopped."""
+    if value is not True and (type(value) is not int or not 0 <= value <= LARGEST):
+        raise ValueError("is neither a whole number from 0 on nor true")
+    return value
+
+
+def after_trip(value: object) -> AfterTrip:
+    """Read what drones do after a trip."""
+    return AfterTrip(one_of([one.value for one in AfterTrip], value))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,26 +106,26 @@ class Quantity:
 
     def __call__(self, value: object) -> float:
         """Read one."""
-        given = parse_quantity(value, self.kind) if isinstance(value, str) else value
-        if type(given) not in (int, float):
-            wanted = f"write a number, or a text with a unit ({', '.join(units_of(self.kind))})"
-            raise ValueError(f"is not a {self.kind.value}: {wanted}")
-        amount: float = real(given)
-        if self.least <= amount <= self.most or (self.or_none and amount == 0):
-            return amount
-        least, most = self._written(self.least), self._written(self.most)
-        beyond = f"more than {most}" if amount > self.most else f"less than {least}"
-        if self.or_none and amount < 0:
-            beyond = "less than 0"
-        raise ValueError(f"is {beyond}: it may be {'0, or ' * self.or_none}{least} to {most}")
+        given: Any = value
+        if isinstance(value, str) and self.kind in QUANTITIES:
+            given = parse_quantity(value, self.kind)
+        none = self.or_none and given == 0
+        if type(given) in (int, float) and (none or self.least <= given <= self.most):
+            return float(given)
+        units = ", ".join(units_of(self.kind))
+        kind = f"{self.kind.value} ({units})" if units else "number"
+        least = "0, or " * self.or_none + self._written(self.least)
+        raise ValueError(f"is not a {kind} of {least} to {self._written(self.most)}")
 
     def _written(self, amount: float) -> str:
         if self.kind is Type.PERCENT:
             return percent(amount)
-        unit = next(one for one in units_of(self.kind) if UNITS[one][1:] == (1.0, 0.0))
-        return f"{number(amount) if abs(amount) < 10_000 else f'{amount:,.0f}'} {unit}".strip()
+        return f"{amount:,.10g} {_SI.get(self.kind, '')}".strip()
 
 
+_SI = {kind: unit for unit, (kind, *scale) in UNITS.items() if scale == [1.0, 0.0]}
+
+real = Quantity(Type.FLOAT)
 SIDE = Quantity(Type.LENGTH, 0.1, 10_000.0)  # of a map
 HEIGHT = Quantity(Type.LENGTH, 0.1, 1000.0)
 PLACE = Quantity(Type.LENGTH, -100_000.0, 100_000.0)  # a coordinate, be it on the map or not
@@ -128,147 +134,198 @@ MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
 TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
 _OVERHEAD = Quantity(Type.TIME, 0.0, 600.0)
-_SPREAD, _TAPER = Quantity(Type.PERCENT, 0.0, 0.3), Quantity(Type.PERCENT, 0.0, 0.5)
 _FACTOR = Quantity(Type.PERCENT, 0.1, 10.0)
-_LEGS = ("smooth", "straight")
+_SPREAD = Quantity(Type.PERCENT, 0.0, 0.3)
 
 MOTION: dict[str, Read] = {
-    "legs": _such_as((_LEGS.__contains__, f"is none of: {', '.join(_LEGS)}")),
+    "legs": partial(one_of, ("smooth", "straight")),
     "limit": Quantity(Type.SPEED, 0.01, 100.0),
-    **dict.fromkeys(("take_off", "settles", "landing"), _OVERHEAD),
-    **dict.fromkeys(("pace", "drain"), _FACTOR),
-    **dict.fromkeys(("spread", "action_spread"), _SPREAD),
-    "taper": _TAPER,
+    "take_off": _OVERHEAD,
+    "settles": _OVERHEAD,
+    "landing": _OVERHEAD,
+    "pace": _FACTOR,
+    "drain": _FACTOR,
+    "spread": _SPREAD,
+    "action_spread": _SPREAD,
+    "taper": Quantity(Type.PERCENT, 0.0, 0.5),
 }
 """How the keys of a fleet's `[motion]` are read."""
 
 
-def numbers(*counts: int, each: Quantity = PLACE) -> Read:
-    """Return a reader of a list of lengths, with one of these numbers of elements."""
-
-    def read(value: object) -> object:
-        if not isinstance(value, list) or len(value) not in counts:
-            raise ValueError(f"is not a list of {' or '.join(map(str, counts))} numbers")
+def each(read: Read, what: str, counts: Collection[int], value: object) -> tuple[Any, ...]:
+    """Read a list; of one of these lengths, if any are given."""
+    if not isinstance(value, list) or (counts and len(value) not in counts):
+        several = " or ".join(map(str, counts)) or "several"
+        raise ValueError(f"is not a list of {several} {what}s")
+    found = []
+    for number, element in enumerate(value, 1):
         try:
-            return tuple(map(each, value))
+            found.append(read(element))
         except ValueError as error:
-            raise ValueError(f"has an element that {error}") from None
-
-    return read
-
-
-size, corner, point = numbers(2, each=SIDE), numbers(2), numbers(2, 3)
-"""Of a map; [x, y]; [x, y] or [x, y, z]."""
+            raise ValueError(f"is wrong at {what} {number}, which {error}") from None
+    return tuple(found)
 
 
-def area(value: object) -> tuple[Corner, ...]:
-    """Read the corners of a no-fly area."""
-    if not isinstance(value, list) or len(value) < 3:
-        raise ValueError("is not a list of at least three corners [x, y]")
-    corners: list[Corner] = []
-    for place, element in enumerate(value, 1):
-        try:
-            corners.append(corner(element))
-        except ValueError as error:
-            raise ValueError(f"has a corner {place} that {error}") from None
+size: Read = partial(each, SIDE, "number", (2,))
+corner: Read = partial(each, PLACE, "number", (2,))
+point: Read = partial(each, PLACE, "number", (2, 3))
+
+
+def point_on(airspace: Airspace | None, height: float, read: Read, value: object) -> Point:
+    """Read a point of a map, at this height if it has none; None: of any map."""
+    x, y, z = [*read(value), height][:3]
+    if airspace is not None and (problem := airspace.problem((x, y, z))):
+        raise ValueError(problem.removeprefix(f"{place((x, y))} "))
+    return x, y, z
+
+
+def polygon(value: object) -> tuple[Corner, ...]:
+    """Read the corners of an area."""
+    corners = each(corner, "corner", (), value)
     if not covers_ground(corners):
-        raise ValueError("covers no ground: its corners lie on one line")
-    return tuple(corners)
+        raise ValueError("covers no ground: an area has three corners [x, y], not on one line")
+    return corners
 
 
-PARAMETER: dict[FieldType | Type, Read] = {
+areas: Read = partial(each, polygon, "area", ())
+
+READERS: dict[FieldType | Type, Read] = {
     Type.INT: integer,
     Type.FLOAT: real,
     Type.BOOL: boolean,
     Type.TEXT: text,
     **{kind: Quantity(kind) for kind in QUANTITIES},
-}
-"""How an action's parameter is read."""
-
-
-def parameters(action: Action, given: Mapping[str, object]) -> dict[str, Any]:
-    """Read an action's parameters, defaults included; raise `ValueError` with what is wrong."""
-    found: dict[str, Any] = {one.name: one.default for one in action.parameters}
-    for name in given:
-        if not found:
-            raise ValueError(f"{action.name} has no parameters, and {quoted(name)} is given")
-        if name not in found:
-            raise ValueError(f"unknown parameter {quoted(name)}; there may be: {', '.join(found)}")
-    for one in action.parameters:
-        try:
-            if one.name in given:
-                found[one.name] = PARAMETER[one.type](given[one.name])
-        except ValueError as error:
-            raise ValueError(f"{one.name} {shown(given[one.name])} {error}") from None
-        if found[one.name] is None:
-            raise ValueError(f"{action.name} needs the parameter {one.name}")
-    return found
-
-
-FIELD: dict[FieldType | Type, Read] = {
-    **PARAMETER,
     FieldType.TIME: TIME,
     FieldType.INT: integer,
     FieldType.ROUNDS: rounds,
     FieldType.TIME_OF_DAY: time_of_day,
-    FieldType.EVALUATOR: name,
 }
-"""How a field of a mission or a trip is read."""
+"""How parameters of actions, and fields of missions and trips, are read."""
 
-HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
+KeyPath = tuple[str | int, ...]
+"""`mission[2].trip[0].target` is `("mission", 2, "trip", 0, "target")`."""
+Keys = Mapping[str, Read | None]
+"""How each key is read; None: elsewhere, or only by the library."""
 
-Cells = dict[tuple[int, int], list[tuple["Point", str]]]
-"""Homes and their drones, by squares of the map with sides of that length."""
-
-
-def new_name(what: str) -> Read:
-    """Return a reader of names that must differ."""
-    names = set[str]()
-
-    def read(value: object) -> str:
-        found: str = name(value)
-        if found in names:
-            raise BadInput(f"there is another {what} {quoted(found)}: names must differ")
-        names.add(found)
-        return found
-
-    return read
+MOST_TOLD = 50  # problems
 
 
-def crowded(home: Point, drone: str, homes: Cells) -> str | None:
-    """Add a home to the others; return what is wrong if it is too near to one of them."""
-    x, y = int(home[0] // HOME_SIZE), int(home[1] // HOME_SIZE)
-    around = [homes.get((x + i, y + j), []) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-    near = [other for cell in around for at, other in cell if dist(home, at) < HOME_SIZE]
-    homes.setdefault((x, y), []).append((home, drone))
-    if not near:
-        return None
-    return f"home is where drone {quoted(near[0])} has its own: each needs a place to stand"
+class Problem(NamedTuple):
+    """Something that is wrong with what was written."""
+
+    path: KeyPath
+    who: str  # the subject of its sentence
+    text: str
+    is_missing: bool = False  # something is needed there, and nothing is there
+
+    @property
+    def sentence(self) -> str:
+        """All of it, for people."""
+        return f"{self.who}: {self.text}" if self.who else self.text
 
 
-def wrongly_carried(trips: Sequence[Trip]) -> Iterator[tuple[int, str]]:
-    """Yield each pick without a release, release without a pick, and second item aboard.
+def shortened(lines: Sequence[str]) -> str:
+    """Join lines, up to a number that can be read."""
+    more = len(lines) - MOST_TOLD
+    rest = [f"… and {more} more problem{'s' * (more > 1)}"] if more > 0 else []
+    return "\n".join([*lines[:MOST_TOLD], *rest])
 
-    With the index of its trip.
-    """
-    aboard: tuple[int, Trip, Item] | None = None
-    for index, trip in enumerate(trips):
-        if trip.action not in (PICK, RELEASE):
-            continue
-        if trip.item is None:
-            return  # it is invalid: errors after it would be guesses
-        item = quoted(trip.item.name)
-        _, since, carried = aboard or (index, trip, None)
-        if trip.action == PICK and carried is not None:
-            name = quoted(carried.name)
-            yield index, f"picks {item}, but {name} is still aboard since trip {since.name}"
-        elif trip.action == RELEASE and carried is None:
-            yield index, f"releases {item}, which no trip before it has picked"
-        elif trip.action == RELEASE and carried is not None and carried != trip.item:
-            other = f"releases {item}, but trip {since.name} picked {quoted(carried.name)}"
-            same = f"{item} has another mass here than in trip {since.name}"
-            yield index, same if carried.name == trip.item.name else other
-        aboard = (index, trip, trip.item) if trip.action == PICK else None
-    if aboard is not None:
-        index, _, carried = aboard
-        yield index, f"picks {quoted(carried.name)}, which no trip after it releases"
+
+class Table:
+    """One table, the path to it, and what messages call it."""
+
+    point: Read = staticmethod(point)
+    """Reads a place, which has a name in the library."""
+
+    def __init__(self, data: Mapping[str, Any], path: KeyPath = (), who: str = "") -> None:
+        self.data, self.path, self.who = data, path, who
+        self.problems: list[Problem] = []  # of all tables of what was written
+
+    def problem(self, text: str, *inside: str | int, is_missing: bool = False) -> None:
+        """Note a problem of this table, or of something in it."""
+        self.problems.append(Problem((*self.path, *inside), self.who, text, is_missing))
+
+    def refuse_if_bad(self, name: str) -> None:
+        """Raise `BadInput` with a line for each problem of a file, if there is one."""
+        if self.problems:
+            raise BadInput(shortened([f"{name}: {one.sentence}" for one in self.problems]))
+
+    def read(
+        self, needed: Keys, others: Keys | None = None, hints: Mapping[str, str] | None = None
+    ) -> dict[str, Any]:
+        """Return what stands under the keys that are needed, and under others that are there.
+
+        `hints` say what to write under some that are needed.
+        """
+        keys = {**needed, **(others or {})}
+        for key in self.data:
+            if key not in keys:
+                self.unknown(key, keys)
+        for key in needed:
+            if key not in self.data:
+                self.problem(f"has no {key}{(hints or {}).get(key, '')}", key, is_missing=True)
+        found = {key: self.value(key, read) for key, read in keys.items() if read}
+        return {key: one for key, one in found.items() if key in needed or one is not None}
+
+    def unknown(self, key: str, keys: Keys) -> None:
+        """Note a key that is none of these."""
+        self.problem(f"unknown key {quoted(key)}; there may be: {', '.join(keys) or 'none'}", key)
+
+    def value(self, key: str, read: Read) -> Any:
+        """Return what stands under a key; None if nothing does that can be read."""
+        if key not in self.data:
+            return None
+        try:
+            return read(self.data[key])
+        except ValueError as error:
+            self.problem(f"{key} {shown(self.data[key])} {error}", key)
+            return None
+
+    def differs(self, key: str, name: str | None, what: str, others: dict[str, Table]) -> None:
+        """Note a name that another table has."""
+        other = others.setdefault(name or "", self)
+        if name and other is not self:
+            said = f"there is another {what} {quoted(name)}{other.where(key)}: names must differ"
+            self.problem(said, key)
+
+    def where(self, key: str) -> str:
+        """Say where a key is, as a message continues; the library knows it."""
+        return ""
+
+    def table(self, key: str) -> Self:
+        """Return the table under a key, an empty one if there is none."""
+        given = self.data.get(key, {})
+        if not isinstance(given, dict):
+            self.problem(f"{key} is not a table: write [{self._header(key)}]", key)
+            given = {}
+        return self._inner(given, key, who=f"{self.who}, {key}" if self.who else f"[{key}]")
+
+    def tables(self, key: str, name: str = "name", *, needed: bool = False) -> Iterator[Self]:
+        """Yield the tables of a list of them; each is called by its name, or by its number."""
+        given, header = self.data.get(key, []), f"[[{self._header(key)}]]"
+        if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
+            said = f"{key} is not a list of tables: write {header}, with two brackets"
+            self.problem(said, key)
+            return
+        if needed and not given:
+            self.problem(f"has no {header}", is_missing=True)
+        what = f"{self.who}, {key}" if self.who else key
+        for index, one in enumerate(given):
+            called = quoted(one[name]) if is_name(one.get(name)) else index + 1
+            yield self._inner(one, key, index, who=f"{what.removesuffix('s')} {called}")
+
+    def _header(self, key: str) -> str:
+        return ".".join(part for part in (*self.path, key) if isinstance(part, str))
+
+    def _inner(self, data: Mapping[str, Any], *inside: str | int, who: str) -> Self:
+        inner = copy(self)
+        inner.data, inner.path, inner.who = data, (*self.path, *inside), who
+        return inner
+
+
+def read_parameters(table: Table, action: Action) -> dict[str, Any]:
+    """Return an action's parameters, defaults included."""
+    defaults = {one.name: one.default for one in action.parameters if one.default is not None}
+    readers = {one.name: READERS[one.type] for one in action.parameters}
+    needed = {name: read for name, read in readers.items() if name not in defaults}
+    return {**defaults, **table.read(needed, readers)}

@@ -14,7 +14,7 @@ from ..domain.model import Item
 from ..domain.plain import number_of, plain_of
 from ..domain.status import TripStatus
 from ..domain.text import class_of, said, shown
-from ..domain.values import LONGEST_NAME, parameters
+from ..domain.values import LONGEST_NAME, Table, read_parameters
 from .plain_data import keepable
 
 if TYPE_CHECKING:
@@ -89,10 +89,11 @@ def _wrong_action(app: App, trip: Trip) -> str | None:
         plain = given[name] = plain_of(value)
         if plain is None or plain != keepable(plain):
             return f"its parameter {shown(name)} must be a number or a text, not {shown(value)}"
-    try:
-        read = parameters(action, {n if type(n) is str else shown(n): v for n, v in given.items()})
-    except ValueError as error:
-        return str(error)
+    named = {name if type(name) is str else shown(name): given[name] for name in given}
+    table = Table(named, who=action.name)
+    read = read_parameters(table, action)
+    if table.problems:
+        return table.problems[0].sentence
     # "50 mg" is read as in a missions file, and what is left out has its default
     numbers = {name: value for name, value in given.items() if type(value) is not str}
     put(trip, parameters=read_only({**read, **numbers}))

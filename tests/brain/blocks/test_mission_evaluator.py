@@ -119,7 +119,7 @@ LINES: Any = "all is well"
         (Verdict(add=(apps.pick("B", 9.0),)), "pick and release cannot be added"),
         (
             Verdict(add=(apps.trip("B", 9.0, parameters={"x": 1}),)),
-            'trip B: take_photo has no parameters, and "x" is given',
+            'trip B: take_photo: unknown key "x"; there may be: none',
         ),
     ],
 )
@@ -132,14 +132,14 @@ def test_a_verdict_that_cannot_be_followed_fails_the_mission(returned: object, s
 @pytest.mark.parametrize(
     ("given", "says"),
     [
-        ({"dose": "3 m"}, 'dose "3 m" is a length, not a mass: it takes mg, g, kg'),
-        ({"dose": float("inf")}, "dose inf is not a finite number"),
-        ({"dose": 1, "strokes": 2.5}, "strokes 2.5 is not a whole number"),
-        ({}, "pollinate needs the parameter dose"),
+        ({"dose": "3 m"}, 'pollinate: dose "3 m" is a length, not a mass: it takes mg, g, kg'),
+        ({"dose": float("inf")}, "pollinate: dose inf is not a mass (mg, g, kg) of"),
+        ({"dose": 1, "strokes": 2.5}, "pollinate: strokes 2.5 is not a whole number"),
+        ({}, "pollinate: has no dose"),
         # such as no missions file can have
-        ({"dose": 1, 3: 1}, 'unknown parameter "3"; there may be: dose, '),
-        ({"dose": np.True_}, "dose true is not a mass: write a number"),
-        ({"dose": np.float32("inf")}, "dose inf is not a finite number"),
+        ({"dose": 1, 3: 1}, 'pollinate: unknown key "3"; there may be: dose, '),
+        ({"dose": np.True_}, "pollinate: dose true is not a mass (mg, g, kg) of"),
+        ({"dose": np.float32("inf")}, "pollinate: dose inf is not a mass (mg, g, kg) of"),
         ({"dose": [1]}, "its parameter 'dose' must be a number or a text, not [1]"),
     ],
 )

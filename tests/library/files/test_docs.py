@@ -7,8 +7,9 @@ from dataclasses import fields
 from pathlib import Path
 
 from pluto_fleet.files.fleet import load_fleet
-from pluto_fleet.files.missions import ELSEWHERE, load_missions
+from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
+from pluto_fleet.files.reading import ELSEWHERE
 from pluto_fleet.shared.domain.airspace import Airspace
 from tests.library.files.an_app import APP
 from tests.paths import ROOT
@@ -66,4 +67,4 @@ def test_the_examples_of_areas_and_lists_are_read(tmp_path: Path) -> None:
 def test_the_page_has_every_further_field() -> None:
     """In the order in which messages know them."""
     rows = re.findall(r"^\| (mission|trip) \| `(\w+)`", PAGE, re.MULTILINE)
-    assert rows == [(on.value, name) for on, names in ELSEWHERE.items() for name in names]
+    assert rows == [(on, name) for on, names in ELSEWHERE.items() for name in names]

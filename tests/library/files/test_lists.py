@@ -199,25 +199,25 @@ def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> 
     rows = "nr;x;y;p\n1;2;3;4\n\n2;2,5;3;high\n1;99;3;1\n5;;3;1\n"
     assert said(tmp_path, text, rows) == [
         (
-            'm.toml:8: mission "Bed 2" (beds.csv, row 4), trip 1: target […] has an element that is not'
-            " a length: write a number and a unit (mm, cm, m, km)"
+            'm.toml:8: mission "Bed 2" (beds.csv, row 4), trip 1: target ["2,5", "3"] is wrong at number 1, which is'
+            " not a length: write a number and a unit (mm, cm, m, km)"
             ' (column "x": "2,5"; a number has a point: 2.5)'
         ),
         (
             'm.toml:9: mission "Bed 2" (beds.csv, row 4), trip 1: priority "high" is not a whole number'
-            ' (column "p")'
+            ' from -1,000,000,000 to 1,000,000,000 (column "p")'
         ),
         (
             'm.toml:3: mission "Bed 1" (beds.csv, row 5): there is another mission "Bed 1", of beds.csv,'
             ' row 2: names must differ (column "nr")'
         ),
         (
-            'm.toml:8: mission "Bed 1" (beds.csv, row 5), trip 1: target (99, 3) is outside the map:'
+            'm.toml:8: mission "Bed 1" (beds.csv, row 5), trip 1: target ["99", "3"] is outside the map:'
             ' x goes from 0 to 20 m, y from 0 to 20 m (columns "x" and "y")'
         ),
         (
-            'm.toml:8: mission "Bed 5" (beds.csv, row 6), trip 1: target […] has an element that is not'
-            ' a length: write a number and a unit (mm, cm, m, km) (column "x": "")'
+            'm.toml:8: mission "Bed 5" (beds.csv, row 6), trip 1: target ["", "3"] is wrong at number 1, which is'
+            ' not a length: write a number and a unit (mm, cm, m, km) (column "x": "")'
         ),
     ]
 

@@ -113,7 +113,7 @@ def test_a_field_without_a_block_that_needs_it_does_not_exist(tmp_path: Path) ->
     assert said == [
         (
             'missions.toml:6: mission "M", trip 1: unknown key "delay": this app\'s graph has no '
-            "block that needs it; a trip of this app has: name, action, target, source, "
+            "block that needs it; there may be: action, target, name, source, "
             "parameters, item"
         )
     ]

@@ -76,10 +76,10 @@ def test_all_that_is_wrong_is_told_at_once_with_its_line(tmp_path: Path) -> None
     with pytest.raises(BadInput) as caught:
         load_fleet(path, APP)
     assert str(caught.value).splitlines() == [
-        f'{path}:7: [motion]: unknown key "wind"; [motion] has: {", ".join(MOTION)}',
+        f'{path}:7: [motion]: unknown key "wind"; there may be: {", ".join(MOTION)}',
         f'{path}:6: [motion]: legs "round" is none of: smooth, straight',
         f'{path}:9: [motion]: limit "1 m" is a length, not a speed: it takes m/s, km/h',
-        f'{path}:8: [motion]: spread "50 %" is more than 30 %: it may be 0 % to 30 %',
+        f'{path}:8: [motion]: spread "50 %" is not a percent (%) of 0 % to 30 %',
     ]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import tomllib
 
 import pytest
@@ -10,12 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files import reading
-from pluto_fleet.files.toml import TomlPath, line_of, places
-from pluto_fleet.shared.alone import files
-from pluto_fleet.shared.alone.files import MOST, line_of_long_key
+from pluto_fleet.files.toml import MOST, line_of, line_of_long_key, places
 from pluto_fleet.shared.domain.errors import BadInput
-from tests.kit.sentences import entries
-from tests.library.files.test_sentences import SENTENCES
+from pluto_fleet.shared.domain.values import KeyPath
 from tests.paths import EXAMPLES
 
 TEXT = '''# a comment with [[mission]] in it
@@ -47,7 +43,7 @@ x = -1e5
 
 def test_every_table_key_and_element_has_its_line() -> None:
     """Comments, long texts, nested lists, inline tables and dotted keys are all seen through."""
-    expected: dict[TomlPath, int] = {
+    expected: dict[KeyPath, int] = {
         ("title",): 2,
         ("mission", 0): 5,
         ("mission", 0, "name"): 6,
@@ -108,21 +104,6 @@ def test_only_keys_count(text: str, line: int | None) -> None:
 
 
 PLANS = [path.read_text("utf-8") for path in sorted(EXAMPLES.glob("*/*.toml"))]
-
-
-@pytest.mark.parametrize("text", [text for text, _ in entries(SENTENCES / "advice.txt")])
-def test_the_reader_of_a_package_shows_the_same_line(text: str) -> None:
-    """And says what is usual, instead of what is meant."""
-    with pytest.raises(BadInput) as full:
-        reading.parsed("plan.toml", text)
-    with pytest.raises(BadInput) as small:
-        files.parsed("plan.toml", text)
-    shown = re.compile(r"plan\.toml:\d+: is not valid TOML: .*, in `.*`; ")
-    one, other = shown.match(str(full.value)), shown.match(str(small.value))
-    assert one
-    assert other
-    assert one[0] == other[0]
-    assert str(small.value) == other[0] + files.USUAL
 
 
 @given(st.sampled_from(PLANS), st.integers(0, 3000), st.text(max_size=3))

@@ -95,9 +95,9 @@ def test_what_cannot_be_flown_is_refused_in_words_and_changes_nothing() -> None:
     living.run(3.0)
     item = {"name": "vial", "mass": "4 g"}
     for wrong, why in (
-        (trip("4", 300), 'mission "a", trip "4": target (300, 1) is outside the map'),
+        (trip("4", 300), 'mission "a", trip "4": target [300, 1.0, 1.0] is outside the map'),
         ({**trip("4", 4), "action": "pick_item", "item": item}, "which no trip after it releases"),
-        ({**trip("4", 4), "action": "release_item", "item": item}, "which no trip before it"),
+        ({**trip("4", 4), "action": "release_item", "item": item}, "nothing is aboard"),
         ({**trip("4", 4), "action": "sing"}, "sing"),
         ({**trip("4", 4), "hue": 1}, "hue"),
         ({"name": 3}, "name"),

@@ -46,8 +46,8 @@ def test_a_drone_that_cannot_join_is_told_why() -> None:
     living.run(3.0)
     for wrong, why in (
         ({"id": "cf1"}, 'drone "cf1": there is another drone "cf1": names must differ'),
-        ({"category": "whale"}, 'drone "cf9": unknown category "whale"; this app has: scout'),
-        ({"home": [99.0, 1.0]}, 'drone "cf9": home (99, 1) is outside the map'),
+        ({"category": "whale"}, 'drone "cf9": category "whale" is none of: scout'),
+        ({"home": [99.0, 1.0]}, 'drone "cf9": home [99.0, 1.0] is outside the map'),
         ({"home": [0.5, 0.52]}, 'drone "cf9": home is where drone "cf1" has its own'),
         ({"home": [2.0, 8.0, 1.0]}, 'drone "cf9": a drone that joins has its dock on the ground'),
         ({"home": [1.0]}, 'drone "cf9": home'),

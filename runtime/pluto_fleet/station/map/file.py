@@ -7,11 +7,11 @@ import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...files.fleet import read_map
 from ...files.landmarks import NO_LANDMARKS, Landmarks
-from ...files.landmarks_reading import KEYS
+from ...files.landmarks_reading import KEYS, read_landmarks
 from ...files.landmarks_text import with_landmarks
-from ...files.reading import Table, parsed, text_of
+from ...files.reading import PlanTable, parsed, text_of
+from ...shared.alone.files import read_map
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import printable
 from ..whole_file import write_whole
@@ -92,7 +92,9 @@ class MapFile:
     def _content(self, text: str) -> tuple[Airspace, Landmarks, Any]:
         """Return a text's map, its landmarks, and all else in it."""
         document = parsed(self._called, text)
-        airspace, landmarks = read_map(Table(document, document.data))
+        table = PlanTable(document, document.data).table("map")
+        airspace = read_map(table)
+        landmarks = read_landmarks(table, airspace)
         document.refuse_if_bad()
         assert airspace is not None  # else there was a problem
         of_map: Any = document.data.get("map", {})

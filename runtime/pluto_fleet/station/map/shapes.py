@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...files.landmarks_reading import read_landmarks
 from ...files.landmarks_text import landmark_tables
-from ...files.reading import Document, Table
+from ...files.reading import Document, PlanTable
 from ...shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
@@ -66,9 +66,8 @@ def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspa
     if given.get("image") is not None:
         data["image"] = _image(given["image"], was.picture)
     document = Document("", {"map": data})
-    landmarks = read_landmarks(Table(document, data, ("map",), "the map"), airspace)
-    if document.problems:
-        raise BadInput("\n".join(one.sentence for one in document.problems))
+    landmarks = read_landmarks(PlanTable(document, data, ("map",), "the map"), airspace)
+    document.refuse_if_bad()
     return landmarks if "image" in given else replace(landmarks, picture=was.picture)
 
 

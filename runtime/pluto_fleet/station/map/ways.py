@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.areas import read_places
-from ...files.reading import Document, Table
+from ...files.reading import Document, PlanTable
 from ...shared.domain import values
 from ...shared.domain.errors import BadInput
 
@@ -70,11 +70,10 @@ class DrawnWays:
         before = area.pop("before", None)
         come = None if before is None else self._point(before, "before")
         document = Document("", {"area": area})
-        table = Table(document, area, ("area",), "the area")
-        table.only(("polygon", "spacing", "height"), "an area")
+        table = PlanTable(document, area, ("area",), "the area")
+        table.read({"polygon": None, "spacing": None}, {"height": None})
         places = read_places(table, self._airspace, come)
-        if document.problems:
-            raise BadInput("\n".join(one.sentence for one in document.problems))
+        document.refuse_if_bad()
         [made] = document.areas
         return {
             "targets": [[*place] for place in places],

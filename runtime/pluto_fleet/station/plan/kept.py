@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...files.errors import listed
+from ...files.reading import listed
 from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.text import printable

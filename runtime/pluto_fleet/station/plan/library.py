@@ -11,8 +11,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...files.reading import decoded
-from ...shared.alone.files import LARGEST
+from ...files.reading import LARGEST, decoded
 from ...shared.domain import values
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable, quoted

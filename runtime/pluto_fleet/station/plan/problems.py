@@ -5,13 +5,12 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
 from ...files.plan_check import unflyable
 from ...files.promises import moment
-from ...files.reading import Document, Wording
+from ...files.reading import Document
 from ...shared.domain.values import shown
 from .shape import MOMENTS, Shape, trips_of
 
@@ -20,10 +19,9 @@ if TYPE_CHECKING:
 
     from ...app import App
     from ...files.fleet import FleetFile
-    from ...files.reading import Problem
-    from ...files.toml import TomlPath
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Mission, Trip
+    from ...shared.domain.values import KeyPath, Problem
 
 
 _CALLED = {
@@ -44,16 +42,22 @@ _MISSING = {
 }
 
 
-def on_a_screen(app: App) -> Wording:
-    """Return the wording for pages, which have labels where files have keys."""
-    called = {**_CALLED, **{field.name: field.label for field in app.fields}}
-    return Wording(
-        called=lambda key: called.get(key, key),
-        missing=lambda key: _MISSING.get(key, f"has no {called.get(key, key)} yet"),
-        field_missing=lambda field: f"{field.label} is not filled in yet",
-        no_trips=lambda: "has no trips yet: drag an action onto the floor plan",
-        item_missing=lambda action: f"{action} needs an item: give its name and its mass",
-    )
+def _on_a_screen(app: App, problem: Problem) -> Problem:
+    """Word a problem for pages, which have labels where files have keys."""
+    labels = {field.name: field.label for field in app.fields}
+    key = problem.path[-1] if problem.path else ""
+    text = problem.text
+    if problem.is_missing and key in labels:
+        text = f"{labels[str(key)]} is not filled in yet"
+    elif problem.is_missing and key == "item":
+        text = text.partition(",")[0] + ": give its name and its mass"
+    elif problem.is_missing and isinstance(key, int):
+        text = "has no trips yet: drag an action onto the floor plan"
+    elif problem.is_missing:
+        text = _MISSING.get(str(key), f"has no {key} yet")
+    elif text.startswith(f"{key} "):
+        text = {**_CALLED, **labels}.get(f"{key}", f"{key}") + text.removeprefix(f"{key}")
+    return problem._replace(text=text)
 
 
 def own_names(app: App) -> frozenset[str]:
@@ -93,11 +97,11 @@ def read(
     app: App, airspace: Airspace, missions: Sequence[Shape], known: Collection[str] = ()
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
     """Return the missions to fly, as far as valid, and their problems; `known` are other missions."""
-    document, names = _document(app, missions), own_names(app)
+    document, names = Document("", {"mission": [*map(as_in_a_file, missions)]}), own_names(app)
     found = read_missions(document, app, airspace, known) if missions else []
     problems = [
-        _problem(missions, one.place, sentence(one.text, names), sentence(one.sentence, names))
-        for one in map(partial(_of_a_moment, missions), document.problems)
+        _problem(missions, one.path, sentence(one.text, names), sentence(one.sentence, names))
+        for one in (_of_a_moment(missions, _on_a_screen(app, one)) for one in document.problems)
     ]
     return found, [_of_its_height(one, missions, airspace) for one in problems]
 
@@ -141,10 +145,10 @@ def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
 
 def _of_a_moment(missions: Sequence[Shape], problem: Problem) -> Problem:
     """Assign a problem of a window to that of its two fields which is wrong, in its words."""
-    match problem.place:
+    match problem.path:
         case ("mission", int(i), "window"):
             field, text = _wrong_in_window(missions[i])
-            return replace(problem, place=("mission", i, field), text=text)
+            return problem._replace(path=("mission", i, field), text=text)
     return problem
 
 
@@ -185,12 +189,7 @@ def bare(given: Mapping[str, object]) -> dict[str, object]:
     }
 
 
-def _document(app: App, missions: Sequence[Shape]) -> Document:
-    data: dict[str, object] = {"mission": [as_in_a_file(mission) for mission in missions]}
-    return Document("", data, words=on_a_screen(app))
-
-
-def _problem(missions: Sequence[Shape], place: TomlPath, text: str, alone: str) -> PlanProblem:
+def _problem(missions: Sequence[Shape], place: KeyPath, text: str, alone: str) -> PlanProblem:
     """Convert a problem of a file, with the keys of its mission and trip."""
     mission = trip = None
     inside: Sequence[str | int] = ()

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite
 from typing import TYPE_CHECKING
 
-from ...files.errors import listed
+from ...files.reading import listed
 from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.text import quoted

@@ -57,7 +57,7 @@ def test_the_same_can_be_commanded_once(serve: Serve) -> None:
     said = station.refused("change-trips", trips=[], **replaces)
     assert said == 'mission "Mission 1": it was changed: look at it again'
     outside = station.refused("change-trips", mission=FIRST, trips=[{**c, "target": [99.0, 8.5]}])
-    assert "(99, 8.5) is outside" in outside
+    assert "[99.0, 8.5] is outside" in outside
     assert len(station.events("mission.replanned")) == 1
     station.refused("change-trips", mission="X", trips=[])
     station.tell("stop", how="land")

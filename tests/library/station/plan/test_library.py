@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.shared.alone.files import LARGEST
+from pluto_fleet.files.reading import LARGEST
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.plan import library as kept
 from pluto_fleet.station.plan.library import PlanLibrary

@@ -63,7 +63,8 @@ def test_start_says_what_is_still_to_be_done() -> None:
     plan = drawn(mission(M, trip(T, target=None)), mission("mission-two", name=""))
     assert start_refused(plan) == (
         f'Mission "{M}", trip 1: has no place yet: drag it onto the floor plan, or type x and y\n'
-        'Mission 2: the name "" is empty'
+        'Mission 2: the name "" is no name: a text of 1 to 200 characters that can be shown, no'
+        " blank around"
     )
     many = drawn(*(mission(f"mission-{i:02}", trips=[]) for i in range(12)))
     assert start_refused(many).split("\n")[10:] == ["… and 2 more problems"]
