@@ -74,20 +74,20 @@ class Craft:
             self.vehicle.speed, self.vehicle.climb = speed, min(0.6, speed)
             for height, pause in zip(HEIGHTS, PAUSES, strict=True):
                 await passes(pause)
-                up = commands.takeoff(self.vehicle, height)
+                up = self.vehicle.does("take off", commands.take_off, height)
                 await self.took(f"take-off, {pause:g} s after a landing", up, "takeoff")
                 for length in LENGTHS:
                     for place in ((x + length, y, height), (x, y, height)):
-                        leg = commands.go_to(self.vehicle, place)
+                        leg = self.vehicle.does("fly", commands.go_to, place)
                         await self.took(f"{length:g} m at {speed:g} m/s", leg, "go_to")
                 await self._act()
-                await self.took("landing", commands.land(self.vehicle), "land")
+                await self.took("landing", self.vehicle.does("land", commands.land), "land")
 
     async def _act(self) -> None:
         for action in BUILT_IN:
             item = _ITEM if action in (PICK, RELEASE) else None
             given = {"quantity": "temperature"} if action == "measure" else {}
-            done = commands.act(self.vehicle, action, given, item)
+            done = self.vehicle.does(action, commands.act, action, given, item)
             await self.took(action, done, "", BUILT_IN[action].seconds)
 
 

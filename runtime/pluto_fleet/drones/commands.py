@@ -1,4 +1,4 @@
-"""The commands of one drone of the team: each has a time-out, one after the other.
+"""How each command is carried out by a drone's navigation: with a time-out, once what it needs is so.
 
 A navigation in another package may use another copy of `Photo`, and numbers of its library's own
 types: so the result of an action is converted. A result of the wrong kind is a bug of the navigation.
@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
-from functools import partial
 from math import dist, inf, isfinite
 from typing import TYPE_CHECKING, Any, SupportsFloat
 
@@ -20,7 +19,7 @@ from ..shared.domain.text import percent, place, shown
 from .protocol import Acts, Readable
 from .telemetry import RISING
 from .timeouts import shortened
-from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN
+from .vehicle import SLOWEST_PLANNED, TIME_MARGIN
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Item, Point
@@ -69,12 +68,8 @@ LANDED_LIMIT = 3.0
 """Seconds after a landing within which a drone must report that it has landed."""
 
 
-async def takeoff(vehicle: Vehicle, height: float) -> None:
+async def take_off(vehicle: Vehicle, height: float) -> None:
     """Take off straight up to a height; does nothing for a drone that flies."""
-    await vehicle.commands.run(RISE, partial(_take_off, vehicle, height))
-
-
-async def _take_off(vehicle: Vehicle, height: float) -> None:
     vehicle.check()
     if not vehicle.telemetry.landed:
         return
@@ -98,10 +93,6 @@ async def _take_off(vehicle: Vehicle, height: float) -> None:
 
 async def go_to(vehicle: Vehicle, target: Point) -> None:
     """Fly straight to a point."""
-    await vehicle.commands.run("fly", partial(_fly_to, vehicle, target))
-
-
-async def _fly_to(vehicle: Vehicle, target: Point) -> None:
     vehicle.check()
     check_airborne(vehicle)
     await fly(vehicle, target)
@@ -115,12 +106,7 @@ async def fly(vehicle: Vehicle, target: Point) -> None:
 
 
 async def land(vehicle: Vehicle) -> None:
-    """Land here; does nothing for a drone that stands on the ground."""
-    await vehicle.commands.run(LAND, partial(descend, vehicle))
-
-
-async def descend(vehicle: Vehicle) -> None:
-    """Land here, also where it takes no commands, if only it is linked."""
+    """Land here, also where it takes no commands, if only it is linked; does nothing on the ground."""
     if vehicle.telemetry.landed:
         return
     if vehicle.is_cut:
@@ -137,10 +123,6 @@ async def descend(vehicle: Vehicle) -> None:
 
 async def hold(vehicle: Vehicle) -> None:
     """Hover until cancelled, or until something fails."""
-    await vehicle.commands.run("hover", partial(_hold, vehicle))
-
-
-async def _hold(vehicle: Vehicle) -> None:
     vehicle.check()
     check_airborne(vehicle)
     await asyncio.get_running_loop().create_future()
@@ -177,12 +159,6 @@ async def act(
     vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
 ) -> object:
     """Do a built-in action here."""
-    return await vehicle.commands.run(action, partial(_act, vehicle, action, parameters, item))
-
-
-async def _act(
-    vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
-) -> object:
     vehicle.check()
     check_airborne(vehicle)
     why = why_not(vehicle, action, parameters)

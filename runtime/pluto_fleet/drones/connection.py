@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import duration, place
 from .commands import LANDED_LIMIT, land
-from .vehicle import TIME_FACTOR, TIME_MARGIN
+from .vehicle import LAND, TIME_FACTOR, TIME_MARGIN
 
 if TYPE_CHECKING:
     from .vehicle import Vehicle
@@ -193,7 +193,7 @@ async def _land(vehicle: Vehicle, connection: Connection) -> None:
             return
         await connection.once()
         try:
-            await land(vehicle)
+            await vehicle.does(LAND, land)
         except FlightFailed as error:
             vehicle.calls.say(f"{vehicle.id} was to land: {error}")
             await asyncio.sleep(_BETWEEN_LANDINGS)

@@ -17,7 +17,7 @@ from ..jobs.reports import SILENCE
 from ..shared.domain.airspace import Polygon, distance, inside, tidy
 from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
 from ..shared.domain.text import duration, number, percent, place
-from .commands import descend, fly
+from .commands import fly, land
 from .lag import Lag
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
 from .timeouts import shortened
@@ -79,7 +79,7 @@ async def land_by_itself(vehicle: Vehicle, airspace: Airspace, others: Sequence[
     One that has lost its position stops, and lands.
     """
     try:
-        await vehicle.commands.run(LAND, partial(_down, vehicle, airspace, others))
+        await vehicle.does(LAND, _down, airspace, others)
     except FlightFailed as error:
         vehicle.calls.say(f"{vehicle.id} was to land: {error}")
         await asyncio.sleep(_BETWEEN_LANDINGS)
@@ -95,7 +95,7 @@ async def _down(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -
             await fly(vehicle, (x, y, min(max(here[2], _CLEARANCE), airspace.ceiling)))
         except FlightFailed as error:
             vehicle.calls.say(f"{vehicle.id} was to leave the no-fly area: {error}")
-    await descend(vehicle)
+    await land(vehicle)
 
 
 BETWEEN_EVENTS = 0.01

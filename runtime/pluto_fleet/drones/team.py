@@ -1,4 +1,4 @@
-"""A team of real drones: each is flown by a navigation of its own, independently of the others.
+"""The driver's layer: a team of real drones, each flown by a navigation of its own, as its make does it.
 
 A command of the gateway's kernel runs as an asyncio task with a time-out, and ends as the task does.
 """
@@ -9,7 +9,7 @@ import asyncio
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..jobs.reports import SILENCE, DroneReport
 from ..jobs.telemetry import Subscription
@@ -23,7 +23,7 @@ from .localization import OWN, LocalizationFeed
 from .protocol import DroneSetup, Locatable, Readable
 from .recovery import recover, wait_until_home
 from .safety import EACH, SafetyMonitor, follow_events
-from .vehicle import Cargo, TeamDrone, Vehicle
+from .vehicle import LAND, RISE, Cargo, TeamDrone, Vehicle
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -171,19 +171,19 @@ class Team:
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off straight up to a height, if it is ready; does nothing for a drone that flies."""
-        await self._kernel.call_hook(commands.takeoff, self.vehicles[drone], height)
+        await self._does(drone, RISE, commands.take_off, height)
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
-        await self._kernel.call_hook(commands.go_to, self.vehicles[drone], target)
+        await self._does(drone, "fly", commands.go_to, target)
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
-        await self._kernel.call_hook(commands.land, self.vehicles[drone])
+        await self._does(drone, LAND, commands.land)
 
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        await self._kernel.call_hook(commands.hold, self.vehicles[drone])
+        await self._does(drone, "hover", commands.hold)
 
     async def act(
         self,
@@ -194,9 +194,10 @@ class Team:
         job: str | None,
     ) -> object:
         """Do a built-in action here, and return its result."""
-        return await self._kernel.call_hook(
-            commands.act, self.vehicles[drone], action, parameters, item
-        )
+        return await self._does(drone, action, commands.act, action, parameters, item)
+
+    async def _does(self, drone: str, *command: Any) -> object:
+        return await self._kernel.call_hook(self.vehicles[drone].does, *command)
 
     async def read(self, drone: str, name: str) -> float:
         """Return a sensor or variable of a drone."""

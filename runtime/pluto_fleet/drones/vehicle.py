@@ -8,11 +8,12 @@ from __future__ import annotations
 import asyncio
 import json
 import os
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.motion import CLIMB_SPEED
@@ -273,6 +274,12 @@ class Vehicle:
             self.commands.fail(FlightFailed(Failure.REFUSED, why))
 
     # Implementation
+
+    async def does(
+        self, doing: str, command: Callable[..., Coroutine[Any, Any, T]], *facts: object
+    ) -> T:
+        """Carry out a command of `commands.py`, after all earlier ones of this drone."""
+        return await self.commands.run(doing, partial(command, self, *facts))
 
     async def go(
         self, what: str, seconds: float, method: Callable[..., Awaitable[T]], *args: object

@@ -110,6 +110,7 @@ async def flights(
 
         await flown.until(over, LONG)
         rescue = flown.begin(gateway.recover(drone))
+        rescue.watch(lambda _: None)  # it may be broken off at once
         async with asyncio.timeout(LONG):
             await asyncio.wait((asyncio.ensure_future(flown.kernel.offer(rescue)),))
 
