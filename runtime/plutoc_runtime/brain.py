@@ -151,7 +151,7 @@ class Brain:
         """Take over what has happened outside; what is unknown is ignored.
 
         `{"done": id, "value": …}` or `{"failed": id, "failure": …, "reason": …}` for an order,
-        `{"telemetry": {drone: {"leg" or "at", "battery", "landed"}}}` for drones, `{"hook": number}`
+        `{"telemetry": {drone: {"legs" or "at", "battery", "landed"}}}` for drones, `{"hook": number}`
         for a hook that took its time, `{"durable": count}` for events that are on the disk, `{"drift":
         seconds}` when the clock of the hours has gone on so much more than `now` since the app began.
         """

@@ -62,7 +62,7 @@ def flown(
     planned, app = app, moving(app, motion or fleet.motion)
     kernel, disk, drones = VirtualTime(), _Rows(), simulated(app, fleet)
     world = World(seed, fleet.airspace, fleet.world)
-    controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed, fleet.airspace)
+    controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed)
     if around is not None:
         controls = around(kernel, controls)
     gateway = Gateway(

@@ -148,9 +148,7 @@ class Living:
         world = World(0, space, self.fleet.world)
         self.done_by_drones: list[tuple[str, str]] = []
         """What the drones really did: the action, and the item if there was one."""
-        self.navigation = SimulatedNavigation(
-            self.kernel, drones, world, faults, 0, space, self._see
-        )
+        self.navigation = SimulatedNavigation(self.kernel, drones, world, faults, 0, self._see)
         self.gateway = Gateway(
             self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
         )

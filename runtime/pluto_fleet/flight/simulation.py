@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..shared.domain.trace import Event
     from ..shared.time.future import Future
     from ..shared.time.kernel import Kernel
-    from ..simulation.body import Body
+    from ..simulation.body import SimulatedBody
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -57,12 +57,10 @@ class Simulation:
         self._app, self._fleet, self._kernel = app, fleet, kernel
         self._drones = simulated(app, fleet)
         world = World(seed, fleet.airspace, fleet.world)
-        self._navigation = SimulatedNavigation(
-            kernel, self._drones, world, faults, seed, fleet.airspace
-        )
+        self._navigation = SimulatedNavigation(kernel, self._drones, world, faults, seed)
         self._stands = {} if stands is None else stands
         for drone, (at, level) in self._stands.items():
-            self._navigation.bodies[drone].stand(at, level, kernel.now)
+            self._navigation.bodies[drone].stand(at, level)
         gateway = Gateway(
             kernel,
             self._navigation if around is None else around(kernel, self._navigation),
@@ -101,7 +99,7 @@ class Simulation:
         return self._driver.done
 
     @property
-    def bodies(self) -> Mapping[str, Body]:
+    def bodies(self) -> Mapping[str, SimulatedBody]:
         """The drones as they are, by their ids."""
         return self._navigation.bodies
 
@@ -123,7 +121,7 @@ class Simulation:
         if not self._changed:
             return _NOTHING
         bodies = self._navigation.bodies
-        motions = {drone: bodies[drone].motion for drone in self._changed}
+        motions = {drone: bodies[drone].news() for drone in self._changed}
         self._changed.clear()
         return motions
 

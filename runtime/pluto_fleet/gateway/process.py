@@ -205,7 +205,6 @@ def _simulated(
         World(settings.seed, settings.airspace, settings.world),
         settings.faults,
         settings.seed,
-        settings.airspace,
         keeper.record,
     )
     keeper.take_over(navigation.bodies)

@@ -58,8 +58,9 @@ def settings_for(
     patience: float = PATIENCE,
 ) -> Settings:
     """Return the settings for the fleet of an app."""
+    moved = moving(app, fleet.motion, charges=fleet.charges_at_home)
     return Settings(
-        drones=tuple(simulated(moving(app, fleet.motion), fleet)),
+        drones=tuple(simulated(moved, fleet)),
         airspace=fleet.airspace,
         apart=fleet.apart,
         max_airborne=fleet.max_airborne,

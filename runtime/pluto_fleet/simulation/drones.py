@@ -5,31 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import dist, inf
+from math import inf
 from typing import TYPE_CHECKING
 
 from ..jobs.reports import motors_cut
-from ..shared.alone.faults import (
-    CARRYING_HOME,
-    OUTAGE,
-    Drawn,
-    Faults,
-    draw,
-    failed,
-)
-from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
+from ..shared.alone.faults import CARRYING_HOME, Faults, draw
+from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import place
-from ..shared.fleet.reach import grip_problem
 from ..shared.time.future import Future
 from ..shared.time.kernel import EventKind, Kernel
-from .body import Body, SimulatedDrone
+from .body import SimulatedBody, SimulatedDrone
 
 if TYPE_CHECKING:
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
-    from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Item, Point
 
 __all__ = ["SimulatedDrone", "SimulatedNavigation"]
@@ -62,14 +53,13 @@ class SimulatedNavigation:
         world: World,
         faults: Faults,
         seed: int,
-        airspace: Airspace,
         record: Callable[[WorldAction], object] | None = None,
     ) -> None:
-        self._kernel, self._world, self._airspace = kernel, world, airspace
+        self._kernel, self._world = kernel, world
         self._faults, self._seed = faults, seed
         self.record = record
         """Called right before each action of a drone on the world."""
-        self.bodies = {drone.id: Body(drone, kernel.time, seed) for drone in drones}
+        self.bodies = {drone.id: SimulatedBody(drone, world, kernel.time) for drone in drones}
         self._forgotten: dict[str | None, Future[None]] = {}
         """By jobs, what to set when their actions were done and forgotten."""
         self.telemetry: Mapping[str, Telemetry] = self.bodies
@@ -77,28 +67,29 @@ class SimulatedNavigation:
 
     def join(self, drone: SimulatedDrone, _: object = None) -> None:
         """Have one more drone, in its dock."""
-        self.bodies[drone.id] = Body(drone, self._kernel.time, self._seed)
+        self.bodies[drone.id] = SimulatedBody(drone, self._world, self._kernel.time)
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""
         body = self.bodies[drone]
-        body.settle(self._kernel.now)
+        body.settle()
         return body.down
 
     def carrying(self, drone: str) -> Item | None:
         """Return the item aboard a drone."""
         body = self.bodies[drone]
-        body.settle(self._kernel.now)
+        body.settle()
         return body.carries
 
     def flown(self, drone: str) -> float:
         """Return how many metres a drone has flown, up and down included."""
-        return self.bodies[drone].flown
+        self.bodies[drone].settle()
+        return self.bodies[drone].flown(self._kernel.now)
 
     def strike(self, drone: str, failure: Failure, why: str | None = None) -> bool:
         """Cause a crash, an empty battery or a lost link now; return False if it was down already."""
         body = self.bodies[drone]
-        if not body.befall(self._kernel.now, failure, why):
+        if not body.befall(failure, why):
             return False
         self._interrupt(body, FlightFailed(failure, str(body.down)))
         return True
@@ -117,7 +108,7 @@ class SimulatedNavigation:
             finally:
                 del self._forgotten[job]
             return ""
-        body.settle(self._kernel.now)
+        body.settle()
         if body.landed:
             return f"{drone} stands on the ground: mishaps happen in the air"
         return "" if self.strike(drone, _MISHAPS[kind]) else f"{drone} is down already: {body.down}"
@@ -129,7 +120,7 @@ class SimulatedNavigation:
             self.strike(drone, Failure.LINK)
         body.reboot()
 
-    def _interrupt(self, body: Body, why: FlightFailed) -> None:
+    def _interrupt(self, body: SimulatedBody, why: FlightFailed) -> None:
         """End its command here with an error."""
         over = body.over
         if over is not None:
@@ -140,7 +131,7 @@ class SimulatedNavigation:
         """Stop what a drone does, and hover."""
         body = self.bodies[drone]
         if body.over is not None:
-            body.halt(self._kernel.now)
+            body.halt()
             self._interrupt(body, broken_off(drone))
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
@@ -149,32 +140,24 @@ class SimulatedNavigation:
 
     def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Begin a flight: draw its faults."""
-        body, now = self.bodies[drone], self._kernel.now
-        body.check(now)
-        drawn = Drawn()
-        if flight is not None:
-            drawn = draw(self._faults, self._seed, flight, seconds)
-        body.begin(drawn, now)
+        body = self.bodies[drone]
+        if flight is None:
+            body.begin(None)
+        else:
+            body.begin(flight, draw(self._faults, self._seed, flight, seconds))
 
     async def takeoff(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""
         body = self.bodies[drone]
-        now = self._kernel.now
-        body.check(now)
+        body.check()
         if body.landed:
             x, y, _ = body.place
-            body.lift_off(now)
-            body.check(now)  # a fault at take-off leaves it on the ground
-            motion, up = body.model, body.model.climb(height, body.drone.category.speed)
-            times = motion.take_off, up, motion.settles
-            await self._move(body, (x, y, height), times, "to take off")
+            await self._until(body, body.follow([(x, y, height)]), "to take off")
 
     async def go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         body = self._in_the_air(drone)
-        seconds = body.model.leg(dist(body.place, target), body.drone.category.speed)
-        command = f"to fly to {place(target)}"
-        await self._move(body, target, (0.0, seconds, body.model.settles), command)
+        await self._until(body, body.follow([body.place, target]), f"to fly to {place(target)}")
 
     async def act(
         self,
@@ -191,15 +174,9 @@ class SimulatedNavigation:
         body = self._in_the_air(drone)
         if action not in BUILT_IN:
             raise FlightFailed(Failure.REFUSED, f"{drone} has no action {action}")
-        problem = grip_problem(drone, body.drone.category, body.carries, action, item)
-        if problem is None:
-            seconds = BUILT_IN[action].seconds * body.spread.factor(body.model.action_spread)
-            await self._pass(body, seconds, f"to {action}")
-            problem = f"{drone} could not do it" if body.fails_to_act else None
-        if problem is not None:
-            raise failed(f"{action} failed", problem, body.place)
-        value = self._world.gives(action, parameters, body.place, self._kernel.now)
-        aboard = item if action == PICK else None if action == RELEASE else body.carries
+        await self._until(body, body.begin_action(action, item), f"to {action}")
+        before = body.carries
+        value = body.act(action, parameters, item)
         if self.record is not None:
             deed = WorldAction(
                 drone=drone,
@@ -208,10 +185,13 @@ class SimulatedNavigation:
                 job=job,
                 boot=body.boot,
                 value=value,
-                aboard=aboard,
+                aboard=body.carries,
             )
-            self.record(deed)
-        body.carries = aboard
+            try:
+                self.record(deed)
+            except FlightFailed:
+                body.carries = before
+                raise
         if job is not None:
             body.done[job] = value
         if job in self._forgotten:
@@ -223,16 +203,12 @@ class SimulatedNavigation:
     async def hold(self, drone: str) -> None:
         """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
-        if body.fails_to_act:
-            raise failed("the action failed", f"{drone} could not do it", body.place)
-        await self._pass(body, inf, "to hover")
+        body.can_act("the action")
+        await self._until(body, inf, "to hover")
 
     async def read(self, drone: str, name: str) -> float:
         """Return the value that was written under this name, or else what is measured here."""
-        body = self._in_the_air(drone)
-        if name in body.settings:
-            return body.settings[name]
-        return self._world.measure(name, body.place, self._kernel.now)
+        return self._in_the_air(drone).read(name)
 
     async def write(self, drone: str, name: str, value: float) -> None:
         """Store a value under this name."""
@@ -243,42 +219,33 @@ class SimulatedNavigation:
         cut = motors_cut(drone)
         body = self.bodies[drone]
         if not self.strike(drone, cut.failure, str(cut)) and not body.landed:
-            body.check(self._kernel.now)
+            body.check()
 
     def mended(self, drone: str) -> None:
         """A person has repaired it, put it into its dock and switched it on."""
         body = self.bodies[drone]
         if body.down is not None:
-            body.reboot()
-            body.dock(self._kernel.now)
+            body.dock()
 
     async def land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
         body = self.bodies[drone]
-        body.check(self._kernel.now)
+        body.check()
         if not body.landed:
-            x, y, z = body.place
-            times = 0.0, body.model.sink(z, body.drone.category.speed), body.model.landing
-            body.touch_down(await self._move(body, (x, y, 0.0), times, "to land"))
+            await self._until(body, body.follow([body.place], lands=True), "to land")
 
     async def reach(self, drone: str) -> bool:
         """Wait until a drone that lost its link can be reached again; False: it has crashed."""
         body = self.bodies[drone]
-        body.settle(self._kernel.now)
-        if body.down is not None and body.down.failure is Failure.LINK:
-            await self._wait_until(body, max(body.down_since + OUTAGE, body.arrives))
-        if body.down is None or body.down.failure is Failure.BATTERY:
-            return True
-        if body.down.failure is Failure.CRASH:
-            return False
-        body.down = None  # the link is back
-        return True
+        body.settle()
+        await self._busy(body, body.reachable_at, "to recover")
+        return body.answers()
 
     async def fetched(self, drone: str) -> bool:
         """Wait until a drone was carried home."""
         body = self.bodies[drone]
-        await self._wait_until(body, self._kernel.now + CARRYING_HOME)
-        body.dock(self._kernel.now)
+        await self._busy(body, self._kernel.now + CARRYING_HOME, "to recover")
+        body.dock()
         return True
 
     def unload(self, drone: str) -> None:
@@ -289,33 +256,15 @@ class SimulatedNavigation:
         """Ask a drone where it is and what it has done."""
         return self.bodies[drone].report
 
-    async def _wait_until(self, body: Body, when: float) -> None:
-        await self._busy(body, when, "to recover")
-        body.settle(when)
+    async def _until(self, body: SimulatedBody, when: float, command: str) -> None:
+        """Wait for the end of a command; a fault ends it earlier."""
+        await self._busy(body, min(when, body.due), command)
+        body.check()
 
-    async def _move(
-        self, body: Body, target: Point, times: tuple[float, float, float], command: str
-    ) -> float:
-        """Move: for some seconds not yet, then on its way, and then at rest."""
-        before, seconds, after = times
-        factor = body.spread.factor(body.model.spread)
-        now = self._kernel.now
-        leaves = now + factor * before
-        body.move(target, now, leaves, leaves + factor * seconds)
-        return await self._pass(body, factor * (before + seconds + after), command)
-
-    async def _pass(self, body: Body, seconds: float, command: str) -> float:
-        """Wait for the duration of a command; a fault ends it earlier."""
-        until = min(self._kernel.now + seconds, body.next_mishap)
-        await self._busy(body, until, command)
-        # Not the current time: a real clock is late, and sums of floats are not exact.
-        body.check(until)
-        return until
-
-    async def _busy(self, body: Body, until: float, command: str) -> None:
+    async def _busy(self, body: SimulatedBody, until: float, command: str) -> None:
         """Wait; a cancelled command leaves the drone hovering."""
         if body.command:
-            raise RuntimeError(f"{body.drone.id} was told {command} while told {body.command}")
+            raise RuntimeError(f"{body.id} was told {command} while told {body.command}")
         if until <= self._kernel.now:
             return
         over: Future[None] = Future()
@@ -325,7 +274,7 @@ class SimulatedNavigation:
             await over
         except BaseException:  # cancelled
             if body.over is over:
-                body.halt(self._kernel.now)
+                body.halt()
             raise
         finally:
             timer.cancel()
@@ -335,9 +284,9 @@ class SimulatedNavigation:
         if not is_its_own:  # it was aborted at the instant at which it was done
             raise body.cut_short
 
-    def _in_the_air(self, drone: str) -> Body:
+    def _in_the_air(self, drone: str) -> SimulatedBody:
         body = self.bodies[drone]
-        body.check(self._kernel.now)
+        body.check()
         if body.landed:
             where = place(body.place)
             reason = f"{drone} is on the ground at {where}: it must take off first"

@@ -19,7 +19,7 @@ from typing import Any
 
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.hooks.plain_data import item_data, item_of, value_data, value_of
-from .body import Body
+from .body import SimulatedBody
 from .drones import WorldAction
 
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
@@ -69,7 +69,7 @@ class WorldStore:
     ) -> None:
         self._drones, self._clock, self._speed = folder / DRONES, clock, speed
         self._moment = moment
-        self._bodies: Mapping[str, Body] = {}
+        self._bodies: Mapping[str, SimulatedBody] = {}
         self._counts: dict[str, int] = {}
         """The number of recorded actions of each drone."""
         self._stale = False
@@ -81,7 +81,7 @@ class WorldStore:
         self._file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o600)
         os.ftruncate(self._file, self._end)
 
-    def take_over(self, bodies: Mapping[str, Body]) -> None:
+    def take_over(self, bodies: Mapping[str, SimulatedBody]) -> None:
         """Restore the drones, and record them from now on."""
         self._bodies = bodies
         saved: Mapping[str, Any] = {}

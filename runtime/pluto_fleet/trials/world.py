@@ -48,7 +48,6 @@ class TrialWorld:
                 battery=case.weather.battery,
             ),
             case.seed,
-            airspace,
             self.seen,
         )
         self.ledger = Ledger()

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from math import inf
 from random import Random
-from typing import TYPE_CHECKING
 
-from ..domain.errors import Failure, FlightFailed
+from ..domain.errors import Failure
 from ..domain.quantities import Type, parse_quantity
-from ..domain.text import place, quoted
-
-if TYPE_CHECKING:
-    from ..domain.model import Point
+from ..domain.text import quoted
 
 OUTAGE = 20.0  # seconds until a lost link is restored
 CARRYING_HOME = 300.0  # seconds until someone has carried a drone home
 
-_BEFALL = {  # what happens at one moment of a flight: the first fields of `Drawn`, in their order
+BEFALL = {  # what happens at one moment of a flight
     Failure.CRASH: "crashed",
     Failure.LINK: "lost its link",
     Failure.BATTERY: "ran out of battery",
@@ -33,49 +30,27 @@ class Faults:
     battery: float = 0.0
 
 
-_NONE = Faults()
 FAULTS = tuple(fault.name for fault in fields(Faults))  # the faults of `--fail`
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Drawn:
-    """The faults of one flight, in seconds from take-off."""
-
-    crash: float | None = None
-    link: float | None = None
-    battery: float | None = None
-    action: bool = False
-
-    def moments(self, began: float) -> list[tuple[float, Failure | None]]:
-        """Return the faults with their times, for a flight that took off at this time."""
-        drawn = zip((self.crash, self.link, self.battery), _BEFALL, strict=True)
-        return [(began + after, what) for after, what in drawn if after is not None]
-
-
-def draw(faults: Faults, seed: int, flight: str, seconds: float) -> Drawn:
+def draw(faults: Faults, seed: int, flight: str, seconds: float) -> dict[Failure, float]:
     """Draw the faults of a flight by its id, `mission/trip/round/attempt`: the same in every run.
 
-    They happen within the expected seconds until its action is done.
+    They happen so long after its take-off, within these seconds; only that its action fails has no moment.
     """
-    if faults == _NONE:
-        return Drawn()
-    chance, moments = Random(f"{seed}/{flight}"), dict[str, float]()
-    for name in (what.value for what in _BEFALL):
+    drawn = dict[Failure, float]()
+    if faults == Faults():
+        return drawn
+    chance = Random(f"{seed}/{flight}")
+    for what in BEFALL:
         # Both numbers are drawn in any case, so one probability does not change the other's outcome.
-        happens, when = chance.random() < getattr(faults, name), chance.random() * seconds
+        happens = chance.random() < getattr(faults, what.value)
+        when = chance.random() * seconds
         if happens:
-            moments[name] = when
-    return Drawn(**moments, action=chance.random() < faults.action)
-
-
-def befell(drone: str, what: Failure, at: Point) -> FlightFailed:
-    """Return the failure of every command after a fault."""
-    return FlightFailed(what, f"{drone} {_BEFALL[what]} at {place(at)}")
-
-
-def failed(what: str, why: str, at: Point) -> FlightFailed:
-    """Return the failure of an action, with its place."""
-    return FlightFailed(Failure.ACTION, f"{what}: {why} at {place(at)}")
+            drawn[what] = when
+    if chance.random() < faults.action:
+        drawn[Failure.ACTION] = inf
+    return drawn
 
 
 def shares(text: str) -> dict[str, float]:

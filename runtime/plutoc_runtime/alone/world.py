@@ -39,10 +39,11 @@ class World:
 
     def __init__(self, seed: int, airspace: Airspace, data: WorldData | None = None) -> None:
         data = invented(seed, airspace) if data is None else data
-        self.features, self.sources = data.features, data.sources
+        self.features = data.features
+        self.sources = data.sources
         self._by_x = sorted(data.features, key=_at)
         self.background = {**BACKGROUND, **data.background}
-        self._seed = seed
+        self.seed = seed
 
     def gives(
         self, action: str, parameters: Mapping[str, Plain], point: Point, time: float
@@ -87,7 +88,7 @@ class World:
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Randomness that depends on the event, its place and its time, and not on earlier draws."""
         x, y, z = point
-        return Random(f"{self._seed}/{what}/{x:.3f}/{y:.3f}/{z:.3f}/{time:.3f}")
+        return Random(f"{self.seed}/{what}/{x:.3f}/{y:.3f}/{z:.3f}/{time:.3f}")
 
 
 def invented(seed: int, airspace: Airspace) -> WorldData:
@@ -100,8 +101,8 @@ def invented(seed: int, airspace: Airspace) -> WorldData:
         return round(chance.uniform(0, width), 3), round(chance.uniform(0, depth), 3)
 
     def feature() -> Feature:
-        kind, at = chance.choice(_KINDS), somewhere()
-        return Feature(kind=kind, at=at, radius=round(chance.uniform(0.1, 0.5), 2))
+        kind = chance.choice(_KINDS)
+        return Feature(kind=kind, at=somewhere(), radius=round(chance.uniform(0.1, 0.5), 2))
 
     def source(quantity: str, lowest: float, highest: float) -> Source:
         peak = round(chance.uniform(lowest, highest), 1)

@@ -7,9 +7,9 @@ high-level commander): its peak speed is 35/16 of its mean one. Seconds, metres,
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from hashlib import sha256
 from itertools import pairwise
-from math import dist, inf, sqrt
-from random import Random
+from math import cos, dist, inf, log, sqrt, tau
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -104,44 +104,22 @@ class Motion:
 
 def varied(motion: Motion, seed: int) -> Motion:
     """Return how all drones move in the flight of a seed: not in two at quite the same pace."""
-    pace, rises = (_within(chance := Random(f"{seed}/motion")), _within(chance))
-    slower = 1.0 + motion.spread * pace
-    later = 1.0 + _TAKE_OFFS * motion.spread * rises
-    return replace(motion, pace=motion.pace * slower, take_off=motion.take_off * max(0.0, later))
+    pace = motion.pace * varies(motion.spread, f"{seed}/pace")
+    later = varies(_TAKE_OFFS * motion.spread, f"{seed}/take-off")
+    return replace(motion, pace=pace, take_off=motion.take_off * max(0.0, later))
 
 
-def _within(chance: Random) -> float:
-    return max(-_TAIL, min(_TAIL, chance.gauss(0.0, 1.0)))
+def varies(spread: float, chance: str) -> float:
+    """Return by which factor something differs from what is expected; `chance` decides, and nothing else.
 
-
-class Spread:
-    """What one drone's durations are drawn from: the same in every run of a seed."""
-
-    def __init__(self, seed: int, drone: str) -> None:
-        self._random = Random(f"{seed}/{drone}/motion")
-        self._ahead: list[tuple[float, float]] = []  # when what was drawn ahead begins, and that
-        self._put_back: list[float] = []
-
-    def draw(self) -> float:
-        """Return how many standard deviations the next duration differs from the expected one."""
-        if self._put_back:
-            return self._put_back.pop()
-        return _within(self._random)
-
-    def factor(self, spread: float, begins: float | None = None) -> float:
-        """Return by which factor the next duration differs from the expected one.
-
-        `begins`: when that which takes so long begins, if it is drawn ahead.
-        """
-        drawn = self.draw() if spread else 0.0
-        if spread and begins is not None:
-            self._ahead.append((begins, drawn))
-        return 1.0 + spread * drawn
-
-    def put_back(self, now: float) -> None:
-        """Draw again, in its order, what was drawn ahead for what has not begun by now."""
-        self._put_back += [drawn for begins, drawn in reversed(self._ahead) if begins > now]
-        self._ahead.clear()
+    It is drawn by Box and Muller from a digest: to seed a `Random` for each leg takes six times as long.
+    """
+    if not spread:
+        return 1.0
+    digest = sha256(chance.encode()).digest()
+    first, second = (int.from_bytes(digest[at : at + 6], "big") / 2**48 for at in (0, 6))
+    drawn = sqrt(-2.0 * log(1.0 - first)) * cos(tau * second)
+    return 1.0 + spread * max(-_TAIL, min(_TAIL, drawn))
 
 
 def smoothly(part: float) -> float:

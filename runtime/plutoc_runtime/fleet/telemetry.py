@@ -121,8 +121,8 @@ class KnownState:
 
     def take(self, told: Mapping[str, Any]) -> None:
         """Take over a message about it; what the message does not say stays as it was."""
-        now, one = self._clock.now, told.get("leg")
-        if legs := told.get("legs") or (one and [one]):
+        now = self._clock.now
+        if legs := told.get("legs"):
             smooth = self._motion.smooth
             self._legs = [
                 Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs

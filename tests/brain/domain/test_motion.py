@@ -24,11 +24,11 @@ from pluto_fleet.shared.domain.motion import (
     SHORTEST,
     STRAIGHT,
     Motion,
-    Spread,
     charged,
     charging,
     smoothly,
     varied,
+    varies,
 )
 from pluto_fleet.shared.fleet.reach import flight_seconds
 from tests.library.files.an_app import APP
@@ -167,9 +167,9 @@ class Ideal:
         assert told.get("done") == self.orders, told
         return self.clock.now - begun
 
-    def flies(self, *stops: Point, action: str | None = None) -> float:
+    def flies(self, *stops: Point, action: str | None = None, flight: str = "a") -> float:
         """Let it fly to all stops."""
-        given = {"seconds": 0.0, "flight": "a", "item": None, "parameters": {}}
+        given = {"seconds": 0.0, "flight": flight, "item": None, "parameters": {}}
         return self.does("fly", stops=stops, action=action, **given)
 
 
@@ -203,11 +203,14 @@ SPREAD = 0.1
 MEASURES = BUILT_IN[MEASURE].seconds
 
 
-def to_and_fro(motion: Motion, seed: int = 1, count: int = 1000) -> list[float]:
+def to_and_fro(motion: Motion, seed: int = 1, count: int = 3000) -> list[float]:
     """Return how long a drone takes to fly there and measure, again and again."""
     drone = Ideal(kind(motion), seed)
     drone.flies(NEAR)
-    return [drone.flies((FAR, NEAR)[number % 2], action=MEASURE) for number in range(count)]
+    return [
+        drone.flies((FAR, NEAR)[number % 2], action=MEASURE, flight=str(number))
+        for number in range(count)
+    ]
 
 
 def assert_spread(factors: Sequence[float]) -> None:
@@ -239,11 +242,15 @@ def test_flights_vary_in_their_pace_and_in_what_a_take_off_takes() -> None:
     assert max(seconds) - min(seconds) > 0.5
 
 
-def test_durations_hang_on_the_seed_and_the_drone() -> None:
-    """The same seed gives the same flights."""
+def test_durations_hang_on_the_seed_and_the_flight() -> None:
+    """The same seed gives the same flights, whatever was flown before."""
     motion = replace(CRAZYFLIE, spread=SPREAD)
     first = to_and_fro(motion, seed=7, count=5)
     assert first == to_and_fro(motion, seed=7, count=5)
     assert first != to_and_fro(motion, seed=8, count=5)
-    assert Spread(7, "cf1").draw() == Spread(7, "cf1").draw()
-    assert Spread(7, "cf1").draw() != Spread(7, "cf2").draw()
+    assert varies(1.0, "7/a/0") == varies(1.0, "7/a/0") != varies(1.0, "7/b/0")
+    later = Ideal(kind(motion), seed=7)
+    later.flies(FAR, flight="b")
+    later.does("home")
+    again = Ideal(kind(motion), seed=7)
+    assert later.flies(NEAR) == pytest.approx(again.flies(NEAR))

@@ -91,7 +91,7 @@ def test_what_a_message_does_not_say_stays_as_it_was() -> None:
 @pytest.mark.parametrize(("motion", "part"), [(STRAIGHT, 0.25), (CRAZYFLIE, smoothly(0.25))])
 def test_a_leg_is_flown_as_drones_of_the_fleet_move(motion: Motion, part: float) -> None:
     leg = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], 10.0, 14.0]
-    for message in ({"leg": leg}, {"legs": [leg]}):
+    for message in ({"legs": [leg]},):
         state, clock = told(motion, message, {"battery": [0.2, 10.0, 0.1]})
         clock.now = 11.0
         assert state.location == pytest.approx((4.0 * part, 0.0, 1.0))

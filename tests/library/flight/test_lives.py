@@ -67,7 +67,7 @@ class Tried:
     ) -> Link:
         """Let new drones stand where they stand: of each life they are new."""
         world = World(0, AIRSPACE, None)
-        navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0, AIRSPACE)
+        navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0)
         self.gateway = Gateway(kernel, navigation, self.drones, AIRSPACE, ledger=self.ledger)
         return self.gateway.link(epoch, lost)
 

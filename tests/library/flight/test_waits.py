@@ -15,6 +15,7 @@ from pluto_fleet.jobs.reports import SILENCE, Down
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import AfterTrip
+from pluto_fleet.shared.fleet.telemetry import resting
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.kit import apps
 from tests.kit.living import Living
@@ -139,7 +140,7 @@ def test_a_drone_that_stands_and_has_lost_its_place_waits_where_it_has_landed() 
     living.at(16.0, lambda: living.navigation.strike("cf1", Failure.BATTERY))
     for after in range(20, 60):
         here, then = (float(after), 0.5, 0.0), float(after)
-        living.at(then, partial(body.move, here, then, then, then))
+        living.at(then, partial(body.turn, [resting(here, then)], then))
     living.kernel.run(living.kernel.spawn(living.kernel.sleep(40.0), FLEET, "time passes"))
     landed, waits = [line for line in told(living) if "cf1" in line]
     assert landed.split(" at ")[1].split(",")[:2] == waits.split(" at ")[1].split(" and")[0].split(

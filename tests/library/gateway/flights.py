@@ -170,7 +170,6 @@ class Field:
             world,
             faults or Faults(),
             1,
-            self.airspace,
             lambda deed: self.deeds.append(str(deed.job)),
         )
         self.ledger = ledger or Ledger()

@@ -9,6 +9,7 @@ import pytest
 from pluto_fleet.jobs.reports import Down, JobState
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
+from pluto_fleet.shared.fleet.telemetry import resting
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.gateway.flights import Field, Task
 from tests.library.simulation.flights import fly
@@ -115,7 +116,7 @@ def test_no_drone_lands_on_another_or_where_it_may_not() -> None:
         link.fly(Task(id=drone, drone=drone, stops=stops, action=None), lambda _: None)
     field.advance(60)
     now = field.kernel.now
-    field.navigation.bodies["cf3"].move((10, 10.4, 1), now, now, now)
+    field.navigation.bodies["cf3"].turn([resting((10, 10.4, 1), now)], now)
     brought_down(field, Down.LAND)
     at = [field.navigation.telemetry[drone.id].location for drone in field.drones]
     assert at[0] == (5, 5, 0)

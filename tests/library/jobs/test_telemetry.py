@@ -22,7 +22,7 @@ def test_each_subscriber_hears_at_its_own_rate_of_what_changed() -> None:
     def hear(news: News, late: float) -> None:
         fast.append(news)
         if len(fast) == 1:
-            field.navigation.bodies["cf1"].lift_off(field.kernel.now)
+            field.navigation.bodies["cf1"].follow([(1.0, 1.0, 1.2)])
 
     async def hears() -> None:
         drones = field.navigation.telemetry

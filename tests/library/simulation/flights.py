@@ -6,7 +6,7 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
-from pluto_fleet.shared.alone.faults import Drawn, Faults, draw
+from pluto_fleet.shared.alone.faults import Faults, draw
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
@@ -38,19 +38,17 @@ class Team(SimulatedNavigation):
         seed: int,
         space: Airspace,
     ) -> None:
-        super().__init__(kernel, drones, World(seed, space), faults, seed, space)
+        super().__init__(kernel, drones, World(seed, space), faults, seed)
         self.kernel, self.faults, self.seed, self.space = kernel, faults, seed, space
+        self.drones = drones
 
     async def takeoff(self, drone: str, height: float, order: Flight | None = None) -> None:
-        body, now = self.bodies[drone], self.kernel.now
-        body.check(now)
-        drawn = draw(self.faults, self.seed, *order) if order else Drawn()
-        body.begin(drawn, now)
+        drawn = draw(self.faults, self.seed, *order) if order else {}
+        self.bodies[drone].begin(order and order[0], drawn)
         await super().takeoff(drone, height)
 
     async def recover(self, drone: str) -> bool:
-        drones = [body.drone for body in self.bodies.values()]
-        return await Executor(self.kernel, self, drones, self.space).recover(drone)
+        return await Executor(self.kernel, self, self.drones, self.space).recover(drone)
 
 
 def team(
@@ -69,11 +67,13 @@ def team(
             category=category,
             home=(HOME[0] + i, HOME[1], 0.0),
             index=i,
-            battery_level=battery_level,
         )
         for i in range(2)
     ]
-    return Team(kernel, drones, faults or Faults(), seed, airspace)
+    made = Team(kernel, drones, faults or Faults(), seed, airspace)
+    for drone in drones:
+        made.bodies[drone.id].stand(drone.home, battery_level)
+    return made
 
 
 def fly(kernel: VirtualTime, coroutine: Coroutine[Any, Any, T]) -> T:

@@ -46,8 +46,7 @@ def place_at(seconds: float) -> Point:
 def test_a_crash_comes_at_its_moment(seed: int) -> None:
     """The drone lies below where it was then, keeps its charge, and is lost."""
     kernel, navigation = at_home(Faults(crash=1), seed=seed)
-    moment = draw(Faults(crash=1), seed, *order()).crash
-    assert moment is not None
+    moment = draw(Faults(crash=1), seed, *order())[Failure.CRASH]
     error = failure(kernel, flight(navigation))
     x, y, _ = place_at(moment)
     telemetry = navigation.telemetry["cf1"]

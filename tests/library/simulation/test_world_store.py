@@ -11,16 +11,24 @@ import pytest
 
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
+from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, varied, varies
 from pluto_fleet.simulation.world_store import DEEDS, DRONES, Moment, WorldStore, this_moment
-from tests.library.gateway.flights import PILLS, THERE, Field, Task
+from tests.library.gateway.flights import PILLS, SCOUT, THERE, Field, Task
 from tests.library.simulation.flights import failure, fly
 
 
 class Kept(Field):
     """A field that is kept in a folder; the wall's clock goes with its own."""
 
-    def __init__(self, folder: Path, wall: float = 1000.0, faults: Faults | None = None) -> None:
-        super().__init__(faults=faults)
+    def __init__(
+        self,
+        folder: Path,
+        wall: float = 1000.0,
+        faults: Faults | None = None,
+        category: Category = SCOUT,
+    ) -> None:
+        super().__init__(faults=faults, category=category)
         kernel = self.kernel
         self._begun = wall
         self.keeper = WorldStore(folder, kernel.time, 1.0, self.moment)
@@ -37,7 +45,7 @@ class Kept(Field):
     def later(self, folder: Path, seconds: float, faults: Faults | None = None) -> Kept:
         """Let the process be killed, and return the world of another that begins later."""
         self.keeper.settled()
-        return Kept(folder, self.wall() + seconds, faults)
+        return Kept(folder, self.wall() + seconds, faults, self.drones[0].category)
 
 
 def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
@@ -111,6 +119,21 @@ def test_what_cannot_be_written_down_is_not_done(tmp_path: Path) -> None:
     assert "the simulated world cannot be written down" in str(error)
     assert (tmp_path / DEEDS).read_bytes() == b""
     assert field.navigation.carrying("cf1") is None
+
+
+@pytest.mark.parametrize("is_killed", [False, True])
+def test_chance_does_not_depend_on_the_process(tmp_path: Path, is_killed: bool) -> None:
+    """A leg takes as long in a process that was started on the way."""
+    field = Kept(tmp_path, category=replace(SCOUT, motion=CRAZYFLIE))
+    field.navigation.begins("cf1", Task().id, 15.0)
+    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
+    if is_killed:
+        field = field.later(tmp_path, 60)
+    begun = field.kernel.now
+    fly(field.kernel, field.navigation.go_to("cf1", THERE))
+    expected = varied(CRAZYFLIE, 1).flies(5.0, SCOUT.speed)
+    factor = varies(CRAZYFLIE.spread, f"1/{Task().id}/4.00/5.00/1.20")
+    assert field.kernel.now - begun == pytest.approx(factor * expected)
 
 
 @pytest.mark.parametrize("what", [Failure.CRASH, Failure.LINK, Failure.BATTERY])

@@ -24,7 +24,7 @@ from pluto_fleet.journal.reader import Reader
 from pluto_fleet.process import wall_clock
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.app import moving
-from pluto_fleet.simulation.body import Body
+from pluto_fleet.simulation.body import SimulatedBody
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from pluto_fleet.simulation.world_store import Moment
 from pluto_fleet.station.config import StationConfig
@@ -73,7 +73,7 @@ class World:
     gateways: list[_Gateway] = field(default_factory=list)
     kernels: list[RealTime] = field(default_factory=list)
     """The clocks of the gateways."""
-    bodies: dict[str, Body] = field(default_factory=dict)
+    bodies: dict[str, SimulatedBody] = field(default_factory=dict)
     """The drones as they are, of the newest gateway."""
 
     def run(self, work: Coroutine[Any, Any, T]) -> T:

@@ -13,6 +13,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.fleet.reach import docked
+from pluto_fleet.shared.fleet.telemetry import resting
 from pluto_fleet.shared.time.future import Future
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from pluto_fleet.shared.time.kernel import Task as Coroutine
@@ -115,8 +116,8 @@ class Sky(Field):
     def put(self, drone: str, place: Point) -> None:
         """Let a drone hover at a place, or lie on the ground there."""
         body, now = self.navigation.bodies[drone], self.kernel.now
-        body.lift_off(now)
-        body.move(place, now, now, now)
+        body.follow([place])
+        body.turn([resting(place, now)], now)
 
     async def pause(self, seconds: float) -> None:
         await self.kernel.sleep(seconds, EventKind.CLOCK, FLEET)

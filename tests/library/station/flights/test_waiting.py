@@ -20,7 +20,7 @@ def living(*missions: apps.Mission, low: float | None = None, **on: Any) -> Livi
     """Return a fleet of three that has just been asked how it is, with so much in its batteries."""
     fleet = Living(enterable(), *missions, on=apps.fleet(*HOMES, **on))
     for body in fleet.navigation.bodies.values() if low is not None else ():
-        body.stand(body.drone.home, low or 0.0, 0.0)
+        body.stand(body.home, low or 0.0)
     fleet.run(0.5)
     return fleet
 
@@ -86,7 +86,7 @@ def test_drones_that_can_never_fly_it_are_counted_apart_with_the_reason() -> Non
     kinds = ["scout", "scout", "carrier"]
     fleet = Living(app, mission, on=apps.fleet(*HOMES, categories=kinds))
     fleet.at(0.2, lambda: fleet.life.control.retire("cf3"))
-    fleet.navigation.bodies["cf3"].stand(HOMES[2], 0.05, 0.0)  # it cannot be given: they wait
+    fleet.navigation.bodies["cf3"].stand(HOMES[2], 0.05)  # it cannot be given: they wait
     fleet.run(0.5)
     (why,) = reasons(fleet)
     cannot = "2 cannot: scout carries at most 10 g, the item weighs 500 g"

@@ -1,0 +1,213 @@
+"""A simulated drone: how it moves, what its battery holds, what befalls it, and what it does.
+
+There is no tick: what was due is applied, at its own time, the next time the drone is looked at. What is
+left to chance is drawn by `seed/flight/leg`, so it depends on no other flight and on no process.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import inf
+from typing import TYPE_CHECKING
+
+from ..domain.actions import BUILT_IN, PICK, RELEASE
+from ..domain.errors import Failure, FlightFailed
+from ..domain.motion import CLIMB_SPEED, varied, varies
+from ..domain.text import place
+from ..fleet.reach import docked, grip_problem
+from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
+from .faults import BEFALL, OUTAGE
+
+if TYPE_CHECKING:
+    from ..domain.actions import Plain
+    from ..domain.fleet_data import DroneData
+    from ..domain.model import Category, Item, Point
+    from ..domain.trace import Clock
+    from .world import World
+
+_HOMEWARD = "/home"  # what its way home is called, after its flight
+
+
+class Body(KnownState):
+    """One drone, initially in its dock. Whoever commands it waits, until when it says."""
+
+    def __init__(self, drone: DroneData, category: Category, world: World, clock: Clock) -> None:
+        super().__init__(clock, drone.home, varied(category.motion, world.seed))
+        self.id = drone.id
+        self.home = drone.home
+        self.category = category
+        self.world = world
+        self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
+        self.reachable_at = 0.0  # when its link is back, if it has lost it
+        self.carries: Item | None = None
+        self.settings = dict[str, float]()  # what an action of the app's own has written
+        self.changed = True  # since its news were asked for
+        self.due = inf  # when the next thing happens by itself
+        self._what: Failure | None = None  # that thing; None: it has landed
+        self._lands_at = inf
+        self._flight = f"{world.seed}/{drone.id}"  # what chance is drawn by, with where a leg ends
+        self._drawn: Mapping[Failure, float] = {}
+        self._began = 0.0
+        self._flown = 0.0
+        self.stand(drone.home, 1.0)
+
+    def stand(self, at: Point, level: float) -> None:
+        """Stand there with this charge, before it has flown."""
+        self._legs = [resting(at, self._clock.now)]
+        self._charge = Charge(level, self._clock.now, taper=self.motion.taper)
+        self.touch_down(self._clock.now)
+
+    def here(self) -> Point:
+        """Return where it is now, settled or not."""
+        return place_on(self._legs, self._clock.now)
+
+    def flown(self, now: float) -> float:
+        """Return how many metres it has flown at a time, up and down included."""
+        return sum((leg.length(now) for leg in self._legs), self._flown)
+
+    def news(self) -> dict[str, object]:
+        """Return its telemetry: exact until it flies or charges otherwise."""
+        self.settle()
+        self.changed = False
+        legs = [(leg.start, leg.end, leg.leaves, leg.arrives) for leg in self._legs]
+        battery = (self._charge.level, self._charge.since, self._charge.rate)
+        return {"legs": legs, "battery": battery, "landed": self._landed}
+
+    def check(self) -> None:
+        """Raise its failure, if it takes no commands."""
+        self.settle()
+        if self.down is not None:
+            raise FlightFailed(self.down.failure, str(self.down))
+
+    def begin(self, flight: str | None, drawn: Mapping[Failure, float] | None = None) -> None:
+        """Begin a flight with its faults; None: the way home of its last one."""
+        self.check()
+        home = self._flight.removesuffix(_HOMEWARD) + _HOMEWARD
+        self._flight = f"{self.world.seed}/{flight}" if flight else home
+        self._drawn = drawn or {}
+        self._began = self._clock.now
+        self._look_ahead()
+
+    def follow(self, way: Sequence[Point], *, lands: bool = False) -> float:
+        """Set out from where it hovers, or above where it stands; return when it is at rest at the end."""
+        self.check()
+        now = self._clock.now
+        motion = self.motion
+        rises = self._landed
+        if rises:  # the battery drains from now on, and faults are due
+            self._charge = self._charge.changing(
+                now + motion.take_off, -1 / self.category.endurance
+            )
+            self._landed = False
+            self._began = now
+            self._look_ahead()
+            self.check()  # a fault at take-off leaves it on the ground
+        legs = list[Leg]()
+        here = self.here()
+        for there, before, seconds, after in motion.stages(way, self.category.speed, rises, lands):
+            x, y, z = there
+            factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
+            leaves = now + factor * before
+            legs.append(Leg(here, there, leaves, leaves + factor * seconds, motion.smooth))
+            here = there
+            now += factor * (before + seconds + after)
+        self.turn(legs, self._clock.now, lands_at=now if lands else inf)
+        return now
+
+    def halt(self) -> None:
+        """Hover where it is, if it still takes commands."""
+        self.settle()
+        if not self._landed and self.down is None:
+            self.turn([resting(self.here(), self._clock.now)], self._clock.now)
+
+    def touch_down(self, now: float) -> None:
+        """Put it on the ground below; in its dock it is charged from its touch-down on."""
+        last = self._legs[-1]
+        below = (*place_on(self._legs, now)[:2], 0.0)
+        touched = min(now, last.arrives) if last.end[2] <= 0.0 else now
+        rate = docked(below, self.home) / self.category.charge_time
+        self._charge = self._charge.changing(touched, rate)
+        self._landed = True
+        self._drawn = {}
+        self.turn([resting(below, now)], now)
+
+    def turn(self, legs: list[Leg], now: float, *, lands_at: float = inf) -> None:
+        """Fly other legs from now on; it has landed at that time."""
+        self._flown = self.flown(now)
+        self._legs = legs
+        self._lands_at = lands_at
+        self.changed = True
+        self._look_ahead()
+
+    def settle(self) -> None:
+        """Apply everything that was due by now, each at its own time."""
+        while self.due <= self._clock.now:
+            self._happen(self.due, self._what)
+
+    def _look_ahead(self) -> None:
+        """Work out what happens next by itself, of simultaneous things the worst."""
+        self.due = inf
+        if not self._landed:
+            comes: list[tuple[float, Failure | None]]
+            comes = [(self._began + after, what) for what, after in self._drawn.items()]
+            comes += (self._charge.empty_at, Failure.BATTERY), (self._lands_at, None)
+            self.due, self._what = min(comes, key=lambda one: one[0])
+
+    def _happen(self, when: float, what: Failure | None) -> None:
+        x, y, z = here = place_on(self._legs, when)
+        if what is not None:
+            self.down = FlightFailed(what, f"{self.id} {BEFALL[what]} at {place(here)}")
+        if what is Failure.LINK:
+            down = Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED, self.motion.smooth)
+            self.reachable_at = max(when + OUTAGE, down.arrives)
+            self._drawn = {}
+            self.turn([down], when, lands_at=down.arrives)
+            return
+        self.touch_down(when)
+        if what is Failure.BATTERY:
+            self._charge = Charge(0.0, when, taper=self.motion.taper)
+        elif what is Failure.CRASH:
+            self._charge = self._charge.changing(when, 0.0)
+            self.carries = None
+
+    def answers(self) -> bool:
+        """Return whether it can be reached, once its link is back; False: it has crashed."""
+        self.settle()
+        if self.down is not None and self.down.failure is Failure.LINK:
+            self.down = None
+        return self.down is None or self.down.failure is not Failure.CRASH
+
+    def dock(self) -> None:
+        """Stand in its dock, where someone has carried it, and take commands again."""
+        self.down = None
+        self.settings = {}
+        self.turn([resting(self.home, self._clock.now)], self._clock.now)
+        self.touch_down(self._clock.now)
+
+    def begin_action(self, action: str, item: Item | None) -> float:
+        """Return when a built-in action is done that begins now; raise why it cannot be."""
+        if why := grip_problem(self.id, self.category, self.carries, action, item):
+            raise self._not_done(action, why)
+        factor = varies(self.motion.action_spread, f"{self._flight}/{action}")
+        return self._clock.now + BUILT_IN[action].seconds * factor
+
+    def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
+        """Do it; return what was measured or photographed."""
+        self.can_act(action)
+        if action in (PICK, RELEASE):
+            self.carries = item if action == PICK else None
+        return self.world.gives(action, parameters, self.here(), self._clock.now)
+
+    def can_act(self, action: str) -> None:
+        """Raise the fault of its action, if that fails on this flight."""
+        if Failure.ACTION in self._drawn:
+            raise self._not_done(action, f"{self.id} could not do it")
+
+    def _not_done(self, action: str, why: str) -> FlightFailed:
+        return FlightFailed(Failure.ACTION, f"{action} failed: {why} at {place(self.here())}")
+
+    def read(self, name: str) -> float:
+        """Return the value that was written under a name, or else what is measured here."""
+        if name in self.settings:
+            return self.settings[name]
+        return self.world.measure(name, self.here(), self._clock.now)
