@@ -31,7 +31,7 @@ const LOADERS = {
   help: () => import("./help/page.js"),
 };
 
-/** @type {import("@preact/signals").Signal<Partial<Record<PageName, ComponentType>>>} */
+/** @type {Signal<Partial<Record<PageName, ComponentType>>>} */
 const loaded = signal({});
 const Broken = () => h("p", { class: "card" }, t("page-broken"));
 

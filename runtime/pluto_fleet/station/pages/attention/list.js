@@ -1,16 +1,14 @@
 // The list of what wants attention: why, since when, and who has seen it.
 
 import { h } from "preact";
-import { t } from "../core/i18n.js";
 import { moment } from "../core/format.js";
+import { t } from "../core/i18n.js";
 import { go } from "../core/route.js";
 import { mayFly, perform, selectDrone, selectMission } from "../core/station.js";
 import { Button } from "../ui/button.js";
-import { Dialog, Empty, SaidWords } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
+import { Dialog, Empty, SaidWords } from "../ui/parts.js";
 import { isOpen, open } from "./button.js";
-
-/** @import { Alert } from "../wire" */
 
 /** @param {{ alert: Alert }} props */
 function Item({ alert }) {

@@ -3,7 +3,6 @@
 
 import { freeName, newKey } from "./keys.js";
 
-/** @import { PlanMission, PlanTrip } from "../app" */
 /** @typedef {(missions: PlanMission[]) => PlanMission[]} Change */
 
 /** @param {PlanMission[]} missions @param {string} key */

@@ -1,8 +1,6 @@
 // What differs between two states of a plan, so that it can be taken back later, though others have
 // drawn meanwhile: only what is still as it was left is reverted. Pure.
 
-/** @import { PlanMission } from "../app" */
-
 /**
  * A difference: of a value, of the fields of a thing, or of a list of things that have keys.
  * @typedef {{ kind: "value", from: unknown, to: unknown }

@@ -2,8 +2,6 @@
 
 import { locale, t } from "./i18n.js";
 
-/** @import { Scalar } from "../app" */
-
 /** @param {number} value @param {Intl.NumberFormatOptions} [options] */
 export const number = (value, options = { maximumFractionDigits: 2 }) =>
   new Intl.NumberFormat(locale.value, options).format(value);

@@ -7,8 +7,6 @@ import { t } from "./i18n.js";
 import { tell } from "./notices.js";
 import { world } from "./station.js";
 
-/** @import { MapData } from "../wire" */
-
 const AGAIN = 3000; // ms
 
 export const landmarks = signal(/** @type {MapData | null} */ (null));

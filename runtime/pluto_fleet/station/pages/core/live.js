@@ -4,9 +4,6 @@
 import { batch, signal } from "@preact/signals";
 import { get, pause, StationError, token } from "./api.js";
 
-/** @import { LiveMessage, LiveRequest, Me } from "../wire" */
-/** @import { World } from "./world.js" */
-
 const SILENCE = 4000; // ms; the station answers after a second at the latest
 const LOST_AFTER = 3000; // ms
 const POLLS = 30; // so many plain requests before the WebSocket is tried again

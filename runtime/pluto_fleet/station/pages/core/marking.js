@@ -2,8 +2,6 @@
 
 import { computed, signal } from "@preact/signals";
 
-/** @import { Signal, ReadonlySignal } from "@preact/signals" */
-
 /**
  * @param {() => readonly string[]} keys of all there are, in their order
  * @param {() => string | null} shown the one that is shown

@@ -2,8 +2,6 @@
 
 import { signal } from "@preact/signals";
 
-/** @import { Signal } from "@preact/signals" */
-
 /**
  * @typedef {object} Notice
  * @property {string} text

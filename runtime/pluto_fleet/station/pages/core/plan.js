@@ -6,9 +6,7 @@ import { get, pause, send, StationError } from "./api.js";
 import { leaves } from "./changes.js";
 import { t } from "./i18n.js";
 
-/** @import { PlanMission, PlanProblem, PlanShape, PlanTrip } from "../app" */
 /** @import { Change } from "./changes.js" */
-/** @import { Signal } from "@preact/signals" */
 
 const TYPING = 300; // ms until what is being typed is saved
 const BETWEEN = 120; // ms between two savings, also while a pin is dragged

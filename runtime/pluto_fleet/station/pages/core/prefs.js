@@ -2,8 +2,6 @@
 
 import { effect, signal } from "@preact/signals";
 
-/** @import { Signal } from "@preact/signals" */
-
 /** @type {Map<string, Signal<any>>} */
 const kept = new Map();
 const stored = (/** @type {string} */ name) => `pluto-${name}`;

@@ -4,7 +4,7 @@ import { duration, inWords, many, percent, plain } from "./format.js";
 import { has, t } from "./i18n.js";
 
 /** @import { TextKey } from "./i18n.js" */
-/** @import { Words } from "../wire" */
+
 /** @typedef {Words["facts"][string]} Fact */
 
 const SHARES = ["battery", "has", "level", "needs", "supposed", "takes"];

@@ -12,9 +12,6 @@ import { page } from "./route.js";
 import { Undo } from "./undo.js";
 import { World } from "./world.js";
 
-/** @import { AppShape } from "../app" */
-/** @import { Signal } from "@preact/signals" */
-
 const UNDO = "pluto-undo";
 const LONGEST_UNDO = 1_000_000; // letters: browsers keep few more
 

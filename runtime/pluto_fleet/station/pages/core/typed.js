@@ -3,8 +3,6 @@
 import { inWords, TIME, typedNumber, typedQuantity, usualUnit } from "./format.js";
 import { t } from "./i18n.js";
 
-/** @import { FieldShape, Scalar } from "../app" */
-
 const NUMERIC = ["int", "float"];
 
 /** @param {FieldShape} field */

@@ -4,10 +4,8 @@
 import { batch, signal } from "@preact/signals";
 import { between, isSame, merged, reverting } from "./difference.js";
 
-/** @import { PlanMission } from "../app" */
 /** @import { Change } from "./changes.js" */
 /** @import { Difference } from "./difference.js" */
-/** @import { Signal } from "@preact/signals" */
 
 const MOST = 200; // steps
 const PAUSE = 2500; // ms after which typing is another step

@@ -3,9 +3,6 @@
 
 import { batch, signal } from "@preact/signals";
 
-/** @import { Alert, DroneRow, LiveMessage, LogLine, MissionRow, Person, Result, State } from "../wire" */
-/** @import { Signal } from "@preact/signals" */
-
 export const LINES_KEPT = 5000; // of the console, and results
 
 /**

@@ -8,8 +8,6 @@ import { prefs } from "../core/prefs.js";
 import { Button } from "../ui/button.js";
 import { touring } from "./tour.js";
 
-/** @import { Signal } from "@preact/signals" */
-
 /** @param {{ id: string, label: string, value: Signal<any>, choices: [string, string][] }} props */
 const Choice = ({ id, label, value, choices }) => h("div", { class: "field" },
   h("label", { for: id }, label),

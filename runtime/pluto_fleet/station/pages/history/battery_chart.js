@@ -8,7 +8,6 @@ import { clock, percent } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { linesOf } from "./levels.js";
 
-/** @import { ReadonlySignal } from "@preact/signals" */
 /** @import { Mark } from "./incidents.js" */
 
 /**

@@ -8,8 +8,6 @@ import { Icon } from "../ui/icon.js";
 import { Chip, Empty } from "../ui/parts.js";
 import { beginWords, ENDS, outcomeWords } from "./words.js";
 
-/** @import { FlightSummary } from "../wire" */
-
 const COLUMNS = /** @type {const} */ (["begun", "end", "missions", "trips", "results", "duration", "by"]);
 
 /** @param {{ flights: FlightSummary[] }} props */

@@ -5,8 +5,6 @@ import { number } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { Empty } from "../ui/parts.js";
 
-/** @import { DroneHours } from "../wire" */
-
 const COLUMNS = /** @type {const} */ (["drone", "flights", "trips", "hours", "cycles", "lost"]);
 const one = { minimumFractionDigits: 1, maximumFractionDigits: 1 };
 

@@ -1,7 +1,5 @@
 // What did not go as planned in a flight, as marks on its time. Pure.
 
-/** @import { Replay } from "../wire" */
-
 /** @typedef {{ time: number, text: string }} Mark */
 
 const SAME = 1; // seconds within which two marks are one

@@ -11,7 +11,6 @@ import { FlightView } from "./flight_view.js";
 import { FlightsList } from "./flights_list.js";
 import { Hours } from "./hours.js";
 
-/** @import { DroneHours, FlightSummary } from "../wire" */
 /** @import { Asked } from "./asked.js" */
 
 const TABS = /** @type {const} */ (["flights", "hours"]);

@@ -7,8 +7,6 @@ import { World } from "../core/world.js";
 import { ResultsView } from "../results/view.js";
 import { useAsked, Waiting } from "./asked.js";
 
-/** @import { Result } from "../wire" */
-
 /** @param {{ flight: string, onReplay: (time: number) => void }} props */
 export function PastResults({ flight, onReplay }) {
   const { data, trouble } = /** @type {import("./asked.js").Asked<Result[]>} */ (

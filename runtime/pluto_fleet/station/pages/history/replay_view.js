@@ -10,15 +10,13 @@ import { t } from "../core/i18n.js";
 import { selection } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Watch } from "../monitor/page.js";
-import { Icon } from "../ui/icon.js";
 import { Button } from "../ui/button.js";
+import { Icon } from "../ui/icon.js";
 import { Said } from "../ui/parts.js";
 import { marksOf } from "./incidents.js";
 import { Playback } from "./playback.js";
 import { Replayer } from "./replayer.js";
 import { Transport } from "./transport.js";
-
-/** @import { Replay } from "../wire" */
 
 const PATIENCE = 30000; // ms
 const OWN_KEYS = "input, select, textarea, svg.floor-picture, [role=tablist], [role=log], [role=dialog]";

@@ -3,9 +3,6 @@
 
 import { batch } from "@preact/signals";
 
-/** @import { Frame, LogLine, Replay, Result } from "../wire" */
-/** @import { World } from "../core/world.js" */
-
 /** @typedef {(from: number) => Promise<Replay>} FetchPart */
 
 /**

@@ -10,7 +10,6 @@ import { Legend } from "../results/legend.js";
 import { PhotoLayer } from "../results/photo_layer.js";
 import { PinLayer } from "../results/pin_layer.js";
 
-/** @import { AppShape } from "../app" */
 /** @import { ResultsModel } from "../results/model.js" */
 
 const WIDTH = 640; // pixels

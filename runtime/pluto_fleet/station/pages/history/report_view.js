@@ -16,9 +16,6 @@ import { BatteryChart, Times } from "./battery_chart.js";
 import { ReportMap } from "./report_map.js";
 import { outcomeWords, tookWords } from "./words.js";
 
-/** @import { ComponentChildren } from "preact" */
-/** @import { AppShape } from "../app" */
-/** @import { FlightReport, Replay, ReportCommand, ReportDrone, ReportMission, ReportResults, Result } from "../wire" */
 /** @import { Asked } from "./asked.js" */
 
 /** @param {{ flight: string }} props */
@@ -122,7 +119,7 @@ const Commands = ({ commands }) => h(Table, {
   rows: commands.map(({ time, at, command, given, by, client, said }) => [
     time !== null ? clock(time) : at !== null ? moment(at) : "",
     [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")
-      .map(([name, value]) => `${plain(name)} ${inWords(/** @type {import("../app").Scalar} */ (value))}`)].join(", "),
+      .map(([name, value]) => `${plain(name)} ${inWords(/** @type {Scalar} */ (value))}`)].join(", "),
     by ?? client ?? "", h(Said, { text: said }),
   ]),
 });

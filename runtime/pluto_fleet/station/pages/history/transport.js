@@ -10,7 +10,6 @@ import { BatteryChart } from "./battery_chart.js";
 import { nextMark } from "./incidents.js";
 import { SPEEDS } from "./playback.js";
 
-/** @import { Replay } from "../wire" */
 /** @import { Mark } from "./incidents.js" */
 /** @import { Playback } from "./playback.js" */
 

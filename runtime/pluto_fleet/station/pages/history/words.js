@@ -3,7 +3,6 @@
 import { duration, moment } from "../core/format.js";
 import { t } from "../core/i18n.js";
 
-/** @import { FlightSummary } from "../wire" */
 /** @import { IconName } from "../ui/icon.js" */
 
 /** @type {Record<FlightSummary["end"], ["" | "good" | "warn" | "bad" | "info", IconName]>} */

@@ -5,8 +5,7 @@ import { createContext, h } from "preact";
 import { useContext } from "preact/hooks";
 import { between, kept, toMetres, toPixels, whole, zoomed } from "./view.js";
 
-/** @import { ComponentChildren } from "preact" */
-/** @import { At, Box, View } from "./view.js" */
+/** @import { Box, View } from "./view.js" */
 
 const EDGE = 60; // pixels that a revealed place keeps from the edge
 

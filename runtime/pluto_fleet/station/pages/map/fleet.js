@@ -1,9 +1,8 @@
 // The drones on the map, each with its battery, the way it came and where it is bound, and their names.
 
-import { computed } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { effect, signal } from "@preact/signals";
 import { percent } from "../core/format.js";
 import { t, tOr } from "../core/i18n.js";
 import { Mark, useCamera } from "./camera.js";
@@ -11,10 +10,6 @@ import { LINE, placed } from "./labels.js";
 import { way } from "./routes.js";
 import { toPixels } from "./view.js";
 
-/** @import { Signal } from "@preact/signals" */
-/** @import { AppShape } from "../app" */
-/** @import { DroneRow, MissionRow } from "../wire" */
-/** @import { World } from "../core/world.js" */
 /** @import { Label } from "./labels.js" */
 
 const TAIL = 30; // seconds of the way that it came

@@ -5,17 +5,14 @@
 import { effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
-import { t } from "../core/i18n.js";
 import { number } from "../core/format.js";
+import { t } from "../core/i18n.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Seen } from "./camera.js";
 import { Ground, Rulers, ScaleBar } from "./ground.js";
 import { hands } from "./hands.js";
 
-/** @import { ComponentChildren } from "preact" */
-/** @import { MapShape } from "../app" */
 /** @import { Camera } from "./camera.js" */
-/** @import { At } from "./view.js" */
 
 /**
  * @param {object} props
@@ -78,7 +75,7 @@ export function Floor({ map, camera, children, overlay, tools, class: more = "",
         h(Button, { small: true, kind: "quiet", onClick: () => camera.whole() }, t("map.whole")))));
 }
 
-/** Where the pointer is. @param {{ pointed: import("@preact/signals").Signal<At | null> }} props */
+/** Where the pointer is. @param {{ pointed: Signal<At | null> }} props */
 function Pointed({ pointed }) {
   const at = pointed.value;
   const two = { minimumFractionDigits: 2, maximumFractionDigits: 2 };

@@ -9,9 +9,6 @@ import { landmarks } from "../core/landmarks.js";
 import { useCamera } from "./camera.js";
 import { lines, step } from "./view.js";
 
-/** @import { Signal } from "@preact/signals" */
-/** @import { MapShape } from "../app" */
-
 /** @type {Map<string, Signal<string | null>>} by the picture's address */
 const pictures = new Map();
 

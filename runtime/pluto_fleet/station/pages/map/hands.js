@@ -1,7 +1,6 @@
 // How the map is moved and zoomed: by wheel, by one finger or two, by keys.
 
 /** @import { Camera } from "./camera.js" */
-/** @import { At } from "./view.js" */
 
 const STEP = 60; // pixels that an arrow key moves the map
 const SLIP = 5; // pixels that a press may slip and still be a press

@@ -3,8 +3,6 @@
 import { signal } from "@preact/signals";
 import { send, StationError } from "../core/api.js";
 
-/** @import { Point } from "../app" */
-
 /** @typedef {readonly [Point, Point]} Pair */
 
 const MOST = 500; // pairs in one question

@@ -5,8 +5,6 @@ import { setField } from "../core/changes.js";
 import { app, mayFly, plan } from "../core/station.js";
 import { Field } from "../ui/field.js";
 
-/** @import { FieldShape, PlanMission } from "../app" */
-
 /** @param {{ mission: PlanMission, field: FieldShape, onKeyDown?: (event: KeyboardEvent) => void }} props */
 export function MissionField({ mission, field, onKeyDown }) {
   const { key, launched } = mission;

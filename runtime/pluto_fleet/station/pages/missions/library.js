@@ -7,17 +7,15 @@ import { send, StationError } from "../core/api.js";
 import { many, moment } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
-import { mayFly, plan } from "../core/station.js";
 import { prefs } from "../core/prefs.js";
+import { mayFly, plan } from "../core/station.js";
 import { Button } from "../ui/button.js";
-import { Chip, Dialog, Empty, Said } from "../ui/parts.js";
 import { Icon } from "../ui/icon.js";
+import { Chip, Dialog, Empty, Said } from "../ui/parts.js";
 import { take, tellError } from "./files.js";
 
-/** @import { SavedPlan, SavedPlans, TrashedPlan } from "../wire" */
-
 const isOpen = signal(false);
-/** @type {import("@preact/signals").Signal<SavedPlans | null>} */
+/** @type {Signal<SavedPlans | null>} */
 const kept = signal(null);
 
 /** @param {string} name */

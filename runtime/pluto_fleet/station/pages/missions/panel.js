@@ -12,10 +12,8 @@ import { Touching } from "../ui/people.js";
 import { copy, open, remove, selectedInWords, unlocked } from "./commands.js";
 import { MissionField } from "./fields.js";
 import { marked } from "./marked.js";
-import { PROMISES, Promises } from "./promises.js";
+import { Promises, PROMISES } from "./promises.js";
 import { actionsOf, ownFirst } from "./words.js";
-
-/** @import { AppShape, PlanMission } from "../app" */
 
 const MOST_TOLD = 5; // problems
 

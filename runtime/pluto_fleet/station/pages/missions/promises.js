@@ -9,8 +9,6 @@ import { Icon } from "../ui/icon.js";
 import { Said } from "../ui/parts.js";
 import { MissionField } from "./fields.js";
 
-/** @import { PlanMission } from "../app" */
-
 export const PROMISES = ["opens", "deadline", "after"];
 
 /** @param {{ mission: PlanMission, wanted: boolean }} props wanted: it is to be opened */

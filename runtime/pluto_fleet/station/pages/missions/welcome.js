@@ -6,8 +6,6 @@ import { mayFly } from "../core/station.js";
 import { Button } from "../ui/button.js";
 import { example, importFile } from "./files.js";
 
-/** @import { ComponentChildren } from "preact" */
-
 const STEPS = /** @type {const} */ (["add", "trips", "start"]);
 
 /** @param {{ onAdd: () => void, children?: ComponentChildren }} props */

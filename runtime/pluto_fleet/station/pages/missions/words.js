@@ -3,7 +3,6 @@
 import { inWords, many, plain, TIME } from "../core/format.js";
 import { t } from "../core/i18n.js";
 
-/** @import { FieldShape, PlanMission, PlanTrip } from "../app" */
 /** @import { ShownProblem } from "../core/plan.js" */
 /** @import { IconName } from "../ui/icon.js" */
 

@@ -11,9 +11,6 @@ import { selectMission } from "../core/station.js";
 import { Button, IconButton } from "../ui/button.js";
 import { Said } from "../ui/parts.js";
 
-/** @import { LogLine } from "../wire" */
-/** @import { World } from "../core/world.js" */
-
 const SHOWN = 500; // lines
 const KINDS = /** @type {const} */ (["all", "info", "good", "bad", "hook"]);
 const SIGNS = { good: "✓", bad: "!", hook: "›", info: "" };

@@ -6,15 +6,11 @@ import { duration, many, number, roughly } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Battery, Empty, Said, joined } from "../ui/parts.js";
+import { Battery, Empty, joined, Said } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
 import { Standing, toneOf } from "../ui/standing.js";
 import { walking } from "../ui/walk.js";
 import { Join } from "./join.js";
-
-/** @import { AppShape } from "../app" */
-/** @import { DroneRow } from "../wire" */
-/** @import { World } from "../core/world.js" */
 
 const IN_THE_AIR = 0.2; // metres: below, a drone may stand on something
 

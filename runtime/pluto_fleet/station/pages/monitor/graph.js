@@ -10,9 +10,6 @@ import { toneOf } from "../ui/standing.js";
 import { blocksOf, leftWith, wayFinder } from "./graph_way.js";
 import { apart, HEIGHT, lanes, route, widthOf } from "./routes.js";
 
-/** @import { AppShape, BlockShape, EdgeShape, GraphShape } from "../app" */
-/** @import { MissionRow } from "../wire" */
-/** @import { World } from "../core/world.js" */
 /** @import { Node } from "./routes.js" */
 
 const LIT = 2500; // ms that an edge stays lit after a mission took it
@@ -127,7 +124,7 @@ function useLit(graph, world) {
   return lit;
 }
 
-/** @param {{ way: ReturnType<typeof drawn>["ways"][number], head: string, lit: import("@preact/signals").Signal<ReadonlySet<EdgeShape>> }} props */
+/** @param {{ way: ReturnType<typeof drawn>["ways"][number], head: string, lit: Signal<ReadonlySet<EdgeShape>> }} props */
 const Edge = ({ way: { d, edge, words, middle: [x, y] }, head, lit }) => h("g", { class: lit.value.has(edge) ? "lit" : "" },
   h("path", {
     class: `edge ${edge.fork ? "fork" : ""} ${edge.implicit || !edge.statuses.length ? "dotted" : ""}`, d,

@@ -1,8 +1,5 @@
 // By which edges a mission came where it is now. Pure.
 
-/** @import { EdgeShape, GraphShape } from "../app" */
-/** @import { MissionRow } from "../wire" */
-
 /**
  * Return the function that finds the edges of the shortest way from one of the blocks `from`, left with a
  * status, to the block `to`, reached with the final one; none where no way fits, so that nothing is

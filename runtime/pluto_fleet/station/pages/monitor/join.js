@@ -7,8 +7,6 @@ import { t } from "../core/i18n.js";
 import { app, perform } from "../core/station.js";
 import { Button } from "../ui/button.js";
 
-/** @import { AppShape } from "../app" */
-
 export function Join() {
   const { categories, sim } = /** @type {AppShape} */ (app.value);
   const form = useRef(/** @type {HTMLFormElement | null} */ (null));

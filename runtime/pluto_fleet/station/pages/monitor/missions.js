@@ -5,7 +5,7 @@ import { h } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { capital, inWords, number } from "../core/format.js";
 import { t } from "../core/i18n.js";
-import { app, mayFly, perform, plan, selection, selectDrone, selectMission } from "../core/station.js";
+import { app, mayFly, perform, plan, selectDrone, selection, selectMission } from "../core/station.js";
 import { hasEnded } from "../core/world.js";
 import { start } from "../start/commands.js";
 import { Button, IconButton } from "../ui/button.js";
@@ -14,10 +14,6 @@ import { Standing, toneOf } from "../ui/standing.js";
 import { SureButton } from "../ui/sure.js";
 import { walking } from "../ui/walk.js";
 import { calledTrip, done, due, progress, why } from "./waiting.js";
-
-/** @import { AppShape, FieldShape } from "../app" */
-/** @import { MissionRow, TripRow } from "../wire" */
-/** @import { World } from "../core/world.js" */
 
 /** @type {Record<string, (row: MissionRow) => boolean>} */
 const FILTERS = {
@@ -174,4 +170,3 @@ function Trip({ trip, index, isCurrent, can, hasPriority, send }) {
         onClick: () => send("skip", { trip: trip.name }),
       }, t("monitor.skip"))));
 }
-

@@ -18,15 +18,12 @@ import { MissionList } from "./missions.js";
 import { Questions } from "./questions.js";
 import { Targets } from "./targets.js";
 
-/** @import { AppShape } from "../app" */
-/** @import { World } from "../core/world.js" */
-
 const LISTS = /** @type {const} */ (["missions", "drones", "log", "graph"]);
 /** @typedef {typeof LISTS[number]} ListName */
 
 /**
  * The Monitor of a world: live, or of a replay, in which nothing can be commanded.
- * @param {{ world: World, live: boolean, foot?: import("preact").ComponentChildren }} props
+ * @param {{ world: World, live: boolean, foot?: ComponentChildren }} props
  */
 export function Watch({ world: seen, live, foot }) {
   const shape = /** @type {AppShape} */ (app.value);

@@ -8,9 +8,6 @@ import { Icon } from "../ui/icon.js";
 import { SaidWords } from "../ui/parts.js";
 import { SureButton } from "../ui/sure.js";
 
-/** @import { MissionRow, Question } from "../wire" */
-/** @import { World } from "../core/world.js" */
-
 /** @param {{ world: World }} props */
 export function Questions({ world }) {
   const rows = world.missions.all().filter(({ question }) => question !== null);

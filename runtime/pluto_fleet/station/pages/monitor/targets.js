@@ -5,8 +5,6 @@ import { selectMission } from "../core/station.js";
 import { hasEnded } from "../core/world.js";
 import { Mark } from "../map/camera.js";
 
-/** @import { World } from "../core/world.js" */
-
 /** @param {{ world: World, chosen: string | null }} props */
 export function Targets({ world, chosen }) {
   const way = world.missions.get(chosen)?.trips ?? [];

@@ -4,8 +4,6 @@ import { capital, duration, number, plain, roughly } from "../core/format.js";
 import { t } from "../core/i18n.js";
 import { isTranslated, say } from "../core/said.js";
 
-/** @import { MissionRow, TripRow } from "../wire" */
-
 /** A trip's name, or its action if it was given none. @param {TripRow} trip @param {number} index */
 export const calledTrip = (trip, index) =>
   (trip.name === String(index + 1) ? capital(trip.action) : trip.name);
@@ -44,4 +42,3 @@ export function counted(rows) {
   for (const { status } of rows) counts[status] = (counts[status] ?? 0) + 1;
   return counts;
 }
-

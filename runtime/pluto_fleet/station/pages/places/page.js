@@ -3,24 +3,20 @@
 import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { freeName } from "../core/keys.js";
 import { number, typedNumber } from "../core/format.js";
 import { t } from "../core/i18n.js";
+import { freeName } from "../core/keys.js";
 import { changeMap, landmarks, uploadPlan } from "../core/landmarks.js";
 import { app, mayFly } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
-import { Landmarks, landmarkNames, middle, North } from "../map/landmarks.js";
+import { landmarkNames, Landmarks, middle, North } from "../map/landmarks.js";
 import { Button, IconButton } from "../ui/button.js";
-import { Empty, Said } from "../ui/parts.js";
 import { MapSplit } from "../ui/map_split.js";
+import { Empty, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
-
-/** @import { AppShape } from "../app" */
-/** @import { MapData } from "../wire" */
-/** @import { At } from "../map/view.js" */
 
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */
 const STEP = 0.1; // metres to which what is drawn snaps
@@ -197,4 +193,3 @@ const Item = ({ name, said, can, onShow, onName, onRemove }) => h("li", { class:
   }) : h("span", { class: "called" }, name),
   h("button", { type: "button", class: "link num", onClick: onShow }, said),
   can && h(IconButton, { icon: "close", label: t("map.remove", { name }), onClick: onRemove }));
-

@@ -9,7 +9,6 @@ import { placeOf } from "./layers.js";
 import { revealBeside } from "./reveal.js";
 import { drainedWords, sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
 
-/** @import { Result } from "../wire" */
 /** @import { Camera } from "../map/camera.js" */
 /** @import { ResultsModel } from "./model.js" */
 

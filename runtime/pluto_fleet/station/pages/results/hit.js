@@ -1,7 +1,5 @@
 // What lies under the pointer: a pin or a value that is near, else the photo on top. Pure.
 
-/** @import { Result } from "../wire" */
-/** @import { At } from "../map/view.js" */
 /** @import { PhotoOnMap, Pin } from "./layers.js" */
 
 export const NEAR = 14; // pixels around what is small

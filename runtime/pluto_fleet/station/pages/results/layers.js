@@ -1,7 +1,5 @@
 // The layers of the map: what an app says of its results, with the results that it says it of. Pure.
 
-/** @import { Layer, Result } from "../wire" */
-
 /**
  * A layer as it is shown.
  * @typedef {object} ShownLayer

@@ -9,9 +9,6 @@ import { countsOf, layersOn, photosOf, pinsOf, placeOf, shownLayers } from "./la
 import { ALL, filtered, sorted } from "./table_model.js";
 import { rowOf } from "./words.js";
 
-/** @import { Signal } from "@preact/signals" */
-/** @import { Layer, Result } from "../wire" */
-/** @import { World } from "../core/world.js" */
 /** @import { Column, Filters } from "./table_model.js" */
 
 export class ResultsModel {
@@ -58,7 +55,7 @@ export class ResultsModel {
     return number === null ? undefined : this.results.value.find((one) => one.number === number);
   }
 
-  /** The results under a pointer, the newest first. @param {import("../map/view.js").At} at @param {number} scale */
+  /** The results under a pointer, the newest first. @param {At} at @param {number} scale */
   under(at, scale) {
     const [pins, values, photos] = [this.pins.peek(), this.values.peek(), this.photos.peek()];
     return hit(at, scale, { pins, values, photos });

@@ -10,8 +10,6 @@ import { go } from "../core/route.js";
 import { selectMission, world } from "../core/station.js";
 import { ResultsView } from "./view.js";
 
-/** @import { Result } from "../wire" */
-
 const PATIENCE = 30000; // ms
 
 /** @param {Result} result */

@@ -7,9 +7,9 @@ import { useCamera } from "../map/camera.js";
 import { pictureAt } from "../map/ground.js";
 import { useCalm } from "../ui/calm.js";
 
+/** @import { Box, View } from "../map/view.js" */
 /** @import { PhotoOnMap } from "./layers.js" */
 /** @import { ResultsModel } from "./model.js" */
-/** @import { Box, View } from "../map/view.js" */
 
 const LEAST = 40; // pixels across, from which on the picture is drawn
 const MOST_PICTURES = 300;

@@ -11,7 +11,6 @@ import { Dialog, Empty } from "../ui/parts.js";
 import { Facts } from "./card.js";
 import { placeWords, sharpnessWords, tagWords } from "./words.js";
 
-/** @import { PhotoValue, Result } from "../wire" */
 /** @import { ResultsModel } from "./model.js" */
 
 const AT_ONCE = 48;

@@ -1,7 +1,5 @@
 // The table of results: filtered, sorted, and of thousands of rows those that are seen. Pure.
 
-/** @import { Result } from "../wire" */
-
 export const COLUMNS = /** @type {const} */ (["time", "what", "value", "place", "mission", "trip", "drone"]);
 /** @typedef {typeof COLUMNS[number]} Column */
 

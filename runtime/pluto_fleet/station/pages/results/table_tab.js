@@ -3,17 +3,16 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { language, t } from "../core/i18n.js";
 import { plain } from "../core/format.js";
+import { language, t } from "../core/i18n.js";
 import { Button } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { Empty } from "../ui/parts.js";
 import { ALL, choices, COLUMNS, windowOf } from "./table_model.js";
 import { drainedWords } from "./words.js";
 
-/** @import { Filters, Row } from "./table_model.js" */
 /** @import { ResultsModel } from "./model.js" */
-/** @import { Result } from "../wire" */
+/** @import { Filters, Row } from "./table_model.js" */
 
 const ROW = 40; // pixels
 

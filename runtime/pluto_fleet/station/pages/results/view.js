@@ -15,8 +15,8 @@ import { Empty, Tabs } from "../ui/parts.js";
 import { ResultCard } from "./card.js";
 import { Exports } from "./exports.js";
 import { estimated, HeatLayers } from "./heat_layer.js";
-import { LayersTab } from "./layers_tab.js";
 import { placeOf } from "./layers.js";
+import { LayersTab } from "./layers_tab.js";
 import { Legend } from "./legend.js";
 import { ResultsModel } from "./model.js";
 import { PhotoLayer } from "./photo_layer.js";
@@ -26,11 +26,6 @@ import { revealBeside } from "./reveal.js";
 import { TableTab } from "./table_tab.js";
 import { VerdictsTab } from "./verdicts_tab.js";
 import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words.js";
-
-/** @import { AppShape } from "../app" */
-/** @import { World } from "../core/world.js" */
-/** @import { Result } from "../wire" */
-/** @import { Signal } from "@preact/signals" */
 
 const PHONE = matchMedia("(max-width: 760px)");
 const TABS = /** @type {const} */ (["layers", "table", "photos", "verdicts"]);
@@ -128,7 +123,7 @@ function Stage({ model, camera, choose }) {
     }), h(Tip, { pointed }));
 }
 
-/** What is known of the place under the pointer. @param {ResultsModel} model @param {import("../map/view.js").At} at @param {number} scale */
+/** What is known of the place under the pointer. @param {ResultsModel} model @param {At} at @param {number} scale */
 function wordsAt(model, at, scale) {
   const [newest, ...earlier] = model.under(at, scale);
   if (newest) {

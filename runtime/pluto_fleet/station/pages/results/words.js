@@ -5,7 +5,6 @@ import { t } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { placeOf } from "./layers.js";
 
-/** @import { Quantity, Result } from "../wire" */
 /** @import { ShownLayer } from "./layers.js" */
 /** @import { Row } from "./table_model.js" */
 

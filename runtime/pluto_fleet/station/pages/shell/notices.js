@@ -7,7 +7,6 @@ import { Button, IconButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
 import { Said } from "../ui/parts.js";
 
-/** @import { Signal } from "@preact/signals" */
 /** @import { Notice } from "../core/notices.js" */
 
 /** @param {{ notice: Signal<Notice | null> }} props */

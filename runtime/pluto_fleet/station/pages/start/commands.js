@@ -5,13 +5,12 @@ import { h } from "preact";
 import { command, StationError } from "../core/api.js";
 import { t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
-import { line, mayFly, perform, plan, selectKey, world } from "../core/station.js";
 import { go, page, wantedField } from "../core/route.js";
+import { line, mayFly, perform, plan, selectKey, world } from "../core/station.js";
 import { isFlying } from "../core/world.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { inFull, startWords } from "./words.js";
 
-/** @import { Signal } from "@preact/signals" */
 /** @import { ShownProblem } from "../core/plan.js" */
 
 const STOP_FOR = 60000; // ms that a Stop is tried
@@ -105,4 +104,3 @@ export function StartButtons() {
     onPress: () => (able ? open() : said && known && tell(said, { isSaid: problem !== null && !problem.isOwn })),
   }, text));
 }
-

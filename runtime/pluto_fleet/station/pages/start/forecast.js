@@ -5,7 +5,6 @@ import { useEffect, useMemo } from "preact/hooks";
 import { send, StationError } from "../core/api.js";
 import { plan } from "../core/station.js";
 
-/** @import { Forecast } from "../wire" */
 /** @typedef {{ forecast: Forecast | null, trouble: string }} Asked */
 
 const LONGEST = 30000; // ms

@@ -4,18 +4,16 @@ import { h } from "preact";
 import { useState } from "preact/hooks";
 import { duration, percent } from "../core/format.js";
 import { t } from "../core/i18n.js";
-import { say } from "../core/said.js";
 import { toFly } from "../core/plan.js";
 import { go } from "../core/route.js";
+import { say } from "../core/said.js";
 import { line, plan, world } from "../core/station.js";
 import { Button, HoldButton } from "../ui/button.js";
 import { Icon } from "../ui/icon.js";
-import { Battery, Chip, Dialog, Said, SaidWords, joined } from "../ui/parts.js";
+import { Battery, Chip, Dialog, joined, Said, SaidWords } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
 import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
-
-/** @import { Forecast, MissionForecast, Readiness, Words } from "../wire" */
 
 const OFTEN = 0.05; // a share of runs that is worth a word
 const SHOWN = 12; // missions

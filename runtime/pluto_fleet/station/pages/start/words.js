@@ -4,9 +4,7 @@ import { many } from "../core/format.js";
 import { t, tOr } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
 
-/** @import { PlanMission } from "../app" */
 /** @import { ShownProblem } from "../core/plan.js" */
-/** @import { DroneRow, State } from "../wire" */
 
 /**
  * @typedef {object} StartWords

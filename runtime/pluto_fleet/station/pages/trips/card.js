@@ -13,7 +13,6 @@ import { RELEASE } from "./carried.js";
 import { copy, remove, setAxis, setDraft, setField, setIn, shift } from "./commands.js";
 import { abouts } from "./state.js";
 
-/** @import { ActionShape, AppShape, FieldShape, PlanTrip } from "../app" */
 /** @import { Changed } from "../ui/field.js" */
 /** @import { About } from "./state.js" */
 

@@ -1,7 +1,5 @@
 // What is put down is what was picked before: in name and in mass. Pure.
 
-/** @import { PlanTrip } from "../app" */
-
 export const PICK = "pick_item";
 export const RELEASE = "release_item";
 

@@ -11,7 +11,6 @@ import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";
 import { abouts, isLocked, markAll, marked, markOne } from "./state.js";
 
-/** @import { ActionShape, PlanTrip, Point } from "../app" */
 /** @import { Draft } from "../core/plan.js" */
 
 /** @returns {PlanTrip[]} */

@@ -20,8 +20,8 @@ import { MapSplit } from "../ui/map_split.js";
 import { Said } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
-import { PICK } from "./carried.js";
 import { focusField, focusHead, SeveralTrips, TripCards } from "./cards.js";
+import { PICK } from "./carried.js";
 import { add } from "./commands.js";
 import { TripLabels } from "./labels.js";
 import { Palette, take } from "./palette.js";
@@ -32,8 +32,6 @@ import { abouts, hovered, inHand, isLocked, marked, markOne, pattern, places, to
 import { ToolButtons, ToolPanel } from "./tools.js";
 import { OtherTrips, Ways } from "./ways.js";
 
-/** @import { AppShape, PlanMission } from "../app" */
-/** @import { At } from "../map/view.js" */
 /** @import { Added } from "./palette.js" */
 
 const MOST_OFFERED = 8; // missions

@@ -2,7 +2,6 @@
 
 import { rounded } from "./snapping.js";
 
-/** @import { At } from "../map/view.js" */
 /** @typedef {[number, number]} Target */
 
 /** So many places from one point to another, both of them included. @param {At} from @param {At} to @param {number} count @returns {Target[]} */

@@ -9,7 +9,6 @@ import { copy, meant, nudge, place, remove, where } from "./commands.js";
 import { rounded, snapped } from "./snapping.js";
 import { abouts, held, isLocked, markAll, marked, markOne, places, toggle } from "./state.js";
 
-/** @import { Point } from "../app" */
 /** @import { About } from "./state.js" */
 
 export const BESIDE = 25; // pixels between pins at one place

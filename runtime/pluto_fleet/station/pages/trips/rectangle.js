@@ -2,12 +2,10 @@
 
 import { h } from "preact";
 import { useRef } from "preact/hooks";
-import { abouts, drawn, markAll, marked, tool } from "./state.js";
 import { rounded } from "./snapping.js";
+import { abouts, drawn, markAll, marked, tool } from "./state.js";
 
-/** @import { ComponentChildren } from "preact" */
 /** @import { Camera } from "../map/camera.js" */
-/** @import { At } from "../map/view.js" */
 
 /** @param {At} at @returns {At} */
 const onGrid = ({ x, y }) => ({ x: rounded(x, 0.1), y: rounded(y, 0.1) });

@@ -1,8 +1,5 @@
 // Where a pin goes that is held somewhere: to a named place nearby, else to a round coordinate. Pure.
 
-/** @import { Place } from "../wire" */
-/** @import { At } from "../map/view.js" */
-
 const STEP = 0.1; // metres
 const FINE = 0.01;
 const NEAR = 0.5; // of a named place

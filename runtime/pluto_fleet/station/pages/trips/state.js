@@ -1,18 +1,15 @@
 // What is going on at the map of the trips: which pins are selected, what is held, which tool is at work.
 
 import { computed, signal } from "@preact/signals";
+import { t } from "../core/i18n.js";
 import { landmarks } from "../core/landmarks.js";
 import { marking } from "../core/marking.js";
 import { app, mayFly, plan, selected, selection, selectKey, world } from "../core/station.js";
 import { whyNot } from "../map/view.js";
-import { t } from "../core/i18n.js";
 import { picks } from "./carried.js";
 import { placeAt } from "./snapping.js";
 
-/** @import { Signal } from "@preact/signals" */
-/** @import { ActionShape, PlanTrip, Point } from "../app" */
 /** @import { ShownProblem } from "../core/plan.js" */
-/** @import { At } from "../map/view.js" */
 
 /** Where pins are that are being dragged, by the keys of their trips. @type {Signal<ReadonlyMap<string, Point>>} */
 export const held = signal(new Map());
@@ -108,4 +105,3 @@ function about(trip, at, wrong, pick) {
     problems, pickedIn: pick === undefined ? null : pick + 1,
   };
 }
-

@@ -10,8 +10,6 @@ import { app } from "../core/station.js";
 import { abouts, pattern } from "./state.js";
 import { CornerFields, corners, MOST, ToolField } from "./tool_parts.js";
 
-/** @import { Point } from "../app" */
-/** @import { Swept } from "../wire" */
 /** @import { Corners } from "./tool_parts.js" */
 
 const PAUSE = 250; // ms until what is being drawn is asked for

@@ -7,7 +7,6 @@ import { app } from "../core/station.js";
 import { read } from "../core/typed.js";
 import { drawn, pattern, tool } from "./state.js";
 
-/** @import { At } from "../map/view.js" */
 /** @import { Tool } from "./state.js" */
 
 export const MOST = 500; // trips at once

@@ -14,8 +14,6 @@ import { pattern, tool } from "./state.js";
 import { Sweep } from "./sweep.js";
 import { ActionChoice, CornerFields, corners, MOST, plainAction, ToolField, work } from "./tool_parts.js";
 
-/** @import { ComponentChildren } from "preact" */
-
 const TOOLS = /** @type {const} */ ([["area", "select"], ["row", "row"], ["grid", "grid"], ["sweep", "sweep"]]);
 
 /** The buttons of the tools. */

@@ -4,11 +4,9 @@ import { h } from "preact";
 import { t } from "../core/i18n.js";
 import { app, plan, selected, selection } from "../core/station.js";
 import { Mark } from "../map/camera.js";
-import { called } from "../missions/words.js";
 import { way } from "../map/routes.js";
+import { called } from "../missions/words.js";
 import { abouts } from "./state.js";
-
-/** @import { Point } from "../app" */
 
 /** The home that is nearest to a place. @param {readonly { home: Point }[]} drones @param {Point} to */
 function nearest(drones, [x, y]) {

@@ -5,7 +5,6 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { Icon } from "./icon.js";
 
-/** @import { ComponentChildren } from "preact" */
 /** @import { IconName } from "./icon.js" */
 
 /**

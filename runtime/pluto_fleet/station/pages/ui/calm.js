@@ -3,8 +3,6 @@
 import { effect, signal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 
-/** @import { ReadonlySignal } from "@preact/signals" */
-
 /**
  * A signal's value, at once and then at most every `every` milliseconds; the last one is always told.
  * @template Value

@@ -9,9 +9,6 @@ import { isNumeric, placeholder, read, written } from "../core/typed.js";
 import { Icon } from "./icon.js";
 import { Said } from "./parts.js";
 
-/** @import { ComponentChildren } from "preact" */
-/** @import { FieldShape, Scalar } from "../app" */
-
 /** What was typed and cannot be in the plan. @typedef {{ typed: string, why: string }} Wrong */
 /**
  * @callback Changed

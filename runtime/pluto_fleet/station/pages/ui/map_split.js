@@ -6,8 +6,6 @@ import { t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { IconButton } from "./button.js";
 
-/** @import { ComponentChildren } from "preact" */
-
 /** @param {{ stage: ComponentChildren, rail: ComponentChildren, tools?: ComponentChildren }} props */
 export function MapSplit({ stage, rail, tools }) {
   const element = useRef(/** @type {HTMLDivElement | null} */ (null));

@@ -2,13 +2,11 @@
 
 import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
-import { IconButton } from "./button.js";
-import { Icon } from "./icon.js";
 import { language, t } from "../core/i18n.js";
 import { isTranslated, say } from "../core/said.js";
+import { IconButton } from "./button.js";
+import { Icon } from "./icon.js";
 
-/** @import { ComponentChildren } from "preact" */
-/** @import { Words } from "../wire" */
 /** @import { IconName } from "./icon.js" */
 
 /** @param {{ kind?: "" | "good" | "warn" | "bad" | "info", icon?: IconName, children?: ComponentChildren }} props */

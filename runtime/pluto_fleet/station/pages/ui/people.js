@@ -4,8 +4,6 @@ import { h } from "preact";
 import { t } from "../core/i18n.js";
 import { world } from "../core/station.js";
 
-/** @import { Person } from "../wire" */
-
 const COLOURS = 6; // that tokens.css has
 
 /** @param {Person} person */
