@@ -4,7 +4,7 @@
 import { signal } from "@preact/signals";
 import { h, render } from "preact";
 import { useErrorBoundary } from "preact/hooks";
-import { alarm } from "./attention/alarm.js";
+import { alarm } from "./attention/attention.js";
 import { takeTokenFromAddress } from "./core/api.js";
 import { bestLanguage, speak, t } from "./core/i18n.js";
 import { followMap } from "./core/landmarks.js";
@@ -12,10 +12,8 @@ import { tell } from "./core/notices.js";
 import { applyLook, prefs } from "./core/prefs.js";
 import { page, PAGES } from "./core/route.js";
 import { app, connect, refusal } from "./core/station.js";
-import { Gate } from "./shell/gate.js";
 import { Head, LostLine } from "./shell/head.js";
-import { Notices } from "./shell/notices.js";
-import { Over } from "./shell/over.js";
+import { Gate, Notices, Over } from "./shell/over.js";
 
 /** @import { ComponentType } from "preact" */
 /** @import { PageName } from "./core/route.js" */

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { grid, row } from "../../../../runtime/pluto_fleet/station/pages/trips/patterns.js";
+import { grid, row } from "../../../../runtime/pluto_fleet/station/pages/trips/snapping.js";
 import { placeNear, snapped } from "../../../../runtime/pluto_fleet/station/pages/trips/snapping.js";
 import { linked } from "../../../../runtime/pluto_fleet/station/pages/trips/carried.js";
 

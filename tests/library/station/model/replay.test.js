@@ -1,8 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { World } from "../../../../runtime/pluto_fleet/station/pages/core/world.js";
-import { marksOf, nextMark } from "../../../../runtime/pluto_fleet/station/pages/history/incidents.js";
-import { linesOf } from "../../../../runtime/pluto_fleet/station/pages/history/levels.js";
+import { marksOf, nextMark } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
+import { linesOf } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
 import { Playback } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
 import { countUntil, Replayer } from "../../../../runtime/pluto_fleet/station/pages/history/replayer.js";
 

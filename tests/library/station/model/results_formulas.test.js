@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Field, heatAt, newest } from "../../../../runtime/pluto_fleet/station/pages/results/heat.js";
-import { hit } from "../../../../runtime/pluto_fleet/station/pages/results/hit.js";
+import { hit } from "../../../../runtime/pluto_fleet/station/pages/results/layers.js";
 import { photosOf } from "../../../../runtime/pluto_fleet/station/pages/results/layers.js";
 
 const VECTORS = JSON.parse(readFileSync(new URL("../results/vectors.json", import.meta.url), "utf-8"));

@@ -1,10 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { colourAt, shareOf } from "../../../../runtime/pluto_fleet/station/pages/results/colours.js";
+import { colourAt, shareOf } from "../../../../runtime/pluto_fleet/station/pages/results/heat.js";
 import { Field, heatAt, newest, pixelsOf, rasterOf, samplesOf } from "../../../../runtime/pluto_fleet/station/pages/results/heat.js";
-import { hit, spotsOf } from "../../../../runtime/pluto_fleet/station/pages/results/hit.js";
+import { hit, spotsOf } from "../../../../runtime/pluto_fleet/station/pages/results/layers.js";
 import {
-  countsOf, layersOn, photosOf, pinsOf, placeOf, shownLayers,
+  countsOf, layersOn, photosOf, pinsOf, shownLayers,
 } from "../../../../runtime/pluto_fleet/station/pages/results/layers.js";
 
 const NOTHING = { title: null, quantity: null, unit: null, low: null, high: null, reach: null };
@@ -73,7 +73,7 @@ test("the sharpest photo lies on top, of equals the newest, and is the one that 
 
 test("a value near the pointer comes before the photo under it, with those measured there before", () => {
   const [before, now] = [measured("a", 1, [2, 2]), measured("a", 2, [2, 2])];
-  const values = spotsOf([before, now], placeOf);
+  const values = spotsOf([before, now]);
   assert.deepEqual(hit({ x: 2.1, y: 2 }, 40, { pins: [], values, photos: photosOf([photo(1, [2, 2, 1])]) }), [now, before]);
 });
 

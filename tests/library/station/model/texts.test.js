@@ -5,8 +5,7 @@ import assert from "node:assert/strict";
 import { after, test } from "node:test";
 
 const PAGES = "../../../../runtime/pluto_fleet/station/pages";
-const { bestLanguage, has, language, LANGUAGES, speak, t } = await import(`${PAGES}/core/i18n.js`);
-const { isTranslated, say } = await import(`${PAGES}/core/said.js`);
+const { bestLanguage, has, isTranslated, language, LANGUAGES, say, speak, t } = await import(`${PAGES}/core/i18n.js`);
 const names = Object.keys(LANGUAGES);
 /** @type {Record<string, Record<string, string | { one: string, other: string }>>} */
 const catalogues = Object.fromEntries(await Promise.all(names.map(async (name) =>

@@ -1,8 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { addMission, inTrips, moved, removeMission, setField, withField } from "../../../../runtime/pluto_fleet/station/pages/core/changes.js";
-import { between, isSame, reverting } from "../../../../runtime/pluto_fleet/station/pages/core/difference.js";
-import { Undo } from "../../../../runtime/pluto_fleet/station/pages/core/undo.js";
+import { between, isSame, reverting, Undo } from "../../../../runtime/pluto_fleet/station/pages/core/undo.js";
 
 const addTrips = (/** @type {string} */ mission, /** @type {any[]} */ fresh, at = 0) =>
   inTrips(mission, (trips) => trips.toSpliced(at, 0, ...fresh));

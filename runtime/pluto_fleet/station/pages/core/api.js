@@ -17,6 +17,12 @@ export class StationError extends Error {
   }
 }
 
+/** What went wrong at the station; what went wrong here is thrown on. @param {unknown} error */
+export function ofStation(error) {
+  if (error instanceof StationError) return error;
+  throw error;
+}
+
 /** @param {number} time milliseconds */
 export const pause = (time) => new Promise((done) => { setTimeout(done, time); });
 

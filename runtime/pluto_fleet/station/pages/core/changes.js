@@ -74,7 +74,7 @@ export const inTrips = (mission, change) => (/** @type {PlanMission[]} */ missio
   missions.map((one) => (one.key === mission ? { ...one, trips: change(one.trips) } : one));
 
 /** Each value of a plan, by where it stands. @param {PlanMission[]} missions @returns {Map<string, string>} */
-export const leaves = (missions) => new Map(missions.flatMap(({ key, trips, launched, ...own }) =>
+export const leaves = (missions) => new Map(missions.flatMap(({ key, trips = [], launched, ended, ...own }) =>
   [[key, own], ...trips.map(({ key: trip, ...its }) => [`${key} ${trip}`, its])])
   .flatMap(([at, value]) => flat(String(at), value)));
 

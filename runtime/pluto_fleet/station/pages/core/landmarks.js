@@ -2,10 +2,10 @@
 // station, in the fleet file.
 
 import { effect, signal } from "@preact/signals";
-import { get, send, StationError } from "./api.js";
+import { get, ofStation, send } from "./api.js";
 import { t } from "./i18n.js";
 import { tell } from "./notices.js";
-import { world } from "./station.js";
+import { tellError, world } from "./station.js";
 
 const AGAIN = 3000; // ms
 
@@ -19,7 +19,7 @@ async function load(revision) {
   try {
     landmarks.value = await get("/api/map");
   } catch (error) {
-    if (!(error instanceof StationError)) throw error;
+    ofStation(error);
     setTimeout(() => { asked = -1; }, AGAIN);
   }
 }
@@ -58,8 +58,6 @@ async function sent(ask) {
     if (status === 409) tell(t("map.changed-meanwhile"), { bad: true });
     return status === 200;
   } catch (error) {
-    if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true, isSaid: error.isSaid });
-    return false;
+    return tellError(error);
   }
 }

@@ -2,7 +2,7 @@
 // quicker, it is made again on top of theirs; without a connection, it is saved later.
 
 import { batch, signal } from "@preact/signals";
-import { get, pause, send, StationError } from "./api.js";
+import { get, ofStation, pause, send } from "./api.js";
 import { leaves } from "./changes.js";
 import { t } from "./i18n.js";
 
@@ -137,15 +137,15 @@ export class PlanStore {
 
   /** @param {unknown} error @param {number} sent @param {PlanMission[]} missions */
   failed(error, sent, missions) {
-    if (!(error instanceof StationError)) throw error;
-    if ([400, 403, 413].includes(error.status)) { // the station will never have it
+    const { status, message } = ofStation(error);
+    if ([400, 403, 413].includes(status)) { // the station will never have it
       this.pending = this.pending.slice(sent);
       this.replay();
-      this.refused(error.message);
+      this.refused(message);
     } else {
       this.tries = Math.min(this.tries + 1, 3);
       this.unanswered = missions;
-      this.trouble.value = error.message;
+      this.trouble.value = message;
     }
   }
 

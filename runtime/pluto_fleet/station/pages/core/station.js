@@ -1,7 +1,7 @@
 // The station as this page knows it: its app, the flight, the plan, and what is selected. Made once.
 
 import { computed, effect, signal } from "@preact/signals";
-import { command, get, pause, StationError, who } from "./api.js";
+import { command, download, get, ofStation, pause, StationError, who } from "./api.js";
 import { t } from "./i18n.js";
 import { newKey } from "./keys.js";
 import { LiveLine } from "./live.js";
@@ -157,8 +157,16 @@ export async function perform(name, given = {}) {
     tell(await command(name, given), { isSaid: true });
     return true;
   } catch (error) {
-    if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true, isSaid: error.isSaid });
-    return false;
+    return tellError(error);
   }
 }
+
+/** Tell what the station did not do. @param {unknown} error */
+export function tellError(error) {
+  const { message, isSaid } = ofStation(error);
+  tell(message, { bad: true, isSaid });
+  return false;
+}
+
+/** Save what the station has at an address. @param {string} path @param {string} name */
+export const save = (path, name) => download(path, name).catch(tellError);

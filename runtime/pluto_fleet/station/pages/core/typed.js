@@ -1,7 +1,6 @@
 // What is typed into a field of an app, as a value of the plan, and back. Pure, but for the texts.
 
-import { inWords, TIME, typedNumber, typedQuantity, usualUnit } from "./format.js";
-import { t } from "./i18n.js";
+import { inWords, t, TIME, typedNumber, typedQuantity, usualUnit } from "./i18n.js";
 
 const NUMERIC = ["int", "float"];
 

@@ -6,8 +6,7 @@ import { useEffect } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { go } from "../core/route.js";
-import { Button } from "../ui/button.js";
-import { Dialog } from "../ui/parts.js";
+import { Button, Dialog } from "../ui/parts.js";
 
 /** @import { PageName } from "../core/route.js" */
 

@@ -4,11 +4,10 @@
 
 import { h } from "preact";
 import { useMemo } from "preact/hooks";
-import { clock, percent } from "../core/format.js";
-import { t } from "../core/i18n.js";
-import { linesOf } from "./levels.js";
+import { clock, percent, t } from "../core/i18n.js";
+import { linesOf } from "./playback.js";
 
-/** @import { Mark } from "./incidents.js" */
+/** @import { Mark } from "./playback.js" */
 
 /**
  * @param {object} props

@@ -2,12 +2,14 @@
 
 import { useSignal } from "@preact/signals";
 import { h } from "preact";
+import { useEffect, useMemo } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { go } from "../core/route.js";
-import { save } from "../results/exports.js";
-import { Button } from "../ui/button.js";
-import { Tabs } from "../ui/parts.js";
-import { PastResults } from "./past_results.js";
+import { save } from "../core/station.js";
+import { World } from "../core/world.js";
+import { ResultsView } from "../results/view.js";
+import { Button, Tabs } from "../ui/parts.js";
+import { useAsked, Waiting } from "./asked.js";
 import { ReplayView } from "./replay_view.js";
 import { ReportView } from "./report_view.js";
 
@@ -44,4 +46,20 @@ export function FlightView({ flight }) {
       }),
       report: () => h(ReportView, { flight }),
     }[isRehearsal ? "replay" : tab.value]()));
+}
+
+/** @param {{ flight: string, onReplay: (time: number) => void }} props */
+export function PastResults({ flight, onReplay }) {
+  const { data, trouble } = /** @type {import("./asked.js").Asked<Result[]>} */ (
+    useAsked(`/api/results.json?flight=${encodeURIComponent(flight)}`));
+  const world = useMemo(() => new World(), [flight]);
+  useEffect(() => {
+    if (!data) return;
+    world.results.replace(data);
+    world.state.value = { ...world.state.peek(), phase: "over", known: true };
+  }, [data, world]);
+  if (!data) return h(Waiting, { trouble });
+  return h(ResultsView, {
+    world, flight, onConsole: ({ time }) => onReplay(time), consoleWords: t("history.show-in-replay"),
+  });
 }

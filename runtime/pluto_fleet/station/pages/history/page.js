@@ -1,15 +1,14 @@
-// The page History: the flights that are kept here, each to be watched again; and what drones have flown.
+// The page History: the flights that are kept here, when, by whom, how they ended and what came of them, each to
+// be watched again; and what drones have flown over all of them.
 
 import { useSignal } from "@preact/signals";
 import { h } from "preact";
-import { t } from "../core/i18n.js";
-import { part } from "../core/route.js";
+import { duration, number, t } from "../core/i18n.js";
+import { go, part } from "../core/route.js";
 import { world } from "../core/station.js";
-import { Tabs } from "../ui/parts.js";
-import { useAsked, Waiting } from "./asked.js";
+import { Chip, Empty, Icon, Tabs } from "../ui/parts.js";
+import { beginWords, ENDS, outcomeWords, useAsked, Waiting } from "./asked.js";
 import { FlightView } from "./flight_view.js";
-import { FlightsList } from "./flights_list.js";
-import { Hours } from "./hours.js";
 
 /** @import { Asked } from "./asked.js" */
 
@@ -36,4 +35,49 @@ function Flights() {
 function Drones() {
   const { data, trouble } = /** @type {Asked<DroneHours[]>} */ (useAsked("/api/drones/hours"));
   return data ? h(Hours, { drones: data }) : h(Waiting, { trouble });
+}
+
+const COLUMNS = /** @type {const} */ (["begun", "end", "missions", "trips", "results", "duration", "by"]);
+
+/** @param {{ flights: FlightSummary[] }} props */
+export function FlightsList({ flights }) {
+  if (!flights.length) return h(Empty, null, t("history.none"));
+  return h("table", { class: "table flights", "aria-label": t("history.flights") },
+    h("thead", null, h("tr", null, COLUMNS.map((column) => h("th", { key: column, scope: "col" }, t(`history.column.${column}`))))),
+    h("tbody", null, flights.map((flight) => h(Flight, { key: flight.id, flight }))));
+}
+
+/** @param {{ flight: FlightSummary }} props */
+function Flight({ flight }) {
+  const { id, end, trips, results, seconds, by, simulated, failed, lost, said } = flight;
+  const [kind, icon] = ENDS[end];
+  return h("tr", { class: "flight" },
+    h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, beginWords(flight)),
+      simulated && h(Chip, null, t("simulated")),
+      said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), said)),
+    h("td", { "data-label": t("history.column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),
+    h("td", { "data-label": t("history.column.missions"), class: failed ? "failed" : "" }, outcomeWords(flight),
+      lost.length > 0 && h("p", { class: "problem" }, h(Icon, { name: "warning" }), t("history.lost", { drones: lost }))),
+    h("td", { class: "num", "data-label": t("history.column.trips") }, trips),
+    h("td", { class: "num", "data-label": t("history.column.results") }, results),
+    h("td", { class: "num", "data-label": t("history.column.duration") }, duration(seconds)),
+    h("td", { class: "called", "data-label": t("history.column.by") }, by ?? t("history.by-unknown")));
+}
+
+const HOURS = /** @type {const} */ (["drone", "flights", "trips", "hours", "cycles", "lost"]);
+const one = { minimumFractionDigits: 1, maximumFractionDigits: 1 };
+
+/** @param {{ drones: DroneHours[] }} props */
+export function Hours({ drones }) {
+  if (!drones.length) return h(Empty, null, t("history.no-hours"));
+  const unmeasured = drones.some((drone) => drone.unmeasured > 0);
+  return h("div", { class: "stack" },
+    h("table", { class: "table hours", "aria-label": t("history.hours") },
+      h("thead", null, h("tr", null, HOURS.map((column) => h("th", { key: column, scope: "col" }, t(`history.hours.${column}`))))),
+      h("tbody", null, drones.map((drone) => h("tr", { key: drone.id },
+        h("th", { scope: "row", class: "called" }, drone.id), h("td", { class: "num" }, drone.flights), h("td", { class: "num" }, drone.trips),
+        h("td", { class: "num" }, number(drone.hours, one), drone.unmeasured > 0 && h("span", { class: "muted" }, " +")),
+        h("td", { class: "num" }, number(drone.cycles, one), drone.unmeasured > 0 && h("span", { class: "muted" }, " +")),
+        h("td", { class: "num" }, drone.lost))))),
+    h("p", { class: "hint" }, t("history.cycles-hint"), unmeasured && ` ${t("history.unmeasured-hint")}`));
 }

@@ -1,4 +1,5 @@
-// The clock of a replay: it runs, stands, and is set. Pure.
+// What a replay is made of: its clock, which runs, stands, and is set; marks on its time where something did not
+// go as planned; and the levels of batteries as lines of a chart. Pure.
 
 import { signal } from "@preact/signals";
 
@@ -45,4 +46,55 @@ export class Playback {
     act?.();
     return act !== undefined;
   }
+}
+
+/** @typedef {{ time: number, text: string }} Mark */
+
+const SAME = 1; // seconds within which two marks are one
+const BESIDE = 0.05; // of the whole: marks that are nearer could not be hit one by one on a phone
+
+/** What the console called trouble, one mark for each moment. @param {Pick<Replay, "log" | "seconds">} replay @returns {Mark[]} */
+export function marksOf({ log, seconds }) {
+  const near = Math.max(SAME, seconds * BESIDE);
+  /** @type {Mark[]} */
+  const marks = [];
+  for (const { kind, time, mission, text } of log) {
+    if (kind !== "bad") continue;
+    const said = mission === null ? text : `${mission}: ${text}`;
+    const last = marks.at(-1);
+    if (last && time - last.time < near) last.text += `\n${said}`;
+    else marks.push({ time, text: said });
+  }
+  return marks;
+}
+
+/** The next mark, or the one before, from an instant on. @param {readonly Mark[]} marks @param {number} time @param {1 | -1} way */
+export const nextMark = (marks, time, way) => (way === 1
+  ? marks.find((mark) => mark.time > time + 0.01)
+  : marks.findLast((mark) => mark.time < time - 0.01));
+
+const MOST = 300; // points of a line: more cannot be seen
+
+/** @typedef {{ drone: string, points: string, lowest: number }} Line points as SVG has them: time over its length, level from the top */
+
+/** The lowest of every few pairs, so that a dip is never left out. @param {readonly (readonly number[])[]} pairs */
+function thinned(pairs) {
+  const every = Math.ceil(pairs.length / MOST);
+  if (every <= 1) return pairs;
+  /** @type {(readonly number[])[]} */
+  const kept = [];
+  for (let at = 0; at < pairs.length; at += every) {
+    kept.push(pairs.slice(at, at + every).reduce((low, pair) => (pair[1] < low[1] ? pair : low)));
+  }
+  return kept;
+}
+
+/** @param {Record<string, readonly (readonly number[])[]>} batteries of each drone pairs of time and level @param {number} seconds @returns {Line[]} */
+export function linesOf(batteries, seconds) {
+  return Object.entries(batteries).filter(([, pairs]) => pairs.length).map(([drone, pairs]) => ({
+    drone,
+    lowest: Math.min(...pairs.map(([, level]) => level)),
+    points: thinned(pairs).map(([time, level]) =>
+      `${((time / (seconds || 1)) * 1000).toFixed(1)},${((1 - level) * 100).toFixed(1)}`).join(" "),
+  })).toSorted((a, b) => a.drone.localeCompare(b.drone, undefined, { numeric: true }));
 }

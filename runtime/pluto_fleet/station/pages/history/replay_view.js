@@ -4,17 +4,13 @@
 import { useSignal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { get, StationError } from "../core/api.js";
-import { duration, moment } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { get, ofStation } from "../core/api.js";
+import { duration, moment, t } from "../core/i18n.js";
 import { selection } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Watch } from "../monitor/page.js";
-import { Button } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { Said } from "../ui/parts.js";
-import { marksOf } from "./incidents.js";
-import { Playback } from "./playback.js";
+import { Button, Icon, Said } from "../ui/parts.js";
+import { marksOf, Playback } from "./playback.js";
 import { Replayer } from "./replayer.js";
 import { Transport } from "./transport.js";
 
@@ -46,8 +42,7 @@ export function ReplayView({ flight, from = 0, onTime }) {
     let isHere = true;
     trouble.value = "";
     replayer.open().then((whole) => { if (isHere) setReplay(whole); }, (error) => {
-      if (!(error instanceof StationError)) throw error;
-      trouble.value = error.message;
+      trouble.value = ofStation(error).message;
     });
     return () => { isHere = false; };
   }, [replayer, tries, trouble]);
@@ -82,7 +77,7 @@ function Player({ replayer, replay, from, onTime, isRehearsal }) {
     if (replayer.show(time)) return;
     waiting.value = true;
     replayer.seek(time).then((isShown) => { if (isShown) waiting.value = false; }, (error) => {
-      if (!(error instanceof StationError)) throw error;
+      ofStation(error);
       playback.isPlaying.value = false; // pressed again, it is asked for again
       waiting.value = false;
     });
@@ -120,7 +115,7 @@ function Player({ replayer, replay, from, onTime, isRehearsal }) {
   return h("div", { class: "replay", ref: element, tabIndex: -1, onKeyDown, "data-flight": replay.flight },
     h(Banner, { isRehearsal, begunAt: replay.begun_at, seconds: replay.seconds, said: replay.said }),
     h("div", { class: "replay-watch" }, h(Watch, {
-      world: replayer.world, live: false, foot: waiting.value && h("p", { key: "wait", class: "replay-waits card", role: "status" }, t("history.loading")),
+      world: replayer.world, isLive: false, foot: waiting.value && h("p", { key: "wait", class: "replay-waits card", role: "status" }, t("history.loading")),
     })),
     h(Transport, { playback, replay, marks, chosen: selection.value.drone }));
 }

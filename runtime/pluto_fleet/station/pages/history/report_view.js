@@ -1,20 +1,21 @@
-// The report of a flight, to be read and printed: what came of each mission, its results, what went
-// wrong, the batteries, and who commanded what.
+// The report of a flight, to be read and printed: what came of each mission, its results, with the map of them,
+// what went wrong, the batteries, and who commanded what.
 
 import { h } from "preact";
-import { useMemo } from "preact/hooks";
-import { capital, clock, dated, duration, inWords, moment, number, percent, plain } from "../core/format.js";
-import { t, tOr } from "../core/i18n.js";
+import { useEffect, useMemo, useRef } from "preact/hooks";
+import { capital, clock, dated, duration, inWords, moment, number, percent, plain, t, tOr } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { World } from "../core/world.js";
+import { Camera, Seen } from "../map/camera.js";
+import { Ground, Rulers } from "../map/ground.js";
+import { fitting } from "../map/view.js";
+import { Legend } from "../results/legend.js";
+import { HeatLayers, PhotoLayer, PinLayer } from "../results/map_layers.js";
 import { ResultsModel } from "../results/model.js";
 import { withUnit } from "../results/words.js";
-import { Button } from "../ui/button.js";
-import { Said } from "../ui/parts.js";
-import { useAsked, Waiting } from "./asked.js";
+import { Button, Said } from "../ui/parts.js";
+import { outcomeWords, tookWords, useAsked, Waiting } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
-import { ReportMap } from "./report_map.js";
-import { outcomeWords, tookWords } from "./words.js";
 
 /** @import { Asked } from "./asked.js" */
 
@@ -123,3 +124,29 @@ const Commands = ({ commands }) => h(Table, {
     by ?? client ?? "", h(Said, { text: said }),
   ]),
 });
+
+const WIDTH = 640; // pixels
+const HIGHEST = 560;
+
+/** @param {{ shape: AppShape, model: ResultsModel }} props */
+export function ReportMap({ shape, model }) {
+  const world = useRef(/** @type {SVGGElement | null} */ (null));
+  const picture = useRef(/** @type {SVGSVGElement | null} */ (null));
+  const { size } = shape.map;
+  const height = Math.min(HIGHEST, Math.round((WIDTH - 56) * (size[1] / size[0])) + 62);
+  const camera = useMemo(() => {
+    const still = new Camera(size);
+    still.resize(WIDTH, height);
+    return still;
+  }, [size, height]);
+  useEffect(() => {
+    const { left, bottom, scale } = camera.view.peek();
+    world.current?.setAttribute("transform", `matrix(${scale} 0 0 ${-scale} ${left} ${bottom})`);
+    picture.current?.style.setProperty("--metre", String(1 / fitting({ width: WIDTH, height }, size)));
+  }, [camera, height, size]);
+  return h(Seen.Provider, { value: camera }, h("figure", { class: "report-map" },
+    h("div", { class: "floor" }, h("svg", { ref: picture, class: "floor-picture", viewBox: `0 0 ${WIDTH} ${height}`, "aria-hidden": true },
+      h("g", { ref: world }, h(Ground, { map: shape.map }), h(HeatLayers, { model, size }), h(PhotoLayer, { model }), h(PinLayer, { model })),
+      h(Rulers, { map: shape.map }))),
+    h(Legend, { model })));
+}

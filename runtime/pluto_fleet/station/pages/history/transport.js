@@ -2,16 +2,13 @@
 // went wrong, and the batteries under it.
 
 import { h } from "preact";
-import { clock, number } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { clock, number, t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
-import { IconButton } from "../ui/button.js";
+import { IconButton } from "../ui/parts.js";
 import { BatteryChart } from "./battery_chart.js";
-import { nextMark } from "./incidents.js";
-import { SPEEDS } from "./playback.js";
+import { nextMark, SPEEDS } from "./playback.js";
 
-/** @import { Mark } from "./incidents.js" */
-/** @import { Playback } from "./playback.js" */
+/** @import { Mark, Playback } from "./playback.js" */
 
 /** @param {{ playback: Playback, replay: Replay, marks: readonly Mark[], chosen: string | null }} props */
 export function Transport({ playback, replay, marks, chosen }) {

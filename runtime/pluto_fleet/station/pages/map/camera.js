@@ -3,8 +3,10 @@
 import { signal } from "@preact/signals";
 import { createContext, h } from "preact";
 import { useContext } from "preact/hooks";
+import { LINE, placed } from "./labels.js";
 import { between, kept, toMetres, toPixels, whole, zoomed } from "./view.js";
 
+/** @import { Label } from "./labels.js" */
 /** @import { Box, View } from "./view.js" */
 
 const EDGE = 60; // pixels that a revealed place keeps from the edge
@@ -89,3 +91,12 @@ export const useCamera = () => /** @type {Camera} */ (useContext(Seen));
 export const Mark = ({ x, y, class: more = "", children }) =>
   h("g", { class: `mark ${more}`, transform: `translate(${x} ${y})` },
     h("g", { class: "keeps-size" }, children));
+
+/**
+ * Names in a box of pixels, as far as they have room.
+ * @param {{ labels: readonly Label[], box: Box, marks?: readonly { x: number, y: number, r: number }[] }} props marks: what must not be covered
+ */
+export const Tags = ({ labels, box, marks }) => h("div", { class: "names", "aria-hidden": true },
+  placed(labels, box, marks).map(({ key, text, left, top, width, kind }) => h("span", {
+    key, class: `name ${kind ?? ""}`, style: { transform: `translate(${left}px, ${top}px)`, width: `${width}px`, height: `${LINE}px` },
+  }, text)));

@@ -3,10 +3,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { percent } from "../core/format.js";
-import { t, tOr } from "../core/i18n.js";
-import { Mark, useCamera } from "./camera.js";
-import { LINE, placed } from "./labels.js";
+import { percent, t, tOr } from "../core/i18n.js";
+import { Mark, Tags, useCamera } from "./camera.js";
 import { way } from "./routes.js";
 import { toPixels } from "./view.js";
 
@@ -109,21 +107,20 @@ function importance({ id, status, mission }, chosen) {
  */
 export function Names({ world, chosen, more }) {
   const camera = useCamera();
-  const list = useMemo(() => signal(/** @type {ReturnType<typeof placed>} */ ([])), []);
+  const list = useMemo(() => signal(/** @type {{ labels: Label[], marks: { x: number, y: number, r: number }[] }} */ ({ labels: [], marks: [] })), []);
   useEffect(() => {
     let timer = 0;
     const lay = () => {
       timer = 0;
       const view = camera.view.peek();
       const rows = world.drones.all().filter(({ x }) => x !== null);
-      const at = (/** @type {number} */ x, /** @type {number} */ y) => toPixels(view, x, y);
       const drones = rows.map((row) => ({
         key: `drone ${row.id}`, text: row.id, gap: 14, kind: BAD.includes(row.status) ? "bad" : "",
         importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
-        ...at(row.x ?? 0, row.y ?? 0),
+        ...toPixels(view, row.x ?? 0, row.y ?? 0),
       }));
-      const others = (more?.peek() ?? []).map((label) => ({ ...label, ...at(label.x, label.y) }));
-      list.value = placed([...drones, ...others], camera.box.peek(), drones.map(({ x, y }) => ({ x, y, r: 10 })));
+      const others = (more?.peek() ?? []).map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
+      list.value = { labels: [...drones, ...others], marks: drones.map(({ x, y }) => ({ x, y, r: 10 })) };
     };
     const stop = effect(() => {
       void [world.drones.version.value, camera.view.value, camera.box.value, more?.value];
@@ -134,9 +131,5 @@ export function Names({ world, chosen, more }) {
       clearTimeout(timer);
     };
   }, [world, chosen, camera, more]);
-  return h("div", { class: "names", "aria-hidden": true }, list.value.map(({ key, text, left, top, width, kind }) =>
-    h("span", {
-      key, class: `name ${kind ?? ""}`,
-      style: { transform: `translate(${left}px, ${top}px)`, width: `${width}px`, height: `${LINE}px` },
-    }, text)));
+  return h(Tags, { ...list.value, box: camera.box.peek() });
 }

@@ -1,7 +1,7 @@
 // The ways that drones take around walls, asked of the station, and remembered.
 
 import { signal } from "@preact/signals";
-import { send, StationError } from "../core/api.js";
+import { ofStation, send } from "../core/api.js";
 
 /** @typedef {readonly [Point, Point]} Pair */
 
@@ -30,8 +30,8 @@ async function ask() {
     asked.forEach(([key], at) => known.set(key, data.ways[at]));
     version.value += 1;
   } catch (error) {
-    if (!(error instanceof StationError)) throw error;
-    if (error.status >= 400 && error.status < 429) { // it will never be known: straight, as before
+    const { status } = ofStation(error);
+    if (status >= 400 && status < 429) { // it will never be known: straight, as before
       asked.forEach(([key, pair]) => known.set(key, [...pair]));
     }
   }

@@ -1,15 +1,23 @@
-// What is done with missions on their page: added, copied, deleted, moved, started.
+// What is done with missions on their page: selected, added, copied, deleted, moved, started; and plans that come
+// from elsewhere, the example or a file, and the plan as a file.
 
+import { signal } from "@preact/signals";
+import { send, StationError } from "../core/api.js";
 import { addMission, copyMission, moved, removeMission } from "../core/changes.js";
-import { drawTelling } from "../core/drawing.js";
-import { many } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { many, t } from "../core/i18n.js";
 import { newKey } from "../core/keys.js";
+import { marking } from "../core/marking.js";
 import { speakOut } from "../core/notices.js";
 import { go } from "../core/route.js";
-import { plan, selectKey } from "../core/station.js";
-import { markAll, marked, markOne } from "./marked.js";
+import { app, plan, save, selection, selectKey, tellError, undo } from "../core/station.js";
+import { drawTelling, tellUndoable } from "../ui/undo.js";
 import { called } from "./words.js";
+
+/** Whether a press on a mission adds it to those that are selected, for fingers. */
+export const isMarking = signal(false);
+
+export const { marked, markOne, markAll, toggle, extendTo } = marking(
+  () => plan.missions.value.map(({ key }) => key), () => selection.value.key, (key) => selectKey(key));
 
 /** @param {string} key */
 const at = (key) => plan.missions.peek().findIndex((mission) => mission.key === key);
@@ -71,4 +79,46 @@ export function selectedInWords() {
     missions: many("many.missions", missions.length),
     trips: many("many.trips", missions.reduce((sum, { trips }) => sum + trips.length, 0)),
   });
+}
+
+/**
+ * Let the station put another plan in place of this one.
+ * @param {(revision: number) => Promise<{ status: number, data: any }>} ask @param {string} said
+ */
+export async function take(ask, said) {
+  await plan.saved();
+  const before = plan.missions.peek();
+  try {
+    const { status, data } = await ask(plan.revision);
+    if (!data.missions) throw new StationError(data.said, status);
+    plan.take(data);
+    if (status === 409) throw new StationError(t("missions.changed-meanwhile"), status, false);
+  } catch (error) {
+    tellError(error);
+    return;
+  }
+  undo.record(before, plan.missions.peek());
+  markOne(plan.missions.peek().find(({ launched }) => !launched)?.key ?? null);
+  tellUndoable(before, said);
+}
+
+export const example = () => take(
+  (revision) => send("POST", "/api/plan/example", { revision }), t("missions.example-here"));
+
+/** Ask for a file, and read it into the plan. */
+export function importFile() {
+  const input = document.createElement("input");
+  Object.assign(input, { type: "file", accept: ".toml" });
+  input.addEventListener("change", async () => {
+    const file = input.files?.[0];
+    if (!file) return;
+    take((revision) => send("POST", `/api/plan/import?revision=${revision}&file=${encodeURIComponent(file.name)}`,
+      file, { type: "application/toml" }), t("missions.imported", { file: file.name }));
+  });
+  input.click();
+}
+
+export async function exportFile() {
+  await plan.saved();
+  save("/api/plan.toml", `${app.peek()?.name}-missions.toml`);
 }

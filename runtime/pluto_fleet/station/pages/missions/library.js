@@ -4,15 +4,12 @@ import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { send, StationError } from "../core/api.js";
-import { many, moment } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { many, moment, t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
 import { prefs } from "../core/prefs.js";
-import { mayFly, plan } from "../core/station.js";
-import { Button } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { Chip, Dialog, Empty, Said } from "../ui/parts.js";
-import { take, tellError } from "./files.js";
+import { mayFly, plan, tellError } from "../core/station.js";
+import { Button, Chip, Dialog, Empty, Icon, Said } from "../ui/parts.js";
+import { take } from "./commands.js";
 
 const isOpen = signal(false);
 /** @type {Signal<SavedPlans | null>} */

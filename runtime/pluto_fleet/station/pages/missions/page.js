@@ -1,20 +1,17 @@
-// The missions of the plan: a list, and beside it the one that is selected.
+// The missions of the plan: a list, and beside it the one that is selected; and what an empty plan says.
 
 import { h } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { wantedField } from "../core/route.js";
 import { mayFly, plan } from "../core/station.js";
-import { Button } from "../ui/button.js";
+import { Button } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
-import { add } from "./commands.js";
-import { exportFile, importFile } from "./files.js";
+import { add, example, exportFile, importFile, isMarking } from "./commands.js";
 import { Library, LibraryButton } from "./library.js";
 import { MissionList } from "./list.js";
-import { isMarking } from "./marked.js";
 import { Panel } from "./panel.js";
-import { Welcome } from "./welcome.js";
 
 export default function Page() {
   const page = useRef(/** @type {HTMLDivElement | null} */ (null));
@@ -55,3 +52,16 @@ export default function Page() {
       h("div", null, h(Panel, { wanted: wanted?.field ?? null }))),
     h(Library, null));
 }
+
+const STEPS = /** @type {const} */ (["add", "trips", "start"]);
+
+/** @param {{ onAdd: () => void, children?: ComponentChildren }} props */
+export const Welcome = ({ onAdd, children }) => h("section", { class: "card welcome stack" },
+  h("h2", null, t("missions.nothing")), h("p", { class: "muted" }, t("missions.what-is-one")),
+  h("ol", { class: "welcome-steps" }, STEPS.map((step) => h("li", { key: step },
+    h("h3", null, t(`missions.step.${step}`)), h("p", { class: "muted" }, t(`missions.step.${step}-more`))))),
+  mayFly.value && h("div", { class: "row" },
+    h(Button, { kind: "primary", icon: "plus", onClick: onAdd }, t("missions.add-first")),
+    h(Button, { onClick: () => { example(); } }, t("missions.example")),
+    h(Button, { onClick: importFile }, t("missions.import-file")), children),
+  h("p", { class: "hint" }, h("a", { href: "#help" }, t("missions.more-help"))));

@@ -1,10 +1,9 @@
 // What one tells missions apart by, and how far each of them is, in words. Pure, but for the texts.
 
-import { inWords, many, plain, TIME } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { inWords, many, plain, t, TIME } from "../core/i18n.js";
 
 /** @import { ShownProblem } from "../core/plan.js" */
-/** @import { IconName } from "../ui/icon.js" */
+/** @import { IconName } from "../ui/parts.js" */
 
 /** @param {{ name: string }} mission */
 export const called = ({ name }) => name.trim() || t("missions.unnamed");

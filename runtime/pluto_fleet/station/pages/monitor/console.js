@@ -3,13 +3,9 @@
 import { computed, useSignal } from "@preact/signals";
 import { h } from "preact";
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
-import { download, StationError } from "../core/api.js";
-import { clock, many } from "../core/format.js";
-import { t } from "../core/i18n.js";
-import { tell } from "../core/notices.js";
-import { selectMission } from "../core/station.js";
-import { Button, IconButton } from "../ui/button.js";
-import { Said } from "../ui/parts.js";
+import { clock, many, t } from "../core/i18n.js";
+import { save, selectMission } from "../core/station.js";
+import { Button, IconButton, Said } from "../ui/parts.js";
 
 const SHOWN = 500; // lines
 const KINDS = /** @type {const} */ (["all", "info", "good", "bad", "hook"]);
@@ -36,10 +32,6 @@ export function Console({ world, live }) {
     readTo.current = last;
   }, [last, isFollowing.value]);
   const unread = isFollowing.value ? 0 : shown.filter((line) => line.number > readTo.current).length;
-  const save = () => download("/api/console.txt", "console.txt").catch((/** @type {unknown} */ error) => {
-    if (!(error instanceof StationError)) throw error;
-    tell(error.message, { bad: true, isSaid: error.isSaid });
-  });
   return h("div", { class: "console" },
     h("div", { class: "row console-tools" },
       h("input", {
@@ -50,7 +42,7 @@ export function Console({ world, live }) {
         class: "input", "aria-label": t("log.which"), value: kind.value,
         onChange: (/** @type {Event} */ event) => { kind.value = /** @type {any} */ (event.target).value; },
       }, KINDS.map((one) => h("option", { key: one, value: one }, t(`log.kind.${one}`)))),
-      live && h(IconButton, { icon: "save", label: t("log.download"), onClick: save })),
+      live && h(IconButton, { icon: "save", label: t("log.download"), onClick: () => { save("/api/console.txt", "console.txt"); } })),
     h("div", {
       ref: list, class: "log", role: "log", "aria-live": "off", "aria-label": t("monitor.log"), tabIndex: 0,
       onScroll: () => {

@@ -1,16 +1,12 @@
-// The drones as a list, and the card of the selected one: how it is, why, and what can be done with it.
+// The drones as a list, and the card of the selected one: how it is, why, and what can be done with it; and one
+// more that joins the flight.
 
 import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
-import { duration, many, number, roughly } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { duration, many, number, roughly, t, typedNumber } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
-import { Button, IconButton } from "../ui/button.js";
-import { Battery, Empty, joined, Said } from "../ui/parts.js";
+import { Battery, Button, Empty, IconButton, joined, Said, Standing, toneOf, walking } from "../ui/parts.js";
 import { Slide } from "../ui/slide.js";
-import { Standing, toneOf } from "../ui/standing.js";
-import { walking } from "../ui/walk.js";
-import { Join } from "./join.js";
 
 const IN_THE_AIR = 0.2; // metres: below, a drone may stand on something
 
@@ -120,3 +116,32 @@ const Mishaps = ({ id }) => h("details", { class: "mishaps" },
   h("div", { class: "row" }, MISHAPS.map((kind) => h(Button, {
     key: kind, small: true, onClick: () => { perform("mishap", { drone: id, kind }); },
   }, t(`mishap.${kind}`)))));
+
+export function Join() {
+  const { categories, sim } = /** @type {AppShape} */ (app.value);
+  const form = useRef(/** @type {HTMLFormElement | null} */ (null));
+  /** @param {SubmitEvent} event */
+  async function submit(event) {
+    event.preventDefault();
+    const given = new FormData(/** @type {HTMLFormElement} */ (form.current));
+    const text = (/** @type {string} */ name) => String(given.get(name) ?? "").trim();
+    const home = ["x", "y"].map((name) => typedNumber(text(name)));
+    const uri = text("uri");
+    const isDone = await perform("join", {
+      drone: text("drone"), category: text("category"), home, ...(uri ? { uri } : {}),
+    });
+    if (isDone) form.current?.reset();
+  }
+  const field = (/** @type {string} */ name, /** @type {string} */ label, isNeeded = true) => h("div", { class: "field" },
+    h("label", { for: `join-${name}` }, label),
+    h("input", { id: `join-${name}`, name, required: isNeeded, autocomplete: "off", maxlength: 200 }));
+  return h("details", { class: "join" }, h("summary", null, t("join.title")),
+    h("form", { ref: form, class: "stack", onSubmit: submit },
+      h("div", { class: "fields" },
+        field("drone", t("join.drone")),
+        h("div", { class: "field" }, h("label", { for: "join-category" }, t("join.category")),
+          h("select", { id: "join-category", name: "category" },
+            categories.map(({ name }) => h("option", { key: name, value: name }, name)))),
+        field("x", t("join.x")), field("y", t("join.y")), !sim && field("uri", t("join.uri"), false)),
+      h("div", null, h(Button, { type: "submit", small: true }, t("join.add")))));
+}

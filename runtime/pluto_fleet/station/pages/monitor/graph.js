@@ -3,10 +3,9 @@
 import { computed, effect, signal, useSignal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useId, useMemo, useRef } from "preact/hooks";
-import { many } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { many, t } from "../core/i18n.js";
 import { app, selection, selectMission } from "../core/station.js";
-import { toneOf } from "../ui/standing.js";
+import { toneOf } from "../ui/parts.js";
 import { blocksOf, leftWith, wayFinder } from "./graph_way.js";
 import { apart, HEIGHT, lanes, route, widthOf } from "./routes.js";
 

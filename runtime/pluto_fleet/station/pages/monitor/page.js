@@ -1,54 +1,92 @@
-// The Monitor: the map with all that flies, and beside it missions, drones, console and graph.
+// The Monitor: the map with all that flies and where it is bound, what only a person can know above it, and
+// beside it missions, drones, console and graph.
 
 import { h } from "preact";
 import { useEffect, useMemo } from "preact/hooks";
-import { t } from "../core/i18n.js";
+import { t, tOr } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
-import { app, selectDrone, selection, world } from "../core/station.js";
-import { Camera } from "../map/camera.js";
+import { app, mayFly, perform, selectDrone, selection, selectMission, world as live } from "../core/station.js";
+import { hasEnded } from "../core/world.js";
+import { Camera, Mark } from "../map/camera.js";
 import { Fleet, Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
 import { landmarkNames, Landmarks, North } from "../map/landmarks.js";
 import { MapSplit } from "../ui/map_split.js";
-import { Tabs } from "../ui/parts.js";
+import { Button, Icon, SaidWords, SureButton, Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
 import { DroneCard, DroneList } from "./drones.js";
 import { Graph } from "./graph.js";
 import { MissionList } from "./missions.js";
-import { Questions } from "./questions.js";
-import { Targets } from "./targets.js";
+
+/** @param {{ world: World, chosen: string | null }} props */
+export function Targets({ world, chosen }) {
+  const way = world.missions.get(chosen)?.trips ?? [];
+  return h("g", { class: "layer targets" },
+    way.length > 1 && h("polyline", { class: "way", points: way.map(({ x, y }) => `${x},${y}`).join(" ") }),
+    way.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
+      h("circle", { class: `stop ${status === "COMPLETED" ? "done" : ""}`, r: 4 }))),
+    world.missions.keys.value.map((name) => h(Target, { key: name, world, name, isChosen: name === chosen })));
+}
+
+/** @param {{ world: World, name: string, isChosen: boolean }} props */
+function Target({ world, name, isChosen }) {
+  const row = world.missions.get(name);
+  if (!row?.drone || hasEnded(row) || row.current === null) return null;
+  const { x, y } = row.trips[row.current];
+  return h(Mark, { x, y, class: `target ${isChosen ? "chosen" : ""}` },
+    h("g", { "data-own": true, onClick: () => selectMission(name) },
+      h("title", null, name), h("path", { d: "M0-10L10 0 0 10-10 0z" }), h("text", { y: 4 }, row.index + 1)));
+}
+
+/** @param {{ world: World }} props */
+export function Questions({ world }) {
+  const rows = world.missions.all().filter(({ question }) => question !== null);
+  return h("section", { class: "questions", role: "alert", hidden: !rows.length },
+    rows.length > 0 && h("h2", null, h(Icon, { name: "warning" }), t("monitor.wait-for-you", { n: rows.length })),
+    rows.map((row) => h(Asked, { key: row.name, row, question: /** @type {Question} */ (row.question) })));
+}
+
+/** @param {{ row: MissionRow, question: Question }} props */
+function Asked({ row: { name }, question: { said, answers } }) {
+  const decide = (/** @type {string} */ answer) => { perform("decide", { mission: name, answer }); };
+  return h("div", { class: "question" },
+    h("p", null, h("button", { type: "button", class: "link", onClick: () => selectMission(name) }, name), ": ", h(SaidWords, { words: said })),
+    mayFly.value && h("div", { class: "row" }, answers.map((answer) => (answer === "cancel"
+      ? h(SureButton, { key: answer, label: t("monitor.cancel"), sure: t("monitor.cancel-sure"), onSure: () => decide(answer) })
+      : h(Button, { key: answer, onClick: () => decide(answer) }, tOr(`answer.${answer}`, answer))))));
+}
 
 const LISTS = /** @type {const} */ (["missions", "drones", "log", "graph"]);
 /** @typedef {typeof LISTS[number]} ListName */
 
 /**
  * The Monitor of a world: live, or of a replay, in which nothing can be commanded.
- * @param {{ world: World, live: boolean, foot?: ComponentChildren }} props
+ * @param {{ world: World, isLive: boolean, foot?: ComponentChildren }} props
  */
-export function Watch({ world: seen, live, foot }) {
+export function Watch({ world, isLive, foot }) {
   const shape = /** @type {AppShape} */ (app.value);
   const camera = useMemo(() => new Camera(shape.map.size), [shape]);
   const { drone, mission } = selection.value;
   useEffect(() => { // who presses a name anywhere sees it on the map
-    const row = seen.drones.rows.get(drone ?? seen.missions.rows.get(mission ?? "")?.peek().drone ?? "")?.peek();
+    const row = world.drones.rows.get(drone ?? world.missions.rows.get(mission ?? "")?.peek().drone ?? "")?.peek();
     if (row && row.x !== null && row.y !== null) camera.reveal(row.x, row.y);
-  }, [drone, mission, seen, camera]);
+  }, [drone, mission, world, camera]);
   const lists = LISTS.filter((name) => name !== "graph" || (shape.graph && prefs.graph.value));
   const list = lists.find((name) => name === prefs.railTab.value) ?? "missions";
   return h(MapSplit, {
     stage: [
       h(Floor, {
         key: "floor", map: shape.map, camera,
-        overlay: [h(Names, { key: "names", world: seen, chosen: drone, more: landmarkNames }), h(North, { key: "north" })],
+        overlay: [h(Names, { key: "names", world, chosen: drone, more: landmarkNames }), h(North, { key: "north" })],
         children: [
           h(Landmarks, { key: "landmarks" }),
           h(Homes, { key: "homes", app: shape }),
-          h(Targets, { key: "targets", world: seen, chosen: mission }),
-          h(Fleet, { key: "fleet", world: seen, chosen: drone, onPick: selectDrone }),
+          h(Targets, { key: "targets", world, chosen: mission }),
+          h(Fleet, { key: "fleet", world, chosen: drone, onPick: selectDrone }),
         ],
       }),
-      live && h(Questions, { key: "questions", world: seen }),
-      drone && h(DroneCard, { key: "card", world: seen, id: drone, live }),
+      isLive && h(Questions, { key: "questions", world }),
+      drone && h(DroneCard, { key: "card", world, id: drone, live: isLive }),
       foot,
     ],
     rail: [
@@ -57,15 +95,15 @@ export function Watch({ world: seen, live, foot }) {
         onPick: (/** @type {ListName} */ name) => { prefs.railTab.value = name; },
       }),
       h("div", { key: "body", class: "rail-body", role: "tabpanel", "aria-label": t(`monitor.${list}`) }, {
-        missions: () => h(MissionList, { world: seen, live }),
-        drones: () => h(DroneList, { world: seen, live }),
-        log: () => h(Console, { world: seen, live }),
-        graph: () => h(Graph, { world: seen }),
+        missions: () => h(MissionList, { world, live: isLive }),
+        drones: () => h(DroneList, { world, live: isLive }),
+        log: () => h(Console, { world, live: isLive }),
+        graph: () => h(Graph, { world }),
       }[list]()),
     ],
   });
 }
 
 export default function Monitor() {
-  return h(Watch, { world, live: true });
+  return h(Watch, { world: live, isLive: true });
 }

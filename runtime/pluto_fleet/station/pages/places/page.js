@@ -3,8 +3,7 @@
 import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
-import { number, typedNumber } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { number, t, typedNumber } from "../core/i18n.js";
 import { freeName } from "../core/keys.js";
 import { changeMap, landmarks, uploadPlan } from "../core/landmarks.js";
 import { app, mayFly } from "../core/station.js";
@@ -13,9 +12,8 @@ import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor } from "../map/floor.js";
 import { landmarkNames, Landmarks, middle, North } from "../map/landmarks.js";
-import { Button, IconButton } from "../ui/button.js";
 import { MapSplit } from "../ui/map_split.js";
-import { Empty, Said } from "../ui/parts.js";
+import { Button, Empty, IconButton, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
 
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */

@@ -1,12 +1,12 @@
-// One result, with all that is known of it.
+// One result, with all that is known of it, and its place on the map where no card covers it: the card lies at the
+// left, on a phone below the map.
 
 import { h } from "preact";
-import { clock, inWords, place, plain } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { clock, inWords, place, plain, t } from "../core/i18n.js";
 import { pictureAt } from "../map/ground.js";
-import { Button, IconButton } from "../ui/button.js";
+import { toPixels } from "../map/view.js";
+import { Button, IconButton } from "../ui/parts.js";
 import { placeOf } from "./layers.js";
-import { revealBeside } from "./reveal.js";
 import { drainedWords, sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
 
 /** @import { Camera } from "../map/camera.js" */
@@ -61,4 +61,22 @@ export function ResultCard({ model, camera, onConsole, consoleWords }) {
       photo && h(Button, { small: true, icon: "photo", onClick: () => { model.opened.value = result.number; } }, t("results.open-photo")),
       point && h(Button, { small: true, icon: "map", onClick: () => revealBeside(camera, point[0], point[1], CLOSE) }, t("results.show-on-map")),
       h(Button, { small: true, icon: "list", onClick: () => onConsole(result) }, consoleWords)));
+}
+
+const CARD = 340; // pixels of its width
+const NARROW = 520; // pixels of a map that is above its card
+const EDGE = 40;
+
+/** @param {Camera} camera @param {number} x @param {number} y metres @param {number} [closest] the scale to show it at, if it is not shown larger */
+export function revealBeside(camera, x, y, closest = 0) {
+  const { width, height } = camera.box.peek();
+  if (!width) return;
+  const view = camera.view.peek();
+  const left = width < NARROW ? EDGE : CARD + EDGE;
+  const at = toPixels(view, x, y);
+  const isSeen = at.x > left && at.x < width - EDGE && at.y > EDGE && at.y < height - EDGE;
+  const scale = Math.max(view.scale, closest);
+  if (isSeen && scale === view.scale) return;
+  const middle = { x: (left + width - EDGE) / 2, y: height / 2 };
+  camera.look({ scale, left: middle.x - x * scale, bottom: middle.y + y * scale });
 }

@@ -4,8 +4,7 @@ import { computed, signal } from "@preact/signals";
 import { language } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { LINES_KEPT } from "../core/world.js";
-import { hit, spotsOf } from "./hit.js";
-import { countsOf, layersOn, photosOf, pinsOf, placeOf, shownLayers } from "./layers.js";
+import { countsOf, hit, layersOn, photosOf, pinsOf, shownLayers, spotsOf } from "./layers.js";
 import { ALL, filtered, sorted } from "./table_model.js";
 import { rowOf } from "./words.js";
 
@@ -25,7 +24,7 @@ export class ResultsModel {
     this.photos = computed(() => photosOf(this.of("photos")));
     this.pins = computed(() => pinsOf(this.of("findings")));
     this.counts = computed(() => countsOf(this.pins.value));
-    this.values = computed(() => this.numbers().flatMap(({ results }) => spotsOf(results, placeOf)));
+    this.values = computed(() => this.numbers().flatMap(({ results }) => spotsOf(results)));
     /** All photos of the flight, the oldest first, for who leafs through them. */
     this.album = computed(() => this.results.value.filter(({ kind }) => kind === "photo"));
     /** @type {Signal<number | null>} the number of the result that is looked at */

@@ -3,7 +3,7 @@
 import { effect } from "@preact/signals";
 import { h } from "preact";
 import { useEffect } from "preact/hooks";
-import { get, StationError } from "../core/api.js";
+import { get, ofStation } from "../core/api.js";
 import { t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { go } from "../core/route.js";
@@ -31,9 +31,7 @@ function useWhole() {
       asked = now;
       get("/api/results.json", PATIENCE).then((all) => {
         if (now.startsWith(`${flight.peek()} `)) results.fill(all);
-      }, (error) => {
-        if (!(error instanceof StationError)) throw error; // the next result asks again
-      });
+      }, ofStation); // the next result asks again
     });
   }, []);
 }

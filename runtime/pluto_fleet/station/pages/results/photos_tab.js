@@ -2,12 +2,9 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { clock } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { clock, t } from "../core/i18n.js";
 import { pictureAt } from "../map/ground.js";
-import { Button, IconButton } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { Dialog, Empty } from "../ui/parts.js";
+import { Button, Dialog, Empty, Icon, IconButton } from "../ui/parts.js";
 import { Facts } from "./card.js";
 import { placeWords, sharpnessWords, tagWords } from "./words.js";
 

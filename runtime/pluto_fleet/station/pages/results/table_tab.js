@@ -3,11 +3,8 @@
 
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { plain } from "../core/format.js";
-import { language, t } from "../core/i18n.js";
-import { Button } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { Empty } from "../ui/parts.js";
+import { language, plain, t } from "../core/i18n.js";
+import { Button, Empty, Icon } from "../ui/parts.js";
 import { ALL, choices, COLUMNS, windowOf } from "./table_model.js";
 import { drainedWords } from "./words.js";
 

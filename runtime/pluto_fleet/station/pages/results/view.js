@@ -1,30 +1,24 @@
-// The results of a flight: on the map, in layers, and beside it as lists.
+// The results of a flight: on the map, in layers, beside it as lists, and as files for other programs.
 
 import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useMemo } from "preact/hooks";
-import { t } from "../core/i18n.js";
+import { clock, t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
-import { app } from "../core/station.js";
+import { app, save } from "../core/station.js";
 import { isFlying } from "../core/world.js";
 import { Camera } from "../map/camera.js";
 import { Floor } from "../map/floor.js";
 import { Landmarks, North } from "../map/landmarks.js";
 import { MapSplit } from "../ui/map_split.js";
-import { Empty, Tabs } from "../ui/parts.js";
-import { ResultCard } from "./card.js";
-import { Exports } from "./exports.js";
-import { estimated, HeatLayers } from "./heat_layer.js";
+import { Button, Empty, Tabs } from "../ui/parts.js";
+import { ResultCard, revealBeside } from "./card.js";
 import { placeOf } from "./layers.js";
-import { LayersTab } from "./layers_tab.js";
-import { Legend } from "./legend.js";
+import { LayersTab, Legend } from "./legend.js";
+import { estimated, HeatLayers, MapLabels, PhotoLayer, PinLayer } from "./map_layers.js";
 import { ResultsModel } from "./model.js";
-import { PhotoLayer } from "./photo_layer.js";
 import { PhotosTab, Viewer } from "./photos_tab.js";
-import { MapLabels, PinLayer } from "./pin_layer.js";
-import { revealBeside } from "./reveal.js";
 import { TableTab } from "./table_tab.js";
-import { VerdictsTab } from "./verdicts_tab.js";
 import { layerWords, placeWords, valueWords, whatWords, withUnit } from "./words.js";
 
 const PHONE = matchMedia("(max-width: 760px)");
@@ -138,4 +132,26 @@ function wordsAt(model, at, scale) {
 function Tip({ pointed }) {
   const at = pointed.value;
   return at && h("div", { class: "tip", "aria-hidden": true, style: { transform: `translate(${at.x + 14}px, ${at.y + 14}px)` } }, at.words);
+}
+
+/** @param {{ model: ResultsModel }} props */
+export function VerdictsTab({ model }) {
+  const verdicts = model.results.value.filter(({ kind }) => kind === "verdict").toReversed();
+  if (!verdicts.length) return h(Empty, null, t("results.none.verdicts"));
+  return h("ul", { class: "verdicts" }, verdicts.map(({ number, time, mission, value }) =>
+    h("li", { key: number }, h("p", { class: "row" }, h("strong", null, mission), h("span", { class: "muted num" }, clock(time))),
+      h("p", { class: "user-text" }, String(value)))));
+}
+
+const KINDS = /** @type {const} */ (["csv", "geojson", "zip", "json"]);
+
+/** @param {{ flight: string | null, hasPictures: boolean, disabled?: boolean }} props flight: null is the one as it is now */
+export function Exports({ flight, hasPictures, disabled }) {
+  const query = flight === null ? "" : `?flight=${encodeURIComponent(flight)}`;
+  const stem = flight === null ? "results" : `results-${flight}`;
+  return h("div", { class: "exports row", role: "group", "aria-label": t("results.export") },
+    h("span", { class: "muted hint" }, t("results.export")),
+    KINDS.filter((kind) => kind !== "zip" || hasPictures).map((kind) => h(Button, {
+      key: kind, small: true, kind: "quiet", icon: "save", disabled, onClick: () => { save(`/api/results.${kind}${query}`, `${stem}.${kind}`); },
+    }, t(`results.export.${kind}`))));
 }

@@ -1,7 +1,6 @@
 // What results are called, and how their values are written.
 
-import { capital, clock, measured, number, percent, place, plain } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { capital, clock, measured, number, percent, place, plain, t } from "../core/i18n.js";
 import { app } from "../core/station.js";
 import { placeOf } from "./layers.js";
 

@@ -1,18 +1,16 @@
 // The head of every page: the app, its pages, how it stands, and what flies or stops it.
 
 import { h } from "preact";
-import { clock } from "../core/format.js";
-import { t } from "../core/i18n.js";
-import { page, PAGES, go } from "../core/route.js";
+import { AttentionButton } from "../attention/attention.js";
+import { clock, t } from "../core/i18n.js";
+import { go, page, PAGES } from "../core/route.js";
 import { app, line, plan, world } from "../core/station.js";
-import { AttentionButton } from "../attention/button.js";
-import { leadTo, StartButtons, Stops, words } from "../start/commands.js";
 import { isFlying } from "../core/world.js";
-import { Chip, Said, Tabs } from "../ui/parts.js";
-import { Icon } from "../ui/icon.js";
+import { leadTo, StartButtons, Stops, words } from "../start/commands.js";
+import { Chip, Icon, Said, Tabs } from "../ui/parts.js";
 
 /** @import { PageName } from "../core/route.js" */
-/** @import { IconName } from "../ui/icon.js" */
+/** @import { IconName } from "../ui/parts.js" */
 
 /** @type {Record<string, ["" | "good" | "warn" | "info", IconName]>} */
 const PHASES = {

@@ -2,13 +2,13 @@
 
 import { computed, signal } from "@preact/signals";
 import { h } from "preact";
-import { command, StationError } from "../core/api.js";
+import { command, ofStation } from "../core/api.js";
 import { t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
 import { go, page, wantedField } from "../core/route.js";
 import { line, mayFly, perform, plan, selectKey, world } from "../core/station.js";
 import { isFlying } from "../core/world.js";
-import { Button, HoldButton } from "../ui/button.js";
+import { Button, HoldButton } from "../ui/parts.js";
 import { inFull, startWords } from "./words.js";
 
 /** @import { ShownProblem } from "../core/plan.js" */
@@ -57,8 +57,8 @@ export async function stop(how) {
   try {
     tell(await command("stop", { how }, STOP_FOR), { isSaid: true, settles: true });
   } catch (error) {
-    if (!(error instanceof StationError)) throw error;
-    tell(error.status ? error.message : t("stop.failed"), { bad: true, isSaid: error.isSaid });
+    const { status, message, isSaid } = ofStation(error);
+    tell(status ? message : t("stop.failed"), { bad: true, isSaid });
   } finally {
     clearTimeout(alarm);
   }

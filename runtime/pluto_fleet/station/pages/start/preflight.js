@@ -1,19 +1,51 @@
-// The preflight of a Start: what will fly, with which drones, for how long, and what is not ready.
+// The preflight of a Start: what will fly, with which drones, for how long, and what is not ready. It is asked of
+// the station, anew whenever the plan has changed.
 
+import { signal } from "@preact/signals";
 import { h } from "preact";
-import { useState } from "preact/hooks";
-import { duration, percent } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { useEffect, useMemo, useState } from "preact/hooks";
+import { send, StationError } from "../core/api.js";
+import { duration, percent, say, t } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
 import { go } from "../core/route.js";
-import { say } from "../core/said.js";
 import { line, plan, world } from "../core/station.js";
-import { Button, HoldButton } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
-import { Battery, Chip, Dialog, joined, Said, SaidWords } from "../ui/parts.js";
+import { Battery, Button, Chip, Dialog, HoldButton, Icon, joined, Said, SaidWords } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
-import { useForecast } from "./forecast.js";
 import { counted } from "./words.js";
+
+/** @typedef {{ forecast: Forecast | null, trouble: string }} Asked */
+
+const LONGEST = 30000; // ms
+const SETTLES = 400; // ms until a plan that is being changed is asked about
+
+/**
+ * What is expected of a Start; null until it is known.
+ * @param {string[] | null} missions @param {boolean} onlyFailed
+ */
+export function useForecast(missions, onlyFailed) {
+  const asked = useMemo(() => signal(/** @type {Asked} */ ({ forecast: null, trouble: "" })), []);
+  const drawn = plan.missions.value;
+  useEffect(() => {
+    let isOld = false;
+    asked.value = { forecast: null, trouble: "" };
+    const timer = setTimeout(async () => {
+      try {
+        if (!await plan.saved()) return;
+        const content = { revision: plan.revision, missions, only_failed: onlyFailed };
+        const { status, data } = await send("POST", "/api/preflight", content, { timeout: LONGEST });
+        if (!isOld) asked.value = status === 200 ? { forecast: data, trouble: "" } : { forecast: null, trouble: data.said };
+      } catch (error) {
+        if (!(error instanceof StationError)) throw error;
+        if (!isOld) asked.value = { forecast: null, trouble: error.message };
+      }
+    }, SETTLES);
+    return () => {
+      isOld = true;
+      clearTimeout(timer);
+    };
+  }, [drawn, missions, onlyFailed, asked]);
+  return asked.value;
+}
 
 const OFTEN = 0.05; // a share of runs that is worth a word
 const SHOWN = 12; // missions

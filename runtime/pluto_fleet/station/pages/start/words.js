@@ -1,7 +1,6 @@
 // What Start would do now, whether it can be pressed, and why not. Pure, but for the texts.
 
-import { many } from "../core/format.js";
-import { t, tOr } from "../core/i18n.js";
+import { many, t, tOr } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
 
 /** @import { ShownProblem } from "../core/plan.js" */

@@ -1,14 +1,11 @@
 // The fields of a trip: where it goes, what it carries, its parameters, and what the app adds.
 
 import { h } from "preact";
-import { capital } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { capital, t } from "../core/i18n.js";
 import { app, selected } from "../core/station.js";
 import { ownFirst } from "../missions/words.js";
-import { Button } from "../ui/button.js";
 import { Field } from "../ui/field.js";
-import { Icon } from "../ui/icon.js";
-import { Said } from "../ui/parts.js";
+import { Button, Icon, Said } from "../ui/parts.js";
 import { RELEASE } from "./carried.js";
 import { copy, remove, setAxis, setDraft, setField, setIn, shift } from "./commands.js";
 import { abouts } from "./state.js";

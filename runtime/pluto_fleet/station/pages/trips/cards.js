@@ -2,14 +2,10 @@
 
 import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
-import { capital } from "../core/format.js";
-import { t } from "../core/i18n.js";
-import { Button } from "../ui/button.js";
-import { Chip } from "../ui/parts.js";
-import { Icon } from "../ui/icon.js";
+import { capital, t } from "../core/i18n.js";
+import { ActionIcon, Button, Chip, Icon } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
 import { useSortable } from "../ui/sortable.js";
-import { ActionIcon } from "./action_icon.js";
 import { TripCard } from "./card.js";
 import { copy, meant, move, remove, shift, where } from "./commands.js";
 import { abouts, extendTo, isLocked, marked, markOne, toggle } from "./state.js";

@@ -1,12 +1,11 @@
 // What is done with trips: added, moved, copied, deleted, written into.
 
 import { inTrips, moved, withField } from "../core/changes.js";
-import { drawTelling } from "../core/drawing.js";
-import { capital, number, place as inWords } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { capital, number, place as inWords, t } from "../core/i18n.js";
 import { newKey } from "../core/keys.js";
 import { speakOut } from "../core/notices.js";
 import { plan, selection } from "../core/station.js";
+import { drawTelling } from "../ui/undo.js";
 import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";
 import { abouts, isLocked, markAll, marked, markOne } from "./state.js";

@@ -3,8 +3,7 @@
 import { h } from "preact";
 import { useEffect, useId, useMemo, useState } from "preact/hooks";
 import { addMission } from "../core/changes.js";
-import { many } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { many, t } from "../core/i18n.js";
 import { newKey } from "../core/keys.js";
 import { wantedField } from "../core/route.js";
 import { app, mayFly, plan, selected, selection, selectKey } from "../core/station.js";
@@ -14,23 +13,19 @@ import { Floor } from "../map/floor.js";
 import { Landmarks } from "../map/landmarks.js";
 import { MissionField } from "../missions/fields.js";
 import { called } from "../missions/words.js";
-import { Button } from "../ui/button.js";
-import { Icon } from "../ui/icon.js";
 import { MapSplit } from "../ui/map_split.js";
-import { Said } from "../ui/parts.js";
+import { Button, Icon, Said } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
 import { focusField, focusHead, SeveralTrips, TripCards } from "./cards.js";
 import { PICK } from "./carried.js";
 import { add } from "./commands.js";
-import { TripLabels } from "./labels.js";
 import { Palette, take } from "./palette.js";
-import { Pins } from "./pins.js";
+import { OtherTrips, Pins, TripLabels, Ways } from "./pins.js";
 import { Drawing, Drawn } from "./rectangle.js";
 import { snapped } from "./snapping.js";
 import { abouts, hovered, inHand, isLocked, marked, markOne, pattern, places, tool } from "./state.js";
 import { ToolButtons, ToolPanel } from "./tools.js";
-import { OtherTrips, Ways } from "./ways.js";
 
 /** @import { Added } from "./palette.js" */
 

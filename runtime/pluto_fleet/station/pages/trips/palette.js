@@ -4,11 +4,9 @@
 import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { capital } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { capital, t } from "../core/i18n.js";
 import { app } from "../core/station.js";
-import { Button } from "../ui/button.js";
-import { ActionIcon } from "./action_icon.js";
+import { ActionIcon, Button } from "../ui/parts.js";
 import { add } from "./commands.js";
 import { snapped } from "./snapping.js";
 import { hovered, inHand, places, tool } from "./state.js";

@@ -1,14 +1,20 @@
-// The pins on the map: dragged, moved by the arrow keys, several at once.
+// The trips on the map: pins, dragged, moved by the arrow keys, several at once; names beside them and places, which
+// avoid each other; the ways from home through them; and the trips of other missions, faintly.
 
 import { h } from "preact";
 import { useRef } from "preact/hooks";
-import { capital } from "../core/format.js";
-import { t } from "../core/i18n.js";
-import { Mark, useCamera } from "../map/camera.js";
+import { capital, t } from "../core/i18n.js";
+import { app, plan, selected, selection } from "../core/station.js";
+import { Mark, Tags, useCamera } from "../map/camera.js";
+import { landmarkNames } from "../map/landmarks.js";
+import { way } from "../map/routes.js";
+import { toPixels, whyNot } from "../map/view.js";
+import { called } from "../missions/words.js";
 import { copy, meant, nudge, place, remove, where } from "./commands.js";
 import { rounded, snapped } from "./snapping.js";
-import { abouts, held, isLocked, markAll, marked, markOne, places, toggle } from "./state.js";
+import { abouts, held, hovered, isLocked, markAll, marked, markOne, places, toggle } from "./state.js";
 
+/** @import { Label } from "../map/labels.js" */
 /** @import { About } from "./state.js" */
 
 export const BESIDE = 25; // pixels between pins at one place
@@ -110,4 +116,75 @@ function Pin({ about, onOpen, onRemoved }) {
   },
   h("circle", { class: "halo", r: 20 }), h("circle", { class: "disc", r: 12.5 }), h("text", { y: 4.5 }, number),
   problems.length > 0 && h("path", { class: "pin-sign", d: "M11 -20L19 -5H3ZM11 -15v5M11 -8v.5" }));
+}
+
+const MOST = 40; // letters
+
+/** @param {string} text */
+const short = (text) => (text.length > MOST ? `${text.slice(0, MOST - 1)}…` : text);
+
+/** @param {About} about */
+function words({ trip, target, isHeld, place: name, problems }) {
+  if (!isHeld) return [capital(trip.action), ...(trip.name ? [trip.name] : [])].join(" · ");
+  return problems.find(({ field }) => field === "target")?.text || name || t("trips.metres", { place: where(target ?? []) });
+}
+
+/** Where the action in hand would go now. @returns {(Omit<Label, "x" | "y"> & { target: readonly number[], aside: number })[]} */
+function inTheAir() {
+  const target = hovered.value;
+  if (!target || !app.value) return [];
+  const wrong = whyNot(app.value.map, target);
+  const name = places.value.find(({ x, y }) => x === target[0] && y === target[1])?.name;
+  const text = wrong ? t(wrong) : name ?? t("trips.metres", { place: where(target) });
+  return [{ key: "new", text: short(text), target, importance: 5, always: true, gap: 18, aside: 0, kind: wrong ? "bad" : "" }];
+}
+
+export function TripLabels() {
+  const camera = useCamera();
+  const [view, box] = [camera.view.value, camera.box.value];
+  const chosen = new Set(marked.value);
+  const pins = abouts.value.flatMap((about) => {
+    const { key, target, isHeld, problems, beside } = about;
+    if (!target) return [];
+    const isOne = isHeld || (chosen.has(key) && chosen.size === 1);
+    return [{
+      key, target, text: short(words(about)), gap: 18, aside: beside * BESIDE, always: isOne, kind: isHeld && problems.length ? "bad" : "",
+      importance: isOne ? 4 : problems.length ? 3 : 2,
+    }];
+  });
+  const named = landmarkNames.value.map(({ x, y, ...label }) => ({ ...label, target: [x, y], aside: 0 }));
+  const labels = [...inTheAir(), ...pins, ...named].map(({ target, aside, ...label }) => {
+    const { x, y } = toPixels(view, target[0], target[1]);
+    return { ...label, x: x + aside, y };
+  });
+  const marks = labels.filter(({ key }) => abouts.value.some((about) => about.key === key)).map(({ x, y }) => ({ x, y, r: 13 }));
+  return h(Tags, { labels, box, marks });
+}
+
+/** The home that is nearest to a place. @param {readonly { home: Point }[]} drones @param {Point} to */
+function nearest(drones, [x, y]) {
+  const far = (/** @type {{ home: Point }} */ { home }) => Math.hypot(home[0] - x, home[1] - y);
+  return drones.toSorted((a, b) => far(a) - far(b))[0]?.home;
+}
+
+export function Ways() {
+  const stops = abouts.value.flatMap(({ target, isHeld }) => (target ? [{ target, isHeld }] : []));
+  const home = stops.length ? nearest(app.value?.drones ?? [], stops[0].target) : undefined;
+  const legs = [...(home ? [{ target: home.slice(0, 2), isHeld: false }] : []), ...stops];
+  return h("g", { class: "layer ways" }, legs.slice(1).map(({ target, isHeld }, at) => {
+    const from = legs[at];
+    const found = isHeld || from.isHeld ? undefined : way([from.target, target]);
+    const points = (found ?? [from.target, target]).map(([x, y]) => `${x},${y}`).join(" ");
+    const kind = found === null ? "no-way" : home && at === 0 ? "from-home" : "";
+    return h("polyline", { key: at, class: kind, points }, found === null && h("title", null, t("trips.no-way")));
+  }));
+}
+
+/** @param {{ shown: boolean }} props of all other missions, also while one is selected */
+export function OtherTrips({ shown }) {
+  if (!shown && selected.value) return null;
+  const others = plan.missions.value.filter(({ key }) => key !== selection.value.key);
+  return h("g", { class: "layer other-trips" }, others.flatMap((mission) => mission.trips.map((trip, at) =>
+    trip.target && h(Mark, { key: trip.key, x: trip.target[0], y: trip.target[1] }, h("circle", { r: 5 },
+      h("title", null, t("trips.other", { mission: called(mission), trip: trip.name ?? String(at + 1) })))))));
 }

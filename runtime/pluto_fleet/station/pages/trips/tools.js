@@ -1,18 +1,20 @@
-// Many trips at once: a row, a grid, or the sweep of an area, seen before it is added.
+// Many trips at once: a row, a grid, or the sweep of an area in lanes around what may not be flown over, which the
+// station computes; seen before they are added.
 
 import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { many } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { send, StationError } from "../core/api.js";
+import { capital, many, number, percent, t } from "../core/i18n.js";
+import { landmarks } from "../core/landmarks.js";
 import { app } from "../core/station.js";
 import { read } from "../core/typed.js";
-import { Button, IconButton } from "../ui/button.js";
+import { Button, IconButton } from "../ui/parts.js";
 import { add } from "./commands.js";
 import { take } from "./palette.js";
-import { grid, row } from "./patterns.js";
-import { pattern, tool } from "./state.js";
-import { Sweep } from "./sweep.js";
-import { ActionChoice, CornerFields, corners, MOST, plainAction, ToolField, work } from "./tool_parts.js";
+import { grid, row } from "./snapping.js";
+import { abouts, drawn, pattern, tool } from "./state.js";
+
+/** @import { Tool } from "./state.js" */
 
 const TOOLS = /** @type {const} */ ([["area", "select"], ["row", "row"], ["grid", "grid"], ["sweep", "sweep"]]);
 
@@ -80,4 +82,112 @@ function Grid() {
   return h(Counts, { total: wide * high },
     h(ToolField, { label: t("trips.columns"), value: columns, onWrite: setColumns }),
     h(ToolField, { label: t("trips.rows"), value: rows, onWrite: setRows }));
+}
+
+export const MOST = 500; // trips at once
+
+/** @typedef {{ from: At, to: At }} Corners */
+
+/** The middle third of the map, until something is drawn. @returns {Corners} */
+function somewhere() {
+  const [width, height] = app.value?.map.size ?? [1, 1];
+  const at = (/** @type {number} */ share) => ({ x: Number((width * share).toFixed(1)), y: Number((height * share).toFixed(1)) });
+  return { from: at(1 / 3), to: at(2 / 3) };
+}
+
+export const corners = () => drawn.value ?? somewhere();
+
+/** Let a tool work, or none. @param {Tool | null} next */
+export function work(next) {
+  drawn.value = null;
+  pattern.value = [];
+  tool.value = next;
+}
+
+/** What can be put many times: no items, which are picked one by one, unless there is nothing else. */
+export function plainAction() {
+  const { actions = [] } = app.value ?? {};
+  return (actions.find(({ item }) => !item) ?? actions[0])?.name ?? "";
+}
+
+/** @param {{ value: string, onPick: (name: string) => void }} props */
+export const ActionChoice = ({ value, onPick }) => h("label", { class: "field" },
+  h("span", { class: "hint" }, t("trips.action")), h("select", {
+    class: "input", value,
+    onChange: (/** @type {Event} */ event) => onPick(/** @type {HTMLSelectElement} */ (event.currentTarget).value),
+  }, app.value?.actions.map(({ name }) => h("option", { key: name, value: name }, capital(name)))));
+
+/** The corners, to be written. */
+export function CornerFields() {
+  const shape = corners();
+  /** @param {"from" | "to"} end @param {"x" | "y"} axis */
+  const coordinate = (end, axis) => h("input", {
+    class: "input", inputMode: "decimal", autocomplete: "off", "aria-label": t(`trips.${end}-${axis}`), value: shape[end][axis],
+    onChange: (/** @type {Event} */ event) => {
+      const value = read({ name: axis, type: "float" }, /** @type {HTMLInputElement} */ (event.currentTarget).value);
+      if (typeof value === "number") drawn.value = { ...shape, [end]: { ...shape[end], [axis]: value } };
+    },
+  });
+  return h("div", { class: "corners" },
+    h("span", { class: "hint" }, t("trips.from")), coordinate("from", "x"), coordinate("from", "y"),
+    h("span", { class: "hint" }, t("trips.to")), coordinate("to", "x"), coordinate("to", "y"));
+}
+
+/** A field of a tool. @param {{ label: string, value: string, numeric?: boolean, onWrite: (text: string) => void }} props */
+export const ToolField = ({ label, value, numeric = true, onWrite }) => h("label", { class: "field" },
+  h("span", { class: "hint" }, label), h("input", {
+    class: "input", inputMode: numeric ? "numeric" : undefined, autocomplete: "off", value,
+    onInput: (/** @type {Event} */ event) => onWrite(/** @type {HTMLInputElement} */ (event.currentTarget).value),
+  }));
+
+const PAUSE = 250; // ms until what is being drawn is asked for
+
+/** @param {Corners} corners @returns {Point[]} */
+const rectangle = ({ from, to }) => [[from.x, from.y], [to.x, from.y], [to.x, to.y], [from.x, to.y]];
+
+/** A place without the height at which drones cruise anyway. @param {Point} target @returns {Point} */
+const flat = ([x, y, z]) => (z === undefined || z === app.peek()?.map.cruise_height ? [x, y] : [x, y, z]);
+
+export function Sweep() {
+  const [spacing, setSpacing] = useState("1 m");
+  const [zone, setZone] = useState("");
+  const [swept, setSwept] = useState(/** @type {Swept | null} */ (null));
+  const [wrong, setWrong] = useState("");
+  const zones = landmarks.value?.zones ?? [];
+  const polygon = zones.find(({ name }) => name === zone)?.corners ?? rectangle(corners());
+  const key = JSON.stringify([polygon, spacing]);
+  useEffect(() => {
+    let isOld = false;
+    const before = abouts.peek().at(-1)?.target ?? undefined;
+    const timer = setTimeout(async () => {
+      try {
+        const { data } = await send("POST", "/api/plan/sweep", { polygon, spacing, before });
+        if (isOld) return;
+        const isTooMany = data.targets.length > MOST;
+        pattern.value = isTooMany ? [] : data.targets.map(flat);
+        setSwept(isTooMany ? null : data);
+        setWrong(isTooMany ? t("trips.count-wrong", { n: MOST }) : "");
+      } catch (error) {
+        if (!(error instanceof StationError)) throw error;
+        if (isOld) return;
+        pattern.value = [];
+        setSwept(null);
+        setWrong(error.message);
+      }
+    }, PAUSE);
+    return () => {
+      isOld = true;
+      clearTimeout(timer);
+    };
+  }, [key]);
+  return h("div", { class: "stack" },
+    zones.length > 0 && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.zone")), h("select", {
+      class: "input", value: zone,
+      onChange: (/** @type {Event} */ event) => setZone(/** @type {HTMLSelectElement} */ (event.currentTarget).value),
+    }, h("option", { value: "" }, t("trips.zone-drawn")), zones.map(({ name }) => h("option", { key: name, value: name }, name)))),
+    !zone && h(CornerFields, null),
+    h(ToolField, { label: t("trips.spacing"), value: spacing, numeric: false, onWrite: setSpacing }),
+    swept && h("p", { class: "hint" }, t("trips.swept", { trips: many("many.trips", swept.targets.length), metres: number(swept.metres) })),
+    swept && swept.forbidden > 0 && h("p", { class: "hint" }, t("trips.swept-forbidden", { share: percent(swept.forbidden) })),
+    wrong && h("p", { class: "problem", role: "status" }, wrong));
 }

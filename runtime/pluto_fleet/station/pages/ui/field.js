@@ -3,11 +3,9 @@
 
 import { h } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
-import { capital } from "../core/format.js";
-import { t } from "../core/i18n.js";
+import { capital, t } from "../core/i18n.js";
 import { isNumeric, placeholder, read, written } from "../core/typed.js";
-import { Icon } from "./icon.js";
-import { Said } from "./parts.js";
+import { Icon, Said } from "./parts.js";
 
 /** What was typed and cannot be in the plan. @typedef {{ typed: string, why: string }} Wrong */
 /**

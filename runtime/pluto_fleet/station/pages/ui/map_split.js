@@ -4,7 +4,7 @@ import { h } from "preact";
 import { useRef } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
-import { IconButton } from "./button.js";
+import { IconButton } from "./parts.js";
 
 /** @param {{ stage: ComponentChildren, rail: ComponentChildren, tools?: ComponentChildren }} props */
 export function MapSplit({ stage, rail, tools }) {

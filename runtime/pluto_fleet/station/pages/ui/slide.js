@@ -2,7 +2,7 @@
 
 import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
-import { Icon } from "./icon.js";
+import { Icon } from "./parts.js";
 
 const END = 0.95; // of the way
 
