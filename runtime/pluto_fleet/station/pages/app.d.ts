@@ -48,6 +48,9 @@ declare global {
   type TripRow = wire.TripRow;
   type Words = wire.Words;
 
+  /** What was asked of the station, and why it cannot be had. */
+  type Answer<Data> = { data: Data | null; trouble: string };
+
   type Scalar = string | number | boolean;
   type Point = number[];
   type AppShape = wire.AppData;

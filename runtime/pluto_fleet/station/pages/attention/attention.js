@@ -66,7 +66,7 @@ function Item({ alert }) {
 }
 
 export const AttentionList = () => h(Dialog, {
-  title: t("attention.title"), class: "attention-list", onClose: () => { isOpen.value = false; },
+  title: t("tour.attention"), class: "attention-list", onClose: () => { isOpen.value = false; },
 }, open.value.length
   ? h("ul", null, open.value.map((alert) => h(Item, { key: alert.id, alert })))
   : h(Empty, null, t("attention.none")));

@@ -11,7 +11,7 @@ const unitsOf = ({ type, units }) => (type === "time" ? TIME : units ?? []);
 function usually(field) {
   const { type, own, default: usual = null } = field;
   if (usual === null) return "";
-  return usual === 0 && type === "time" && !own ? t("field.none") : inWords(usual, unitsOf(field));
+  return usual === 0 && type === "time" && !own ? t("none") : inWords(usual, unitsOf(field));
 }
 
 /** @param {FieldShape} field */

@@ -6,9 +6,8 @@ import { forgetToken, token } from "../core/api.js";
 import { LANGUAGES, t, tOr } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { Button, Standing } from "../ui/parts.js";
-import { touring } from "./tour.js";
+import { Step, Steps, touring } from "./tour.js";
 
-const STEPS = /** @type {const} */ (["missions", "trips", "start"]);
 const DRONES = ["FREE", "BUSY", "RETURNING", "CHARGING", "LOW", "UNKNOWN", "LOST", "RETIRED"];
 /** @type {readonly (readonly [string[], "keys.tabs" | "keys.map" | "keys.zoom" | "keys.whole" | "keys.pins" | "keys.fine" | "keys.delete" | "keys.undo" | "keys.reorder" | "keys.open" | "keys.hold" | "keys.close" | "keys.actions" | "keys.places" | "keys.new" | "keys.several"])[]} */
 const KEYS = [
@@ -19,9 +18,6 @@ const KEYS = [
   [["Space"], "keys.hold"], [["Esc"], "keys.close"],
 ];
 
-/** @param {{ name: typeof STEPS[number] | "stop" }} props */
-const Step = ({ name }) => [h("h3", null, t(`tour.${name}`)), h("p", { class: "muted" }, t(`tour.${name}-text`))];
-
 /** "Ctrl+Z", as the reader's keyboard calls it. @param {string} key */
 const named = (key) => key.split(/(?<=.)\+/).map((one) => tOr(`key.${one}`, one)).join("+");
 
@@ -29,7 +25,7 @@ export default function Help() {
   return h("div", { class: "help-columns" },
     h("section", { class: "card stack", "aria-labelledby": "steps" },
       h("h2", { id: "steps" }, t("help.steps")),
-      h("ol", { class: "stack" }, STEPS.map((name) => h("li", { key: name }, h(Step, { name })))),
+      h(Steps, { class: "stack" }),
       h("div", null, h(Step, { name: "stop" }))),
     h(Settings, null),
     h("section", { class: "card stack", "aria-labelledby": "signs" },
@@ -76,11 +72,11 @@ export function Settings() {
       }),
       h(Choice, {
         id: "theme", label: t("settings.theme"), value: prefs.theme,
-        choices: [["auto", t("settings.theme-auto")], ["light", t("settings.light")], ["dark", t("settings.dark")]],
+        choices: [["auto", t("settings.auto")], ["light", t("settings.light")], ["dark", t("settings.dark")]],
       }),
       h(Choice, {
         id: "contrast", label: t("settings.contrast"), value: prefs.contrast,
-        choices: [["auto", t("settings.contrast-auto")], ["more", t("settings.contrast-more")]],
+        choices: [["auto", t("settings.auto")], ["more", t("settings.contrast-more")]],
       })),
     h("div", { class: "stack" },
       h(Switch, { label: t("settings.sound"), value: prefs.sound, onChange: (yes) => { if (yes) beep(); } }),

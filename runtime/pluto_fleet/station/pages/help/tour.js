@@ -44,3 +44,11 @@ export function Tour() {
     ],
   }, h("p", null, t(`tour.${name}-text`)));
 }
+
+/** @param {{ name: "missions" | "trips" | "start" | "stop", n?: number }} props */
+export const Step = ({ name, n }) => [
+  h("h3", { key: "title" }, n ? `${n}. ` : "", t(`tour.${name}`)), h("p", { key: "more", class: "muted" }, t(`tour.${name}-text`))];
+
+/** The three steps to a flight. @param {{ class: string }} props */
+export const Steps = ({ class: more }) => h("ol", { class: more },
+  (/** @type {const} */ (["missions", "trips", "start"])).map((name, at) => h("li", { key: name }, h(Step, { name, n: at + 1 }))));

@@ -1,37 +1,18 @@
 // What a page asks of the station when it opens, what stands there until it has come, and how flights are called.
 
 import { h } from "preact";
-import { useEffect, useState } from "preact/hooks";
-import { get, StationError } from "../core/api.js";
+import { get } from "../core/api.js";
 import { duration, moment, t } from "../core/i18n.js";
+import { useAnswer } from "../ui/hooks.js";
 import { Icon } from "../ui/parts.js";
 
 /** @import { IconName } from "../ui/parts.js" */
 
-/** @template Data @typedef {{ data: Data | null, trouble: string }} Asked */
-
 /**
- * What the station says at an address; asked again when that changes, or when `anew` does.
- * @template Data
- * @param {string | null} path null: nothing is asked
- * @param {unknown} [anew]
- * @returns {Asked<Data>}
+ * What the station says at an address; asked again when `anew` changes.
+ * @param {string} path @param {unknown} [anew]
  */
-export function useAsked(path, anew) {
-  const [asked, setAsked] = useState(/** @type {Asked<Data> & { path: string | null }} */ ({ data: null, trouble: "", path: null }));
-  useEffect(() => {
-    let isWanted = true;
-    const keep = (/** @type {Asked<Data>} */ answer) => { if (isWanted) setAsked({ ...answer, path }); };
-    if (path !== null) {
-      get(path, 30000).then((data) => keep({ data, trouble: "" }), (error) => {
-        if (!(error instanceof StationError)) throw error;
-        keep({ data: null, trouble: error.message });
-      });
-    }
-    return () => { isWanted = false; };
-  }, [path, anew]);
-  return asked.path === path ? asked : { data: null, trouble: "" };
-}
+export const useAsked = (path, anew) => useAnswer([path], () => get(path, 30000), { anew });
 
 /** What stands where something is still on its way, or could not be had. @param {{ trouble: string }} props */
 export const Waiting = ({ trouble }) => (trouble

@@ -35,7 +35,7 @@ export function FlightView({ flight }) {
       }),
       !isRehearsal && h("div", { class: "row spread", role: "group", "aria-label": t("results.export") },
         h(Button, { small: true, kind: "quiet", icon: "save", onClick: () => { save(`/api/flights/mcap${query}`, `${flight}.mcap`); } }, t("history.mcap")),
-        h(Button, { small: true, kind: "quiet", icon: "save", onClick: () => { save(`/api/console.txt${query}`, `${flight}.txt`); } }, t("history.console")))),
+        h(Button, { small: true, kind: "quiet", icon: "save", onClick: () => { save(`/api/console.txt${query}`, `${flight}.txt`); } }, t("monitor.log")))),
     h("div", { class: "flight-body", "data-tab": tab.value }, {
       replay: () => h(ReplayView, { flight, from: from.value, onTime: (time) => { now.value = time; } }),
       results: () => h(PastResults, {
@@ -50,8 +50,7 @@ export function FlightView({ flight }) {
 
 /** @param {{ flight: string, onReplay: (time: number) => void }} props */
 export function PastResults({ flight, onReplay }) {
-  const { data, trouble } = /** @type {import("./asked.js").Asked<Result[]>} */ (
-    useAsked(`/api/results.json?flight=${encodeURIComponent(flight)}`));
+  const { data, trouble } = /** @type {Answer<Result[]>} */ (useAsked(`/api/results.json?flight=${encodeURIComponent(flight)}`));
   const world = useMemo(() => new World(), [flight]);
   useEffect(() => {
     if (!data) return;

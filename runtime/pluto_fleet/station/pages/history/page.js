@@ -10,8 +10,6 @@ import { Chip, Empty, Icon, Tabs } from "../ui/parts.js";
 import { beginWords, ENDS, outcomeWords, useAsked, Waiting } from "./asked.js";
 import { FlightView } from "./flight_view.js";
 
-/** @import { Asked } from "./asked.js" */
-
 const TABS = /** @type {const} */ (["flights", "hours"]);
 /** @typedef {typeof TABS[number]} TabName */
 
@@ -28,12 +26,12 @@ export default function History() {
 
 function Flights() {
   const { phase } = world.state.value; // a flight that began or ended is another line
-  const { data, trouble } = /** @type {Asked<FlightSummary[]>} */ (useAsked("/api/flights", phase));
+  const { data, trouble } = /** @type {Answer<FlightSummary[]>} */ (useAsked("/api/flights", phase));
   return data ? h(FlightsList, { flights: data }) : h(Waiting, { trouble });
 }
 
 function Drones() {
-  const { data, trouble } = /** @type {Asked<DroneHours[]>} */ (useAsked("/api/drones/hours"));
+  const { data, trouble } = /** @type {Answer<DroneHours[]>} */ (useAsked("/api/drones/hours"));
   return data ? h(Hours, { drones: data }) : h(Waiting, { trouble });
 }
 
@@ -43,7 +41,7 @@ const COLUMNS = /** @type {const} */ (["begun", "end", "missions", "trips", "res
 export function FlightsList({ flights }) {
   if (!flights.length) return h(Empty, null, t("history.none"));
   return h("table", { class: "table flights", "aria-label": t("history.flights") },
-    h("thead", null, h("tr", null, COLUMNS.map((column) => h("th", { key: column, scope: "col" }, t(`history.column.${column}`))))),
+    h("thead", null, h("tr", null, COLUMNS.map((column) => h("th", { key: column, scope: "col" }, t(`column.${column}`))))),
     h("tbody", null, flights.map((flight) => h(Flight, { key: flight.id, flight }))));
 }
 
@@ -55,13 +53,13 @@ function Flight({ flight }) {
     h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, beginWords(flight)),
       simulated && h(Chip, null, t("simulated")),
       said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), said)),
-    h("td", { "data-label": t("history.column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),
-    h("td", { "data-label": t("history.column.missions"), class: failed ? "failed" : "" }, outcomeWords(flight),
+    h("td", { "data-label": t("column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),
+    h("td", { "data-label": t("column.missions"), class: failed ? "failed" : "" }, outcomeWords(flight),
       lost.length > 0 && h("p", { class: "problem" }, h(Icon, { name: "warning" }), t("history.lost", { drones: lost }))),
-    h("td", { class: "num", "data-label": t("history.column.trips") }, trips),
-    h("td", { class: "num", "data-label": t("history.column.results") }, results),
-    h("td", { class: "num", "data-label": t("history.column.duration") }, duration(seconds)),
-    h("td", { class: "called", "data-label": t("history.column.by") }, by ?? t("history.by-unknown")));
+    h("td", { class: "num", "data-label": t("column.trips") }, trips),
+    h("td", { class: "num", "data-label": t("column.results") }, results),
+    h("td", { class: "num", "data-label": t("column.duration") }, duration(seconds)),
+    h("td", { class: "called", "data-label": t("column.by") }, by ?? t("unknown")));
 }
 
 const HOURS = /** @type {const} */ (["drone", "flights", "trips", "hours", "cycles", "lost"]);
@@ -73,7 +71,7 @@ export function Hours({ drones }) {
   const unmeasured = drones.some((drone) => drone.unmeasured > 0);
   return h("div", { class: "stack" },
     h("table", { class: "table hours", "aria-label": t("history.hours") },
-      h("thead", null, h("tr", null, HOURS.map((column) => h("th", { key: column, scope: "col" }, t(`history.hours.${column}`))))),
+      h("thead", null, h("tr", null, HOURS.map((column) => h("th", { key: column, scope: "col" }, t(`column.${column}`))))),
       h("tbody", null, drones.map((drone) => h("tr", { key: drone.id },
         h("th", { scope: "row", class: "called" }, drone.id), h("td", { class: "num" }, drone.flights), h("td", { class: "num" }, drone.trips),
         h("td", { class: "num" }, number(drone.hours, one), drone.unmeasured > 0 && h("span", { class: "muted" }, " +")),

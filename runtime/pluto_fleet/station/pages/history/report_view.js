@@ -17,14 +17,12 @@ import { Button, Said } from "../ui/parts.js";
 import { outcomeWords, tookWords, useAsked, Waiting } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 
-/** @import { Asked } from "./asked.js" */
-
 /** @param {{ flight: string }} props */
 export function ReportView({ flight }) {
   const query = `?flight=${encodeURIComponent(flight)}`;
-  const report = /** @type {Asked<FlightReport>} */ (useAsked(`/api/flights/report${query}`));
-  const results = /** @type {Asked<Result[]>} */ (useAsked(`/api/results.json${query}`));
-  const replay = /** @type {Asked<Replay>} */ (useAsked(`/api/flights/replay${query}&start=0`));
+  const report = /** @type {Answer<FlightReport>} */ (useAsked(`/api/flights/report${query}`));
+  const results = /** @type {Answer<Result[]>} */ (useAsked(`/api/results.json${query}`));
+  const replay = /** @type {Answer<Replay>} */ (useAsked(`/api/flights/replay${query}&start=0`));
   const model = useMemo(() => {
     const world = new World();
     world.results.replace(results.data ?? []);
@@ -46,18 +44,18 @@ function Report({ report, replay, model }) {
     h("div", { class: "spread no-print" }, h(Button, { kind: "primary", icon: "save", onClick: () => window.print() }, t("report.print")))),
     flight.said && h("p", { class: "problem" }, h(Said, { text: flight.said })),
     h("dl", { class: "report-facts" },
-      h(Fact, { name: t("history.column.end"), words: t(`history.end.${flight.end}`) }),
-      h(Fact, { name: t("history.column.missions"), words: outcomeWords(flight) }),
-      h(Fact, { name: t("history.column.duration"), words: duration(flight.seconds) }),
-      h(Fact, { name: t("history.column.by"), words: flight.by ?? t("history.by-unknown") }),
-      h(Fact, { name: t("report.kind"), words: flight.simulated === null ? t("report.kind-unknown") : t(flight.simulated ? "report.simulated" : "report.real") }),
-      h(Fact, { name: t("history.column.trips"), words: number(flight.trips) }),
-      h(Fact, { name: t("report.lost"), words: flight.lost.join(", ") || t("report.none") })),
-    h(Part, { title: t("report.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
-    h(Part, { title: t("report.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
+      h(Fact, { name: t("column.end"), words: t(`history.end.${flight.end}`) }),
+      h(Fact, { name: t("column.missions"), words: outcomeWords(flight) }),
+      h(Fact, { name: t("column.duration"), words: duration(flight.seconds) }),
+      h(Fact, { name: t("column.by"), words: flight.by ?? t("unknown") }),
+      h(Fact, { name: t("report.kind"), words: flight.simulated === null ? t("unknown") : t(flight.simulated ? "report.simulated" : "report.real") }),
+      h(Fact, { name: t("column.trips"), words: number(flight.trips) }),
+      h(Fact, { name: t("report.lost"), words: flight.lost.join(", ") || t("none") })),
+    h(Part, { title: t("page.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
+    h(Part, { title: t("page.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
       title: t("report.incidents"),
-      heads: [t("results.column.time"), t("results.column.mission"), t("results.column.drone"), t("report.what")],
+      heads: [t("column.time"), t("column.mission"), t("column.drone"), t("report.what")],
       rows: incidents.map(({ time, mission, drone, text }) => [clock(time), mission ?? "", drone ?? "", h(Said, { text })]),
     })),
     h(Part, { title: t("report.batteries"), isEmpty: !drones.length },
@@ -71,7 +69,7 @@ const Fact = ({ name, words }) => h("div", null, h("dt", null, name), h("dd", nu
 
 /** @param {{ title: string, isEmpty: boolean, children?: ComponentChildren }} props */
 const Part = ({ title, isEmpty, children }) => h("section", { class: "report-part" }, h("h3", null, title),
-  isEmpty ? h("p", { class: "muted" }, t("report.none")) : children);
+  isEmpty ? h("p", { class: "muted" }, t("none")) : children);
 
 /** @param {{ title: string, heads: string[], rows: ComponentChildren[][] }} props */
 const Table = ({ title, heads, rows }) => h("div", { class: "report-table", tabIndex: 0, role: "group", "aria-label": title }, h("table", { class: "table" },
@@ -80,8 +78,8 @@ const Table = ({ title, heads, rows }) => h("div", { class: "report-table", tabI
 
 /** @param {{ missions: ReportMission[] }} props */
 const Missions = ({ missions }) => h(Table, {
-  title: t("report.missions"),
-  heads: [t("results.column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("history.column.trips")],
+  title: t("page.missions"),
+  heads: [t("column.mission"), t("report.outcome"), t("report.began"), t("report.took"), t("column.trips")],
   rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
     h("strong", null, name),
     [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, h(Said, { text: why }))],
@@ -95,8 +93,8 @@ const Missions = ({ missions }) => h(Table, {
 
 /** @param {{ results: ReportResults[] }} props */
 const Results = ({ results }) => h(Table, {
-  title: t("report.results"),
-  heads: [t("results.column.what"), t("report.count"), t("report.lowest"), t("report.mean"), t("report.highest")],
+  title: t("page.results"),
+  heads: [t("column.what"), t("report.count"), t("report.lowest"), t("report.mean"), t("report.highest")],
   rows: results.map(({ action, kind, quantity, unit, count, lowest, mean, highest }) => [
     kind === "verdict" ? t("results.verdict") : capital(quantity ?? action ?? kind), number(count),
     ...[lowest, mean, highest].map((value) => (value === null ? "" : withUnit(value, unit))),
@@ -106,7 +104,7 @@ const Results = ({ results }) => h(Table, {
 /** @param {{ drones: ReportDrone[] }} props */
 const Drones = ({ drones }) => h(Table, {
   title: t("report.batteries"),
-  heads: [t("results.column.drone"), t("history.column.trips"), t("report.in-the-air"), t("report.battery-first"), t("report.battery-lowest"), t("report.battery-last"), t("history.hours.lost")],
+  heads: [t("column.drone"), t("column.trips"), t("status.ALOFT"), t("report.battery-first"), t("report.lowest"), t("report.battery-last"), t("column.lost")],
   rows: drones.map((drone) => [
     drone.id, number(drone.trips), drone.hours === null ? t("unknown.short") : duration(drone.hours * 3600),
     percent(drone.first_battery), percent(drone.lowest_battery), percent(drone.last_battery), number(drone.lost),
@@ -116,7 +114,7 @@ const Drones = ({ drones }) => h(Table, {
 /** @param {{ commands: ReportCommand[] }} props */
 const Commands = ({ commands }) => h(Table, {
   title: t("report.commands"),
-  heads: [t("results.column.time"), t("report.command"), t("history.column.by"), t("report.said")],
+  heads: [t("column.time"), t("report.command"), t("column.by"), t("report.said")],
   rows: commands.map(({ time, at, command, given, by, client, said }) => [
     time !== null ? clock(time) : at !== null ? moment(at) : "",
     [capital(command), ...Object.entries(given).filter(([name, value]) => value !== null && name !== "revision")

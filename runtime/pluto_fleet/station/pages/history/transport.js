@@ -14,7 +14,7 @@ import { nextMark, SPEEDS } from "./playback.js";
 export function Transport({ playback, replay, marks, chosen }) {
   const isPlaying = playback.isPlaying.value;
   const { seconds } = replay;
-  return h("div", { class: "transport", role: "group", "aria-label": t("history.transport") },
+  return h("div", { class: "transport", role: "group", "aria-label": t("history.tab.replay") },
     h("div", { class: "transport-buttons row" },
       h(IconButton, {
         icon: isPlaying ? "pause" : "start", kind: "primary", label: t(isPlaying ? "history.pause" : "history.play"),

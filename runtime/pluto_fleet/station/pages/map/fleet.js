@@ -1,9 +1,10 @@
 // The drones on the map, each with its battery, the way it came and where it is bound, and their names.
 
-import { computed, effect, signal } from "@preact/signals";
+import { computed, effect } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import { percent, t, tOr } from "../core/i18n.js";
+import { useCalm } from "../ui/hooks.js";
 import { Mark, Tags, useCamera } from "./camera.js";
 import { way } from "./routes.js";
 import { toPixels } from "./view.js";
@@ -12,7 +13,7 @@ import { toPixels } from "./view.js";
 
 const TAIL = 30; // seconds of the way that it came
 const ROUND = 2 * Math.PI * 10; // pixels around the ring of the battery
-const LABELS_EVERY = 250; // ms
+const LABELS_EVERY = 60; // ms
 const BAD = ["LOST"];
 
 /** The homes of the drones. @param {{ app: AppShape }} props */
@@ -107,29 +108,15 @@ function importance({ id, status, mission }, chosen) {
  */
 export function Names({ world, chosen, more }) {
   const camera = useCamera();
-  const list = useMemo(() => signal(/** @type {{ labels: Label[], marks: { x: number, y: number, r: number }[] }} */ ({ labels: [], marks: [] })), []);
-  useEffect(() => {
-    let timer = 0;
-    const lay = () => {
-      timer = 0;
-      const view = camera.view.peek();
-      const rows = world.drones.all().filter(({ x }) => x !== null);
-      const drones = rows.map((row) => ({
-        key: `drone ${row.id}`, text: row.id, gap: 14, kind: BAD.includes(row.status) ? "bad" : "",
-        importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
-        ...toPixels(view, row.x ?? 0, row.y ?? 0),
-      }));
-      const others = (more?.peek() ?? []).map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
-      list.value = { labels: [...drones, ...others], marks: drones.map(({ x, y }) => ({ x, y, r: 10 })) };
-    };
-    const stop = effect(() => {
-      void [world.drones.version.value, camera.view.value, camera.box.value, more?.value];
-      timer ||= setTimeout(lay, timer ? LABELS_EVERY : 60);
-    });
-    return () => {
-      stop();
-      clearTimeout(timer);
-    };
-  }, [world, chosen, camera, more]);
-  return h(Tags, { ...list.value, box: camera.box.peek() });
+  const labels = useMemo(() => computed(() => {
+    const [view, box] = [camera.view.value, camera.box.value];
+    const drones = world.drones.all().filter(({ x }) => x !== null).map((row) => ({
+      key: `drone ${row.id}`, text: row.id, gap: 14, kind: BAD.includes(row.status) ? "bad" : "",
+      importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
+      ...toPixels(view, row.x ?? 0, row.y ?? 0),
+    }));
+    const others = (more?.value ?? []).map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
+    return { labels: [...drones, ...others], box, marks: drones.map(({ x, y }) => ({ x, y, r: 10 })) };
+  }), [world, chosen, camera, more]);
+  return h(Tags, useCalm(labels, LABELS_EVERY).value);
 }

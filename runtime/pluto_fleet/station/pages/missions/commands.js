@@ -25,7 +25,7 @@ const at = (key) => plan.missions.peek().findIndex((mission) => mission.key === 
 /** Add a mission and select it; returns its key. */
 export function add() {
   const key = newKey();
-  plan.edit(addMission(key, t("missions.stem")));
+  plan.edit(addMission(key, t("mission")));
   markOne(key);
   return key;
 }

@@ -49,7 +49,7 @@ async function open({ name }, add) {
 
 export const LibraryButton = ({ small = true }) => h(Button, {
   small, expanded: isOpen.value, onClick: () => { isOpen.value = !isOpen.peek(); },
-}, t("library.button"));
+}, t("library.title"));
 
 export function Library() {
   return isOpen.value ? h(Opened, null) : null;
@@ -78,7 +78,7 @@ function Item({ one }) {
     mayFly.value && h("div", { class: "row" },
       missions !== null && h(Button, { small: true, kind: "primary", onClick: () => { open(one, template); } }, t(template ? "library.add" : "library.open")),
       missions !== null && h(Button, { small: true, onClick: () => { open(one, !template); } }, t(template ? "library.open" : "library.add")),
-      h(Button, { small: true, onClick: () => { remove(one); } }, t("library.delete"))));
+      h(Button, { small: true, onClick: () => { remove(one); } }, t("delete"))));
 }
 
 /** Keeps the plan under a name. */

@@ -4,9 +4,9 @@ import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { app, mayFly, plan, selection } from "../core/station.js";
+import { useSortable } from "../ui/hooks.js";
 import { Chip, Icon } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
-import { useSortable } from "../ui/sortable.js";
 import { extendTo, isMarking, markAll, marked, markOne, move, open, remove, shift, toggle } from "./commands.js";
 import { called, inShort, standing } from "./words.js";
 

@@ -5,6 +5,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { t } from "../core/i18n.js";
 import { wantedField } from "../core/route.js";
 import { mayFly, plan } from "../core/station.js";
+import { Steps } from "../help/tour.js";
 import { Button } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
@@ -53,13 +54,10 @@ export default function Page() {
     h(Library, null));
 }
 
-const STEPS = /** @type {const} */ (["add", "trips", "start"]);
-
 /** @param {{ onAdd: () => void, children?: ComponentChildren }} props */
 export const Welcome = ({ onAdd, children }) => h("section", { class: "card welcome stack" },
   h("h2", null, t("missions.nothing")), h("p", { class: "muted" }, t("missions.what-is-one")),
-  h("ol", { class: "welcome-steps" }, STEPS.map((step) => h("li", { key: step },
-    h("h3", null, t(`missions.step.${step}`)), h("p", { class: "muted" }, t(`missions.step.${step}-more`))))),
+  h(Steps, { class: "welcome-steps" }),
   mayFly.value && h("div", { class: "row" },
     h(Button, { kind: "primary", icon: "plus", onClick: onAdd }, t("missions.add-first")),
     h(Button, { onClick: () => { example(); } }, t("missions.example")),

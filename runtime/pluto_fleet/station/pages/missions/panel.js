@@ -44,8 +44,8 @@ function Several() {
     h("h2", null, selectedInWords()),
     mayFly.value && h("div", { class: "row" },
       h(StartOnly, { keys, label: t("missions.start-these", { n: keys.length }) }),
-      h(Button, { onClick: () => copy(keys) }, t("missions.copy")),
-      h(Button, { disabled: !free, onClick: () => remove(keys) }, t("missions.delete"))),
+      h(Button, { onClick: () => copy(keys) }, t("copy")),
+      h(Button, { disabled: !free, onClick: () => remove(keys) }, t("delete"))),
     free < keys.length && h("p", { class: "hint" }, t("missions.locked-some")));
 }
 
@@ -65,7 +65,7 @@ function One({ mission, wanted }) {
   return h("section", { class: "card mission-panel stack", "aria-label": t("missions.panel") },
     launched && h("p", { class: "row" }, h(Icon, { name: "lock" }), t("missions.locked")),
     h("div", { class: "panel-title" },
-      h(MissionField, { mission, field: { name: "name", type: "text", label: t("missions.name") }, onKeyDown: toTrips }),
+      h(MissionField, { mission, field: { name: "name", type: "text", label: t("name") }, onKeyDown: toTrips }),
       h(Touching, { keys: [key] })),
     told.length > 0 && h("div", { class: "stack" }, told.slice(0, MOST_TOLD).map(({ trip, text, isOwn }) => {
       const n = trips.findIndex((one) => one.key === trip) + 1;
@@ -82,8 +82,8 @@ function One({ mission, wanted }) {
     h("p", { class: "hint" }, trips.length ? actionsOf(trips) : t("missions.no-trips-yet")),
     mayFly.value && h("div", { class: "row" },
       h(StartOnly, { keys: [key], label: t("missions.start-only") }),
-      h(Button, { onClick: () => copy([key]) }, t("missions.copy")),
-      h(Button, { disabled: launched, onClick: () => remove([key]) }, t("missions.delete"))));
+      h(Button, { onClick: () => copy([key]) }, t("copy")),
+      h(Button, { disabled: launched, onClick: () => remove([key]) }, t("delete"))));
 }
 
 export const PROMISES = ["opens", "deadline", "after"];

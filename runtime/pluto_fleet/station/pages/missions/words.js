@@ -55,7 +55,7 @@ export function standing({ key, trips, launched, ended, ...mission }, problems, 
   }
   if (own.length) return { text: t("missions.to-do"), kind: "" };
   const end = ended === null ? undefined : ENDED[ended];
-  return end ? { text: t(/** @type {any} */ (`missions.ended.${ended}`)), kind: end[1], icon: end[0] } : null;
+  return end ? { text: t(/** @type {any} */ (`status.${ended}`)), kind: end[1], icon: end[0] } : null;
 }
 
 /** The fields, those of the app's own first. @param {FieldShape[]} fields */

@@ -167,7 +167,7 @@ function Details({ world, row, live }) {
     can && h("div", { class: "row" },
       !isOver && row.question === null && h(Button, {
         small: true, onClick: () => send(row.status === "PAUSED" ? "go-on" : "pause"),
-      }, t(row.status === "PAUSED" ? "monitor.go-on" : "monitor.pause")),
+      }, t(row.status === "PAUSED" ? "answer.go-on" : "monitor.pause")),
       !isOver && h(SureButton, {
         label: t("monitor.cancel"), sure: t("monitor.cancel-sure"), onSure: () => send("cancel"),
       }),

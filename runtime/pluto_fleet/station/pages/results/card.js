@@ -22,12 +22,12 @@ export function facts(result) {
   const isPhoto = value !== null && typeof value === "object";
   /** @type {[string, string][]} */
   const all = [
-    [t("results.column.place"), [name, point && place(point)].filter(Boolean).join(", ")],
-    [t("results.column.time"), clock(time)],
-    [t("results.column.mission"), mission],
-    [t("results.column.trip"), trip ?? ""],
+    [t("column.place"), [name, point && place(point)].filter(Boolean).join(", ")],
+    [t("column.time"), clock(time)],
+    [t("column.mission"), mission],
+    [t("column.trip"), trip ?? ""],
     [t("results.round"), round ? String(round) : ""],
-    [t("results.column.drone"), drone ?? ""],
+    [t("column.drone"), drone ?? ""],
     [t("results.battery"), drainedWords(result)],
     [t("results.parameters"), given.join(", ")],
     [t("results.sees"), isPhoto ? tagWords(value.sees).join(", ") || t("results.sees-nothing") : ""],

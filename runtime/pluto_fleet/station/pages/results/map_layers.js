@@ -10,7 +10,7 @@ import { Mark, Tags, useCamera } from "../map/camera.js";
 import { pictureAt } from "../map/ground.js";
 import { landmarkNames } from "../map/landmarks.js";
 import { toPixels } from "../map/view.js";
-import { useCalm } from "../ui/calm.js";
+import { useCalm } from "../ui/hooks.js";
 import { colourAt, css, Field, KINDS, rasterOf, samplesOf, shareOf } from "./heat.js";
 import { numberOf, placeOf, spotsOf } from "./layers.js";
 import { shortNumber } from "./words.js";

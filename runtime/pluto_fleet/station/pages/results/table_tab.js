@@ -88,7 +88,7 @@ function Table({ model, listed, onPick }) {
     }
   }
   return h("div", {
-    class: "virtual", ref: body, role: "table", tabIndex: 0, "aria-label": t("results.table"), "aria-rowcount": listed.length + 1, onKeyDown,
+    class: "virtual", ref: body, role: "table", tabIndex: 0, "aria-label": t("page.results"), "aria-rowcount": listed.length + 1, onKeyDown,
   }, h(Headings, { model }),
   h("div", { role: "rowgroup", class: "virtual-rows", style: { height: `${listed.length * ROW}px` } },
     listed.slice(first, last).map((row, at) => h("div", {
@@ -115,5 +115,5 @@ function Headings({ model }) {
     COLUMNS.map((column) => h("span", {
       key: column, role: "columnheader", class: `cell of-${column}`, "aria-sort": column !== by ? "none" : down ? "descending" : "ascending",
     }, h(Button, { kind: "quiet", small: true, onClick: () => model.sortBy(column) }, [
-      t(`results.column.${column}`), column === by && h("span", { key: "sign", "aria-hidden": true }, down ? " ↓" : " ↑")])))));
+      t(`column.${column}`), column === by && h("span", { key: "sign", "aria-hidden": true }, down ? " ↓" : " ↑")])))));
 }

@@ -64,7 +64,7 @@ export function rowOf(result) {
 /** What a layer is called: by the app, or by its quantity or kind. @param {ShownLayer} layer */
 export function layerWords({ title, kind, quantity }) {
   if (title) return title;
-  if (kind === "photos") return t("layer.photos");
+  if (kind === "photos") return t("results.tab.photos");
   if (kind === "findings") return t("layer.findings");
   return quantity ? capital(quantity) : t("layer.values");
 }

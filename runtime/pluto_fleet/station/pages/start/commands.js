@@ -77,7 +77,7 @@ const Wide = ({ text, short }) => [
 export function Stops() {
   if (!mayFly.value) return null;
   const disabled = !mayStop.value;
-  return h("div", { class: "stops", role: "group", "aria-label": t("stops") },
+  return h("div", { class: "stops", role: "group", "aria-label": t("tour.stop") },
     h(Button, { kind: "danger", icon: "home", disabled, label: t("stop.home"), onClick: () => { stop("rtl"); } },
       h(Wide, { text: t("stop.home"), short: t("stop.home-short") })),
     h(Button, { kind: "danger", icon: "land", disabled, label: t("stop.land"), onClick: () => { stop("land"); } },

@@ -1,54 +1,31 @@
 // The preflight of a Start: what will fly, with which drones, for how long, and what is not ready. It is asked of
 // the station, anew whenever the plan has changed.
 
-import { signal } from "@preact/signals";
 import { h } from "preact";
-import { useEffect, useMemo, useState } from "preact/hooks";
+import { useState } from "preact/hooks";
 import { send, StationError } from "../core/api.js";
 import { duration, percent, say, t } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
 import { go } from "../core/route.js";
 import { line, plan, world } from "../core/station.js";
+import { useAnswer } from "../ui/hooks.js";
 import { Battery, Button, Chip, Dialog, HoldButton, Icon, joined, Said, SaidWords } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
 import { counted } from "./words.js";
 
-/** @typedef {{ forecast: Forecast | null, trouble: string }} Asked */
-
 const LONGEST = 30000; // ms
 const SETTLES = 400; // ms until a plan that is being changed is asked about
-
-/**
- * What is expected of a Start; null until it is known.
- * @param {string[] | null} missions @param {boolean} onlyFailed
- */
-export function useForecast(missions, onlyFailed) {
-  const asked = useMemo(() => signal(/** @type {Asked} */ ({ forecast: null, trouble: "" })), []);
-  const drawn = plan.missions.value;
-  useEffect(() => {
-    let isOld = false;
-    asked.value = { forecast: null, trouble: "" };
-    const timer = setTimeout(async () => {
-      try {
-        if (!await plan.saved()) return;
-        const content = { revision: plan.revision, missions, only_failed: onlyFailed };
-        const { status, data } = await send("POST", "/api/preflight", content, { timeout: LONGEST });
-        if (!isOld) asked.value = status === 200 ? { forecast: data, trouble: "" } : { forecast: null, trouble: data.said };
-      } catch (error) {
-        if (!(error instanceof StationError)) throw error;
-        if (!isOld) asked.value = { forecast: null, trouble: error.message };
-      }
-    }, SETTLES);
-    return () => {
-      isOld = true;
-      clearTimeout(timer);
-    };
-  }, [drawn, missions, onlyFailed, asked]);
-  return asked.value;
-}
-
 const OFTEN = 0.05; // a share of runs that is worth a word
 const SHOWN = 12; // missions
+
+/** What is expected of a Start. @param {string[] | null} missions @param {boolean} onlyFailed @returns {Promise<Forecast>} */
+async function forecastOf(missions, onlyFailed) {
+  await plan.saved();
+  const content = { revision: plan.revision, missions, only_failed: onlyFailed };
+  const { status, data } = await send("POST", "/api/preflight", content, { timeout: LONGEST });
+  if (status !== 200) throw new StationError(data.said, status);
+  return data;
+}
 
 /** @param {{ missions: string[] | null }} props */
 export function Preflight({ missions: keys }) {
@@ -57,10 +34,11 @@ export function Preflight({ missions: keys }) {
   const missions = keys ? all.filter(({ key }) => keys.includes(key))
     : toFly(all, world.state.value.phase === "flying");
   const hasFailed = missions.some(({ ended }) => ended === "FAILED" || ended === "BROKEN_OFF");
-  const { forecast, trouble } = useForecast(keys, onlyFailed && hasFailed);
+  const again = onlyFailed && hasFailed;
+  const { data: forecast, trouble } = useAnswer([all, keys, again], () => forecastOf(keys, again), { settles: SETTLES });
   const { can, said, problem } = words.value;
   const why = (!keys && !can && said) || (line.isLost.value && t("live.none")) || null;
-  const given = onlyFailed && hasFailed ? { only_failed: true } : {};
+  const given = again ? { only_failed: true } : {};
   return h(Dialog, {
     title: t("preflight.title"), class: "preflight", onClose: () => { preflight.value = null; },
     foot: [
@@ -96,10 +74,10 @@ const Expected = ({ forecast }) => h("div", { class: "stack" },
   h(Sentences, { kind: "bad", all: forecast.problems }),
   h(Sentences, { kind: "warn", all: forecast.bottlenecks }),
   h(Sentences, { kind: "", all: forecast.assumed }),
-  h("h3", null, t("preflight.drones")),
+  h("h3", null, t("monitor.drones")),
   h("ul", { class: "ready-list" }, forecast.drones.toSorted((a, b) => Number(a.ready) - Number(b.ready))
     .map((drone) => h(Drone, { key: drone.id, drone }))),
-  h("h3", null, t("preflight.missions")),
+  h("h3", null, t("page.missions")),
   h("ul", { class: "ready-list" }, forecast.missions.slice(0, SHOWN).map((mission) => h(Mission, { key: mission.key, mission }))),
   forecast.missions.length > SHOWN && h("p", { class: "hint" }, t("preflight.more", { n: forecast.missions.length - SHOWN })),
   h("p", { class: "hint" }, t(forecast.world === "traffic" ? "preflight.runs-traffic" : "preflight.runs-alone", { n: forecast.runs })));
@@ -120,7 +98,7 @@ function Drone({ drone: { id, battery, ready, why, ready_in: soon, assumed } }) 
     assumed && h(SaidWords, { words: assumed }),
   ].filter(Boolean);
   return h("li", null, h("span", { class: "called" }, id),
-    h(Chip, { kind: ready ? "good" : "warn", icon: ready ? "good" : "wait" }, t(ready ? "preflight.ready" : "preflight.not-ready")),
+    h(Chip, { kind: ready ? "good" : "warn", icon: ready ? "good" : "wait" }, t(ready ? "status.FREE" : "preflight.not-ready")),
     h(Battery, { level: battery }), h("span", { class: "hint" }, joined(facts)));
 }
 

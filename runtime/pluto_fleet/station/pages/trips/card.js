@@ -48,7 +48,7 @@ function slots(key, action, name, { map, fields }) {
     onChange: (value, typing) => setField(key, field.name, value, typing),
   });
   return [
-    axisSlot(0), axisSlot(1), axisSlot(2), own({ name: "name", type: "text", label: t("trips.name") }),
+    axisSlot(0), axisSlot(1), axisSlot(2), own({ name: "name", type: "text", label: t("name") }),
     ...(action?.item && name !== RELEASE
       ? [inPart("item", { name: "name", type: "text", label: t("trips.item") }, "name"), inPart("item", { ...MASS, label: t("trips.mass") }, "mass")] : []),
     ...(action?.parameters ?? []).map((field) => inPart("parameters", field, field.name)),
@@ -85,6 +85,6 @@ export function TripCard({ about, onRemoved }) {
     !locked && h("div", { class: "row wide" },
       h(Button, { small: true, disabled: number === 1, onClick: () => shift(key, -1) }, t("trips.earlier")),
       h(Button, { small: true, disabled: number === abouts.value.length, onClick: () => shift(key, 1) }, t("trips.later")),
-      h(Button, { small: true, onClick: () => copy([key]) }, t("trips.copy")),
-      h(Button, { small: true, onClick: () => onRemoved(remove([key])) }, t("trips.delete"))));
+      h(Button, { small: true, onClick: () => copy([key]) }, t("copy")),
+      h(Button, { small: true, onClick: () => onRemoved(remove([key])) }, t("delete"))));
 }

@@ -3,9 +3,9 @@
 import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { capital, t } from "../core/i18n.js";
+import { useSortable } from "../ui/hooks.js";
 import { ActionIcon, Button, Chip, Icon } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
-import { useSortable } from "../ui/sortable.js";
 import { TripCard } from "./card.js";
 import { copy, meant, move, remove, shift, where } from "./commands.js";
 import { abouts, extendTo, isLocked, marked, markOne, toggle } from "./state.js";
@@ -89,6 +89,6 @@ export function SeveralTrips() {
   return h("div", { class: "several row", role: "group", "aria-label": t("trips.several-group") },
     h("strong", null, t("trips.several", { n: keys.length })),
     !isLocked.value && h(Button, { small: true, onClick: () => copy(keys) }, t("trips.duplicate")),
-    !isLocked.value && h(Button, { small: true, onClick: () => focusHead(remove(keys)) }, t("trips.delete")),
+    !isLocked.value && h(Button, { small: true, onClick: () => focusHead(remove(keys)) }, t("delete")),
     h(Button, { small: true, kind: "quiet", onClick: () => markOne(null) }, t("trips.select-none")));
 }

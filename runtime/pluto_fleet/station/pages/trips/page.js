@@ -113,7 +113,7 @@ function Preview() {
 /** Make a mission here, and go to its name. */
 function newMission() {
   const key = newKey();
-  plan.edit(addMission(key, t("missions.stem")));
+  plan.edit(addMission(key, t("mission")));
   selectKey(key);
   requestAnimationFrame(() => {
     const name = /** @type {HTMLInputElement | null} */ (document.querySelector(".trips-head [data-field=name] input"));
@@ -132,7 +132,7 @@ function Picker({ areOthersShown, showOthers }) {
   const { key } = selection.value;
   if (!missions.length) return null;
   return h("div", { class: "mission-bar" },
-    h("label", { for: id, class: "hint" }, t("trips.mission")),
+    h("label", { for: id, class: "hint" }, t("mission")),
     h("div", { class: "row picker" },
       h("select", {
         id, class: "input", value: key ?? "",

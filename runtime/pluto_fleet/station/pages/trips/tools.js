@@ -3,11 +3,12 @@
 
 import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
-import { send, StationError } from "../core/api.js";
+import { send } from "../core/api.js";
 import { capital, many, number, percent, t } from "../core/i18n.js";
 import { landmarks } from "../core/landmarks.js";
 import { app } from "../core/station.js";
 import { read } from "../core/typed.js";
+import { useAnswer } from "../ui/hooks.js";
 import { Button, IconButton } from "../ui/parts.js";
 import { add } from "./commands.js";
 import { take } from "./palette.js";
@@ -70,7 +71,7 @@ function Row() {
   const { from, to } = corners();
   const total = count(trips);
   useEffect(() => { pattern.value = total > MOST ? [] : row(from, to, total); }, [from.x, from.y, to.x, to.y, total]);
-  return h(Counts, { total }, h(ToolField, { label: t("trips.trips"), value: trips, onWrite: setTrips }));
+  return h(Counts, { total }, h(ToolField, { label: t("page.trips"), value: trips, onWrite: setTrips }));
 }
 
 function Grid() {
@@ -148,38 +149,22 @@ const rectangle = ({ from, to }) => [[from.x, from.y], [to.x, from.y], [to.x, to
 /** A place without the height at which drones cruise anyway. @param {Point} target @returns {Point} */
 const flat = ([x, y, z]) => (z === undefined || z === app.peek()?.map.cruise_height ? [x, y] : [x, y, z]);
 
-export function Sweep() {
+/** @param {Point[]} polygon @param {string} spacing @returns {Promise<Swept>} */
+async function sweep(polygon, spacing) {
+  const before = abouts.peek().at(-1)?.target ?? undefined;
+  return (await send("POST", "/api/plan/sweep", { polygon, spacing, before })).data;
+}
+
+function Sweep() {
   const [spacing, setSpacing] = useState("1 m");
   const [zone, setZone] = useState("");
-  const [swept, setSwept] = useState(/** @type {Swept | null} */ (null));
-  const [wrong, setWrong] = useState("");
   const zones = landmarks.value?.zones ?? [];
   const polygon = zones.find(({ name }) => name === zone)?.corners ?? rectangle(corners());
-  const key = JSON.stringify([polygon, spacing]);
-  useEffect(() => {
-    let isOld = false;
-    const before = abouts.peek().at(-1)?.target ?? undefined;
-    const timer = setTimeout(async () => {
-      try {
-        const { data } = await send("POST", "/api/plan/sweep", { polygon, spacing, before });
-        if (isOld) return;
-        const isTooMany = data.targets.length > MOST;
-        pattern.value = isTooMany ? [] : data.targets.map(flat);
-        setSwept(isTooMany ? null : data);
-        setWrong(isTooMany ? t("trips.count-wrong", { n: MOST }) : "");
-      } catch (error) {
-        if (!(error instanceof StationError)) throw error;
-        if (isOld) return;
-        pattern.value = [];
-        setSwept(null);
-        setWrong(error.message);
-      }
-    }, PAUSE);
-    return () => {
-      isOld = true;
-      clearTimeout(timer);
-    };
-  }, [key]);
+  const { data, trouble } = useAnswer([], () => sweep(polygon, spacing), { anew: JSON.stringify([polygon, spacing]), settles: PAUSE });
+  const isTooMany = data !== null && data.targets.length > MOST;
+  const swept = isTooMany ? null : data;
+  useEffect(() => { pattern.value = swept?.targets.map(flat) ?? []; }, [swept]);
+  const wrong = isTooMany ? t("trips.count-wrong", { n: MOST }) : trouble;
   return h("div", { class: "stack" },
     zones.length > 0 && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.zone")), h("select", {
       class: "input", value: zone,

@@ -1,7 +1,34 @@
-// A list of which the items change their order by dragging; a finger takes them by the grip, elsewhere
-// it scrolls.
+// What several components do: what changes often is told a few times a second, the station is asked, and the items of
+// a list change their order by dragging.
 
-import { useRef, useState } from "preact/hooks";
+import { effect, signal } from "@preact/signals";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { ofStation } from "../core/api.js";
+
+/**
+ * A signal's value, at once and then at most every `every` milliseconds; the last one is always told.
+ * @template Value
+ * @param {ReadonlySignal<Value>} source @param {number} every
+ * @returns {ReadonlySignal<Value>}
+ */
+export function useCalm(source, every) {
+  const calm = useMemo(() => signal(source.peek()), [source]);
+  useEffect(() => {
+    let timer = 0;
+    const stop = effect(() => {
+      void source.value;
+      timer ||= setTimeout(() => {
+        timer = 0;
+        calm.value = source.peek();
+      }, every);
+    });
+    return () => {
+      stop();
+      clearTimeout(timer);
+    };
+  }, [source, calm, every]);
+  return calm;
+}
 
 const SLIP = 6; // pixels that a press may slip and still be a press
 const PRESSED = "button:not(.trip-head), input, select, textarea, a";
@@ -57,4 +84,28 @@ export function useSortable(keys, onMove, locked = false) {
       },
     },
   };
+}
+
+/**
+ * What the station answers; asked when it is shown, and whenever a key changes, as soon as that has settled.
+ * Until then, or if it says no, there is no data.
+ * @template Data
+ * @param {readonly unknown[]} keys what the answer is of
+ * @param {() => Promise<Data>} ask @param {{ anew?: unknown, settles?: number }} [more] anew: asked again when it changes; settles: ms
+ * @returns {Answer<Data>}
+ */
+export function useAnswer(keys, ask, { anew, settles = 0 } = {}) {
+  const nothing = useMemo(() => ({ data: null, trouble: "" }), keys);
+  const [answer, setAnswer] = useState({ of: nothing, said: /** @type {Answer<Data>} */ (nothing) });
+  useEffect(() => {
+    let isOld = false;
+    const timer = setTimeout(() => ask().then(
+      (data) => ({ data, trouble: "" }), (error) => ({ data: null, trouble: ofStation(error).message }),
+    ).then((said) => { if (!isOld) setAnswer({ of: nothing, said }); }), settles);
+    return () => {
+      isOld = true;
+      clearTimeout(timer);
+    };
+  }, [nothing, anew]);
+  return answer.of === nothing ? answer.said : nothing;
 }
