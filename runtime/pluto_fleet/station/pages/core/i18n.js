@@ -6,14 +6,16 @@ import { batch, signal } from "@preact/signals";
 
 /** @typedef {keyof typeof import("../texts/en.js").default} TextKey */
 /** @typedef {string | { one: string, other: string }} Text a text, or its two numbers, by the fact n */
-/** @typedef {Record<TextKey, Text>} Catalogue */
+/** @typedef {"preflight.cannot" | "preflight.not-ready" | "preflight.promise" | "preflight.refused" | "question.other"} Quoted what others say in English */
+/** @typedef {`said.${Exclude<Words["key"], Quoted>}`} SaidKey what the station says, which in English it says itself */
+/** @typedef {Record<TextKey | SaidKey, Text>} Translated */
 /** @typedef {Record<string, unknown>} Facts */
 
 /** The languages, as each calls itself. */
 export const LANGUAGES = { en: "English", it: "Italiano", de: "Deutsch" };
 /** @typedef {keyof typeof LANGUAGES} Language */
 
-/** @type {Record<Language, () => Promise<{ default: Catalogue }>>} */
+/** @type {Record<Language, () => Promise<{ default: Partial<Translated> }>>} */
 const LOADERS = {
   en: () => import("../texts/en.js"),
   it: () => import("../texts/it.js"),
@@ -23,7 +25,7 @@ const LOADERS = {
 export const language = signal(/** @type {Language} */ ("en"));
 /** The place whose decimals and dates are written: that of the browser, where it speaks our language. */
 export const locale = signal("en-GB");
-const texts = signal(/** @type {Partial<Catalogue>} */ ({}));
+const texts = signal(/** @type {Partial<Translated>} */ ({}));
 
 /** @param {readonly string[]} wanted languages, the best first @returns {Language} */
 export function bestLanguage(wanted) {
@@ -71,10 +73,10 @@ function written(fact) {
   return String(fact ?? "");
 }
 
-/** A text in the language of who reads it; its key where no language could be loaded. @param {TextKey} key @param {Facts} [facts] */
+/** A text in the language of who reads it; its key where no language could be loaded. @param {TextKey | SaidKey} key @param {Facts} [facts] */
 export const t = (key, facts = {}) => filled(texts.value[key] ?? key, facts);
 
-/** Whether the catalogue has a text. @param {string} key @returns {key is TextKey} */
+/** Whether the catalogue has a text. @param {string} key @returns {key is TextKey | SaidKey} */
 export const has = (key) => Object.hasOwn(texts.value, key);
 
 /** A text that may be missing: of a status or a kind that only the app knows. @param {string} key @param {string} other */
@@ -215,7 +217,6 @@ export const isTranslated = (words) => say(words) !== words.text;
 
 /** What the station says, or its own English where the catalogue has no such key. @param {Words} words */
 export function say({ key, facts, text }) {
-  /** @type {TextKey} so the type checker holds that the catalogue has all of them */
   const own = `said.${key}`;
   if (!has(own)) return text;
   const all = Object.entries(facts).map(([name, value]) => [name, factWritten(name, value)]);

@@ -7,7 +7,7 @@ import { t } from "../core/i18n.js";
 import { go } from "../core/route.js";
 import { save } from "../core/station.js";
 import { World } from "../core/world.js";
-import { ResultsView } from "../results/view.js";
+import { ResultsView } from "../results/page.js";
 import { Button, Tabs } from "../ui/parts.js";
 import { useAsked, Waiting } from "./asked.js";
 import { ReplayView } from "./replay_view.js";

@@ -1,11 +1,12 @@
 // The floor plan: one SVG in metres, y upwards, that is zoomed and moved by wheel, fingers and keys. What
 // stands in a Mark is drawn in pixels, y downwards, and keeps its size at every zoom; what has
-// `data-own` has its pointers to itself.
+// `data-own` has its pointers to itself. And the page of which it is the hero, with lists in a rail that folds.
 
 import { effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { number, t } from "../core/i18n.js";
+import { prefs } from "../core/prefs.js";
 import { Button, IconButton } from "../ui/parts.js";
 import { Seen } from "./camera.js";
 import { Ground, Rulers, ScaleBar } from "./ground.js";
@@ -143,4 +144,23 @@ export function hands(picture, camera, onPlace) {
     act();
   }, options);
   return () => ended.abort();
+}
+
+/** @param {{ stage: ComponentChildren, rail: ComponentChildren, tools?: ComponentChildren }} props */
+export function MapSplit({ stage, rail, tools }) {
+  const element = useRef(/** @type {HTMLDivElement | null} */ (null));
+  const isShown = prefs.rail.value;
+  const full = () => {
+    if (document.fullscreenElement) document.exitFullscreen();
+    else element.current?.requestFullscreen();
+  };
+  return h("div", { class: `map-split ${isShown ? "" : "folded"}` },
+    h("div", { class: "map-stage", ref: element }, stage,
+      h("div", { class: "map-tools" }, tools,
+        h(IconButton, { icon: "full", label: t("full-screen"), onClick: full }),
+        h(IconButton, {
+          icon: "rail", label: t(isShown ? "rail.hide" : "rail.show"), expanded: isShown,
+          onClick: () => { prefs.rail.value = !isShown; },
+        }))),
+    h("aside", { class: "rail", "aria-label": t("rail") }, rail));
 }

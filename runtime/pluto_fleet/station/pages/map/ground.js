@@ -1,13 +1,16 @@
-// What lies still on the map: paper, floor plan, grid, areas closed to drones, rulers and scale.
+// What lies still on the map: paper, floor plan, grid, areas closed to drones, named places and zones, rulers, scale
+// and north.
 
-import { effect, signal } from "@preact/signals";
+import { computed, effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { fetchFile, token } from "../core/api.js";
 import { t } from "../core/i18n.js";
 import { landmarks } from "../core/landmarks.js";
-import { useCamera } from "./camera.js";
+import { Mark, useCamera } from "./camera.js";
 import { lines, step } from "./view.js";
+
+/** @import { Label } from "./labels.js" */
 
 /** @type {Map<string, Signal<string | null>>} by the picture's address */
 const pictures = new Map();
@@ -119,4 +122,36 @@ export function ScaleBar() {
     "aria-label": t("map.scale", { n: metres }),
   }, h("path", { d: `M1 12v5h${metres * scale}v-5` }),
   h("text", { x: 1 + (metres * scale) / 2, y: 9 }, `${metres} m`));
+}
+
+/** The middle of a polygon's corners, where its name stands. @param {readonly (readonly number[])[]} corners */
+export const middle = (corners) => ({
+  x: corners.reduce((sum, [x]) => sum + x, 0) / corners.length,
+  y: corners.reduce((sum, [, y]) => sum + y, 0) / corners.length,
+});
+
+/** Their names, in metres, to be laid out with others. */
+export const landmarkNames = computed(() => {
+  const { places = [], zones = [] } = landmarks.value ?? {};
+  /** @type {Label[]} */
+  const labels = [
+    ...places.map(({ name, x, y }) => ({ key: `place ${name}`, text: name, x, y, importance: 0, gap: 8, kind: "place" })),
+    ...zones.map(({ name, corners }) => ({ key: `zone ${name}`, text: name, ...middle(corners), importance: -1, gap: 0, kind: "zone" })),
+  ];
+  return labels;
+});
+
+export function Landmarks() {
+  const { places = [], zones = [] } = landmarks.value ?? {};
+  return h("g", { class: "layer landmarks" },
+    zones.map(({ name, corners }) => h("polygon", { key: name, class: "zone", points: corners.join(" ") }, h("title", null, name))),
+    places.map(({ name, x, y }) => h(Mark, { key: name, x, y },
+      h("circle", { class: "place", r: 4 }, h("title", null, name)))));
+}
+
+export function North() {
+  const north = landmarks.value?.north ?? 0;
+  if (!north) return null; // it is up, as on most maps
+  return h("svg", { class: "north", viewBox: "-16 -16 32 32", width: 32, height: 32, role: "img", "aria-label": t("map.north-at", { degrees: north }) },
+    h("g", { transform: `rotate(${north})` }, h("path", { d: "M0 -13L5 6L0 3L-5 6Z" }), h("text", { y: 14 }, "N")));
 }

@@ -6,11 +6,26 @@ import { setField } from "../core/changes.js";
 import { many, t } from "../core/i18n.js";
 import { app, mayFly, plan, selected } from "../core/station.js";
 import { preflight, start } from "../start/commands.js";
+import { Field } from "../ui/field.js";
 import { Button, HoldButton, Icon, Said } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
 import { copy, marked, open, remove, selectedInWords, unlocked } from "./commands.js";
-import { MissionField } from "./fields.js";
 import { actionsOf, ownFirst } from "./words.js";
+
+/** @param {{ mission: PlanMission, field: FieldShape, onKeyDown?: (event: KeyboardEvent) => void }} props */
+export function MissionField({ mission, field, onKeyDown }) {
+  const { key, launched } = mission;
+  const problem = plan.problems.value.find((one) => one.mission === key && !one.trip && one.field === field.name);
+  return h(Field, {
+    key: `${key} ${field.name}`, field, value: problem?.typed ?? mission[field.name], problem: problem?.text ?? "", isOwn: problem?.isOwn,
+    locked: launched || !mayFly.value, evaluators: app.value?.evaluators ?? [], onKeyDown,
+    onChange: (value, typing, wrong) => {
+      plan.draft(key, null, field.name, wrong && { ...wrong, now: (one) => one[field.name] });
+      if (wrong) return;
+      plan.edit(setField(key, field.name, field.name === "name" ? value ?? "" : value), typing);
+    },
+  });
+}
 
 const MOST_TOLD = 5; // problems
 

@@ -9,9 +9,8 @@ import { app, mayFly, perform, selectDrone, selection, selectMission, world as l
 import { hasEnded } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Fleet, Homes, Names } from "../map/fleet.js";
-import { Floor } from "../map/floor.js";
-import { landmarkNames, Landmarks, North } from "../map/landmarks.js";
-import { MapSplit } from "../ui/map_split.js";
+import { Floor, MapSplit } from "../map/floor.js";
+import { landmarkNames, Landmarks, North } from "../map/ground.js";
 import { Button, Icon, SaidWords, SureButton, Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
 import { DroneCard, DroneList } from "./drones.js";

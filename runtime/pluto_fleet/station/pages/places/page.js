@@ -10,9 +10,8 @@ import { app, mayFly } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
-import { Floor } from "../map/floor.js";
-import { landmarkNames, Landmarks, middle, North } from "../map/landmarks.js";
-import { MapSplit } from "../ui/map_split.js";
+import { Floor, MapSplit } from "../map/floor.js";
+import { landmarkNames, Landmarks, middle, North } from "../map/ground.js";
 import { Button, Empty, IconButton, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
 

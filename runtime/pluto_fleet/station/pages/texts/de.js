@@ -7,7 +7,7 @@
 // cancel (eine Mission): abbrechen · broken off: nicht beendet · put away: ablegen.
 // Knöpfe und Anleitungen stehen im Infinitiv; niemand wird mit Sie oder Du angeredet.
 
-/** @type {Record<keyof typeof import("./en.js").default, import("../core/i18n.js").Text>} */
+/** @type {import("../core/i18n.js").Translated} */
 const texts = {
   "close": "Schließen",
   "undo": "Rückgängig",
@@ -670,7 +670,6 @@ const texts = {
   "said.preflight.beside": { one: "{missions}, die schon fliegt, wird zu Ende geflogen, von einer Drohne, die als zurück auf ihrem Ladeplatz gilt", other: "{missions}, die schon fliegen, werden zu Ende geflogen, von Drohnen, die als zurück auf ihren Ladeplätzen gelten" },
   "said.preflight.brought-back": "sie wurde zurückgeholt: sobald Missionen fliegen, wird sie gefragt, wie es um sie steht",
   "said.preflight.busy": { one: "{missions} wartet im Mittel {seconds}: alle passenden Drohnen sind dann beschäftigt", other: "{missions} warten im Mittel {seconds}: alle passenden Drohnen sind dann beschäftigt" },
-  "said.preflight.cannot": "{why}",
   "said.preflight.charges": "ihr Akku hat {battery}, jede dieser Missionen braucht {needs}",
   "said.preflight.charging": { one: "{missions} wartet darauf, dass ein Akku lädt, im Mittel {seconds}", other: "{missions} warten darauf, dass Akkus laden, im Mittel {seconds}" },
   "said.preflight.endless": "Manche Missionen wiederholen sich bis zum Stopp: hier fliegen sie {seconds} lang",
@@ -686,15 +685,11 @@ const texts = {
   "said.preflight.never-heard": "von ihr wurde noch nichts gehört: angenommen ist, dass sie geladen auf ihrem Ladeplatz steht",
   "said.preflight.no-rehearsal": "Es gibt keine Probe: {why}",
   "said.preflight.not-apart": "In diesen Durchläufen werden Drohnen nicht auf Abstand gehalten, da das bei so vielen zu lange zu rechnen ist: es wird länger dauern, als sie sagen",
-  "said.preflight.not-ready": "{why}",
-  "said.preflight.promise": "{why}",
-  "said.preflight.refused": "{why}",
   "said.preflight.retired": "ausgesetzt",
   "said.preflight.room": { one: "{missions} wartet, da höchstens {drones} zugleich fliegen dürfen", other: "{missions} warten, da höchstens {drones} zugleich fliegen dürfen" },
   "said.preflight.too-far": "kein Akku reicht für eine dieser Missionen und den Weg heim",
   "said.preflight.uncharged": "ihr Akku hat {battery}, jede dieser Missionen braucht {needs}, und nichts lädt ihn",
   "said.question.action": "Hat {drone} „{action}“ von Etappe {trip} ausgeführt? Es war nicht zu sehen.",
-  "said.question.other": "{question}",
   "said.wait.after": "kommt nach {after}",
   "said.wait.drone": "wartet auf eine Drohne[; {free} bereit][; {low} bereit, aber mit zu schwachem Akku][: nötig {takes}, am nächsten daran {has}][; {flying} im Flug][; {returning} auf dem Heimweg][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt][; {cannot}]",
   "said.wait.drone-full": "wartet auf eine Drohne: mehr dürfen nicht zugleich fliegen[; {free} bereit][; {low} bereit, aber mit zu schwachem Akku][: nötig {takes}, am nächsten daran {has}][; {flying} im Flug][; {returning} auf dem Heimweg][; {charging} am Laden][; {recovering} werden geborgen][; {lost} verloren][; {offline} noch nicht gefragt][; {retired} ausgesetzt][; {cannot}]",

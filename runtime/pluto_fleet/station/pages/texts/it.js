@@ -7,7 +7,7 @@
 // undo: annullare · cancel (una missione): abbandonare · broken off: non terminata · put away: archiviare.
 // I pulsanti sono brevi, come d’uso (Salva, Avvia); le istruzioni all’infinito; a nessuno si dà del tu.
 
-/** @type {Record<keyof typeof import("./en.js").default, import("../core/i18n.js").Text>} */
+/** @type {import("../core/i18n.js").Translated} */
 const texts = {
   "close": "Chiudi",
   "undo": "Annulla",
@@ -670,7 +670,6 @@ const texts = {
   "said.preflight.beside": { one: "{missions} già in volo prosegue fino alla fine, con un drone che si suppone tornato alla sua base", other: "{missions} già in volo proseguono fino alla fine, con droni che si suppongono tornati alle loro basi" },
   "said.preflight.brought-back": "è stato riammesso: gli si chiede come sta appena volano delle missioni",
   "said.preflight.busy": { one: "{missions} aspetta in media {seconds}: tutti i droni adatti sono allora occupati", other: "{missions} aspettano in media {seconds}: tutti i droni adatti sono allora occupati" },
-  "said.preflight.cannot": "{why}",
   "said.preflight.charges": "batteria {battery}, per ognuna di queste missioni serve {needs}",
   "said.preflight.charging": { one: "{missions} aspetta la ricarica di una batteria, in media {seconds}", other: "{missions} aspettano la ricarica di batterie, in media {seconds}" },
   "said.preflight.endless": "Alcune missioni si ripetono fino allo stop: qui volano per {seconds}",
@@ -686,15 +685,11 @@ const texts = {
   "said.preflight.never-heard": "non è ancora stato sentito: si suppone carico, nella sua base",
   "said.preflight.no-rehearsal": "Non c’è una prova: {why}",
   "said.preflight.not-apart": "In queste simulazioni i droni non sono tenuti a distanza, perché con così tanti il calcolo dura troppo: ci vorrà più tempo di quanto dicono",
-  "said.preflight.not-ready": "{why}",
-  "said.preflight.promise": "{why}",
-  "said.preflight.refused": "{why}",
   "said.preflight.retired": "escluso",
   "said.preflight.room": { one: "{missions} aspetta, perché insieme possono volare al massimo {drones}", other: "{missions} aspettano, perché insieme possono volare al massimo {drones}" },
   "said.preflight.too-far": "nessuna batteria basta per una di queste missioni e il ritorno alla base",
   "said.preflight.uncharged": "batteria {battery}, per ognuna di queste missioni serve {needs}, e nulla la ricarica",
   "said.question.action": "{drone} ha eseguito “{action}” della tratta {trip}? Non si è potuto vedere.",
-  "said.question.other": "{question}",
   "said.wait.after": "viene dopo {after}",
   "said.wait.drone": "aspetta un drone[; {free} pronti][; {low} pronti, ma con batteria bassa][: serve {takes}, il più vicino ha {has}][; {flying} in volo][; {returning} in rientro][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi][; {cannot}]",
   "said.wait.drone-full": "aspetta un drone: in volo non ne possono stare di più[; {free} pronti][; {low} pronti, ma con batteria bassa][: serve {takes}, il più vicino ha {has}][; {flying} in volo][; {returning} in rientro][; {charging} in carica][; {recovering} in recupero][; {lost} persi][; {offline} non ancora sentiti][; {retired} esclusi][; {cannot}]",

@@ -9,11 +9,10 @@ import { wantedField } from "../core/route.js";
 import { app, mayFly, plan, selected, selection, selectKey } from "../core/station.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes } from "../map/fleet.js";
-import { Floor } from "../map/floor.js";
-import { Landmarks } from "../map/landmarks.js";
-import { MissionField } from "../missions/fields.js";
+import { Floor, MapSplit } from "../map/floor.js";
+import { Landmarks } from "../map/ground.js";
+import { MissionField } from "../missions/panel.js";
 import { called } from "../missions/words.js";
-import { MapSplit } from "../ui/map_split.js";
 import { Button, Icon, Said } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
@@ -22,10 +21,9 @@ import { PICK } from "./carried.js";
 import { add } from "./commands.js";
 import { Palette, take } from "./palette.js";
 import { OtherTrips, Pins, TripLabels, Ways } from "./pins.js";
-import { Drawing, Drawn } from "./rectangle.js";
 import { snapped } from "./snapping.js";
 import { abouts, hovered, inHand, isLocked, marked, markOne, pattern, places, tool } from "./state.js";
-import { ToolButtons, ToolPanel } from "./tools.js";
+import { Drawing, Drawn, ToolButtons, ToolPanel } from "./tools.js";
 
 /** @import { Added } from "./palette.js" */
 

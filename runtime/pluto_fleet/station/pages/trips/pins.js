@@ -6,7 +6,7 @@ import { useRef } from "preact/hooks";
 import { capital, t } from "../core/i18n.js";
 import { app, plan, selected, selection } from "../core/station.js";
 import { Mark, Tags, useCamera } from "../map/camera.js";
-import { landmarkNames } from "../map/landmarks.js";
+import { landmarkNames } from "../map/ground.js";
 import { way } from "../map/routes.js";
 import { toPixels, whyNot } from "../map/view.js";
 import { called } from "../missions/words.js";
