@@ -8,7 +8,7 @@ import { START, app, free } from "../state.js";
 import { showTargets } from "./blocks.js";
 import { toWorld, viewport, world } from "./camera.js";
 import { follow } from "./follow.js";
-import { inPort, loose, portAt } from "./routes.js";
+import { inPort, portAt } from "./routes.js";
 
 const line = svg("path", { class: "loose" });
 const over = svg("svg", { class: "wires over", "aria-hidden": "true" }, line);
@@ -18,6 +18,12 @@ export function prepare() {
   world.append(over);
   viewport.append(why);
 }
+
+// A line to where the pointer is.
+const loose = ([ax, ay], [bx, by]) => {
+  const bend = by > ay ? Math.max(24, (by - ay) / 2) : 48;
+  return `M${ax} ${ay}C${ax} ${ay + bend} ${bx} ${by - bend} ${bx} ${by}`;
+};
 
 // name → null, or why not; asked of the server, which knows the language.
 export async function targetsOf(source, when) {

@@ -163,9 +163,3 @@ export function apart(labels) {
     label.middle = [x, y];
   }
 }
-
-/** A line to where the pointer is. @param {Spot} from @param {Spot} to */
-export const loose = ([ax, ay], [bx, by]) => {
-  const bend = by > ay ? Math.max(24, (by - ay) / 2) : 48;
-  return `M${written([ax, ay])}C${written([ax, ay + bend])} ${written([bx, by - bend])} ${written([bx, by])}`;
-};

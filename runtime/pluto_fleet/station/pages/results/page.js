@@ -8,7 +8,7 @@ import { get, ofStation } from "../core/api.js";
 import { clock, t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
 import { go } from "../core/route.js";
-import { app, save, selectMission, world } from "../core/station.js";
+import { app, save, selectMission, world as live } from "../core/station.js";
 import { isFlying } from "../core/world.js";
 import { Camera } from "../map/camera.js";
 import { Floor, MapSplit } from "../map/floor.js";
@@ -173,7 +173,7 @@ function useWhole() {
   useEffect(() => {
     let asked = ""; // the flight and its last result when it was asked for: else a loss would be asked for for ever
     return effect(() => {
-      const { results, flight } = world;
+      const { results, flight } = live;
       const now = `${flight.value} ${results.last}`;
       if (results.isWhole || now === asked) return;
       asked = now;
@@ -186,5 +186,5 @@ function useWhole() {
 
 export default function Results() {
   useWhole();
-  return h(ResultsView, { world, flight: null, onConsole: showInConsole, consoleWords: t("results.show-in-console") });
+  return h(ResultsView, { world: live, flight: null, onConsole: showInConsole, consoleWords: t("results.show-in-console") });
 }
