@@ -115,17 +115,13 @@ async function loadPlan() {
 
 /** Keep what can be undone over a reload, of the same station. */
 function keepUndo() {
-  let server = "";
+  const { server } = /** @type {AppShape} */ (app.peek());
+  const kept = sessionStorage.getItem(UNDO) ?? "";
+  if (kept.startsWith(server)) undo.restore(kept.slice(server.length));
   effect(() => {
-    if (!line.server.value) return;
-    const kept = sessionStorage.getItem(UNDO) ?? "";
-    if (!server && kept.startsWith(line.server.value)) undo.restore(kept.slice(line.server.value.length));
-    server = line.server.value;
-  });
-  effect(() => {
-    const text = undo.kept();
-    if (server && text.length < LONGEST_UNDO) sessionStorage.setItem(UNDO, server + text);
-    else if (server) sessionStorage.removeItem(UNDO);
+    const text = (line.server.value || server) + undo.kept();
+    if (text.length < LONGEST_UNDO) sessionStorage.setItem(UNDO, text);
+    else sessionStorage.removeItem(UNDO);
   });
 }
 
