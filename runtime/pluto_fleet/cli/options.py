@@ -171,6 +171,8 @@ def row(
 ) -> Option:
     """Return a row; an option without a value is a switch."""
     name, _, metavar = typed.partition(" ")
+    if how.get("nargs") == "?":
+        how["default"] = None  # argparse would read the one of the parser as if it were typed
     if metavar:
         how = {"metavar": metavar, "type": _READ.get(metavar), **how}
     elif name.startswith("-") and "choices" not in how:
@@ -204,7 +206,6 @@ TABLE = (
         "done or not-done: whether its action was done; go-on; cancel",
         nargs="?",
         choices=ANSWERS,
-        default=None,
     ),
     row(
         "drones",

@@ -13,6 +13,12 @@ if TYPE_CHECKING:
     from ..shared.domain.trace import Event
 
 
+Fact = Mapping[str, Any]
+
+Say = str | Callable[[Fact], str | None]
+"""A sentence with the names of an event's facts, or what returns one."""
+
+
 def line_of(event: Event) -> str | None:
     """Return the line for an event; None for one that is of no interest to people."""
     said = sentence_of(event)
@@ -28,19 +34,19 @@ def line_of(event: Event) -> str | None:
 def sentence_of(event: Event) -> str | None:
     """Return an event's sentence, without time and mission; None: it is of no interest to people."""
     say = _SENTENCES.get(str(event["event"]))
-    return None if say is None else say(event)
+    return None if say is None else _said(say, event)
 
 
-def _launched(event: Event) -> str:
+def _said(say: Say, event: Mapping[str, Any]) -> str | None:
+    return say.format_map(event) if isinstance(say, str) else say(event)
+
+
+def _launched(event: Fact) -> str:
     again = ", again" if event.get("attempt", 1) != 1 else ""
     return f"trip {event['trip']} launched{again} ({event['drone']})"
 
 
-def _completed(event: Event) -> str:
-    return f"trip {event['trip']} completed ({event['drone']})"
-
-
-def _beside(event: Event) -> str:
+def _beside(event: Fact) -> str:
     at: Any = event["at"]
     where = f"{place(at)} at a height of {number(at[2])} m"
     return (
@@ -48,11 +54,7 @@ def _beside(event: Event) -> str:
     )
 
 
-def _failed(event: Event) -> str:
-    return f"trip {event['trip']} failed ({event['drone']}): {event['reason']}"
-
-
-def _extended(event: Event) -> str:
+def _extended(event: Fact) -> str:
     told = [
         f"{what}: {', '.join(str(trip) for trip in trips)}"
         for what, trips in (("again", event.get("redo")), ("new", event.get("add")))
@@ -61,44 +63,39 @@ def _extended(event: Event) -> str:
     return f"goes on with more trips ({'; '.join(told)})"
 
 
-def _replanned(event: Event) -> str:
+def _replanned(event: Fact) -> str:
     todo: Any = event["todo"]
     trips = ", ".join(str(trip["name"]) for trip in todo) or "none"
     return f"was changed by a person; trips to do: {trips}"
 
 
-def _ended(event: Event) -> str:
+def _ended(event: Fact) -> str:
     reason = event.get("reason")
     return f"{event['status']}: {reason}" if reason else str(event["status"])
 
 
-def _brought_back(event: Event) -> str:
+def _brought_back(event: Fact) -> str:
     said = "was lost, and a person has looked after it" if event.get("lost") else "is back"
     return f"{event['drone']} {said}"
 
 
-def _lost(event: Event) -> str:
+def _lost(event: Fact) -> str:
     reason = event.get("reason")
     return f"{event['drone']} is lost" + (f": {reason}" if reason else "")
 
 
-def _at(event: Event) -> str:
-    at: Any = event["at"]
-    return place(at)
-
-
-def _waits(event: Event) -> str:
+def _waits(event: Fact) -> str:
     said = str(event["reason"])
     if "until" in event:
-        rest = float(str(event["until"])) - float(str(event["t"]))
+        rest = float(event["until"]) - float(event["t"])
         said += f", until {event['hour']} ({duration(max(0.0, rest))} more)"
     names: Any = event.get("missions", ())
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     return f"{', '.join(names[:_NAMED])}{more}: {said}" if names else said
 
 
-def _clock_moved(event: Event) -> str | None:
-    by = float(str(event["by"]))
+def _clock_moved(event: Fact) -> str | None:
+    by = float(event["by"])
     how = f"{duration(abs(by))} {'ahead' if by > 0.0 else 'back'}"
     said = f"the computer's clock is {how}, as it was set, or the computer slept: all hours count by it"
     return said if abs(by) >= 1.0 else None
@@ -109,44 +106,41 @@ _NAMED = 50
 
 _HOW = {"rtl": "all fly home", "land": "all land"}
 
-_SENTENCES: Mapping[str, Callable[[Event], str | None]] = {
+_SENTENCES: Mapping[str, Say] = {
     "trip.launched": _launched,
-    "trip.completed": _completed,
+    "trip.completed": "trip {trip} completed ({drone})",
     ACTS_BESIDE: _beside,
-    "trip.failed": _failed,
-    "mission.late": lambda _: "is late: its deadline has passed",
-    "mission.repeated": lambda event: f"round {int(str(event['round'])) + 1} begins",
+    "trip.failed": "trip {trip} failed ({drone}): {reason}",
+    "mission.late": "is late: its deadline has passed",
+    "mission.repeated": lambda event: f"round {int(event['round']) + 1} begins",
     "mission.extended": _extended,
     "mission.replanned": _replanned,
     "mission.ended": _ended,
-    "mission.paused": lambda _: "paused",
-    "mission.resumed": lambda _: "goes on",
-    "mission.uncertain": lambda event: f"waits for a person: {event['reason']}",
-    "mission.held": lambda event: f"is held until a person decides: {event['reason']}",
-    "mission.decided": lambda event: f"a person has decided: {event['answer']}",
-    "trip.interrupted": lambda event: f"trip {event['trip']} interrupted; it will be flown again",
-    "trip.skipped": lambda event: f"trip {event['trip']} skipped",
-    "trip.prioritised": lambda event: f"trip {event['trip']} has priority {event['priority']}",
-    "drone.joined": lambda event: f"{event['drone']} joins the fleet",
-    "drone.mishap": lambda event: f"{event['drone']}: a mishap is rehearsed: {event['kind']}",
+    "mission.paused": "paused",
+    "mission.resumed": "goes on",
+    "mission.uncertain": "waits for a person: {reason}",
+    "mission.held": "is held until a person decides: {reason}",
+    "mission.decided": "a person has decided: {answer}",
+    "trip.interrupted": "trip {trip} interrupted; it will be flown again",
+    "trip.skipped": "trip {trip} skipped",
+    "trip.prioritised": "trip {trip} has priority {priority}",
+    "drone.joined": "{drone} joins the fleet",
+    "drone.mishap": "{drone}: a mishap is rehearsed: {kind}",
     "mission.waits": _waits,
     "drone.waits": lambda event: f"{event['drone']} {_waits(event)}",
-    "drone.landed": lambda event: f"{event['drone']} has landed at {_at(event)}, where nobody asked it to",
-    "drone.retired": lambda event: f"{event['drone']} is retired",
+    "drone.landed": lambda event: f"{event['drone']} has landed at {place(event['at'])}, where nobody asked it to",
+    "drone.retired": "{drone} is retired",
     "drone.brought_back": _brought_back,
     "drone.drained": lambda event: (
-        f"{event['drone']} came home with {percent(float(str(event['level'])))} of its battery, less than its reserve"
+        f"{event['drone']} came home with {percent(float(event['level']))} of its battery, less than its reserve"
     ),
-    "drone.not_ready": lambda event: f"{event['drone']} is not ready: {event['reason']}",
+    "drone.not_ready": "{drone} is not ready: {reason}",
     "stopped": lambda event: f"everything stops ({_HOW.get(str(event['how']), event['how'])})",
-    "drone.recovering": lambda event: f"{event['drone']} recovers",
+    "drone.recovering": "{drone} recovers",
     "drone.lost": _lost,
     "clock.moved": _clock_moved,
     "log": lambda event: str(event["text"]),
 }
-
-
-Fact = Mapping[str, Any]
 
 
 def journal_sentence(event: Fact, wall: float) -> str | None:
@@ -162,7 +156,7 @@ def journal_sentence(event: Fact, wall: float) -> str | None:
             line = line_of(event)
             return line if line is not None else _plain(event)
         mission = event.get("mission")
-        said = say(event)
+        said = _said(say, event)
         if said is None:
             return None
         text = f"{mission}: {said}" if mission else said
@@ -188,10 +182,6 @@ def _begun(event: Fact, wall: float) -> str:
     return printable(f"journal of {event['app']}, begun on {day} ({how})")
 
 
-def _created(event: Fact) -> str:
-    return f"has trips {', '.join(str(trip) for trip in event['trips'])}"
-
-
 def _promised(event: Fact) -> str:
     after = ", ".join(str(name) for name in event.get("after", ()))
     told = [f"begins after {after}"] if after else []
@@ -210,10 +200,6 @@ def _changed(event: Fact) -> str:
     return "; ".join(["was changed by the app's own code", *told])
 
 
-def _allocated(event: Fact) -> str:
-    return f"trip {event['trip']} gets {event['drone']}: {event['why']}"
-
-
 def _delayed(event: Fact) -> str:
     rest = float(event["until"]) - float(event["t"])
     return f"trip {event['trip']} waits {duration(max(rest, 0.0))}"
@@ -224,25 +210,21 @@ def _modified(event: Fact) -> str:
     return f"a modifier makes it {event['status']}{why}"
 
 
-def _drone(what: str) -> Callable[[Fact], str]:
-    return lambda event: f"{event['drone']} {what}"
-
-
-_JOURNAL_SENTENCES: Mapping[str, Callable[[Fact], str | None]] = {
+_JOURNAL_SENTENCES: Mapping[str, Say] = {
     "brain.began": lambda event: "the app begins" if event["epoch"] == 1 else "the app goes on",
-    "mission.created": _created,
+    "mission.created": lambda event: f"has trips {', '.join(map(str, event['trips']))}",
     "mission.promised": _promised,
     "mission.changed": _changed,
     "mission.modified": _modified,
-    "mission.judged": lambda event: f"was judged and found wanting: {event['reason']}",
-    "trip.allocated": _allocated,
+    "mission.judged": "was judged and found wanting: {reason}",
+    "trip.allocated": "trip {trip} gets {drone}: {why}",
     "trip.delayed": _delayed,
-    "trip.reset": lambda event: f"trip {event['trip']} waits for attempt {event['attempt']}",
-    "action.begun": lambda event: f"the action of trip {event['trip']} begins ({event['drone']})",
-    "drone.free": _drone("is free"),
-    "drone.busy": _drone("stays with its mission"),
-    "drone.returning": _drone("returns home"),
-    "drone.charging": _drone("charges"),
-    "drone.offline": _drone("does not answer"),
+    "trip.reset": "trip {trip} waits for attempt {attempt}",
+    "action.begun": "the action of trip {trip} begins ({drone})",
+    "drone.free": "{drone} is free",
+    "drone.busy": "{drone} stays with its mission",
+    "drone.returning": "{drone} returns home",
+    "drone.charging": "{drone} charges",
+    "drone.offline": "{drone} does not answer",
     FLEW: lambda _: None,
 }

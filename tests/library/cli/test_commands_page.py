@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
+from argparse import SUPPRESS
 from dataclasses import replace
 
 import pytest
 
-from pluto_fleet.cli.options import all_commands
+from pluto_fleet.cli.options import COMMANDS, TABLE, all_commands
 from tests.library.files.an_app import APP
 from tests.paths import ROOT
 
@@ -34,3 +36,12 @@ def test_the_page_of_the_commands_is_their_help(
     if update:
         PAGE.write_text(written, encoding="utf-8")
     assert PAGE.read_text(encoding="utf-8") == written
+
+
+def test_the_page_of_the_language_tells_of_each_option() -> None:
+    said = (ROOT / "docs" / "language.md").read_text("utf-8")
+    said = said[said.index("### The app") : said.index("### Exit codes")]
+    told = [row for row in TABLE if row.typed.startswith("--") and row.help != SUPPRESS]
+    assert all(
+        re.search(rf"{row.typed}\b", said) for row in told if {*row.commands.split()} & {*COMMANDS}
+    )
