@@ -154,7 +154,7 @@ _WORDS = {
     "array": "a list",
     "object": "an object",
 }
-_SAID = re.compile(r"(?P<what>.*?)(?: - at `\$\.?(?P<where>.*)`)?", re.DOTALL)
+_SAID = re.compile(r"(?P<what>.*?)(?: - at (?:`key` in )?`\$\.?(?P<where>.*)`)?", re.DOTALL)
 
 
 def in_words(error: str, fields: Mapping[str, Any]) -> str:
@@ -165,11 +165,11 @@ def in_words(error: str, fields: Mapping[str, Any]) -> str:
     if match := re.fullmatch(r"Expected (.*?)(?:, got .*)?", what):
         return f"{where} must be {_named(match[1])}"
     if match := re.fullmatch(r"Object missing required field `(.*)`", what):
-        return f"{where} lacks {match[1]}"
+        return f"{where} has no {match[1]}"
     if match := re.fullmatch(r"Object contains unknown field `(.*)`", what):
-        return f'{where} has a field "{match[1][:40]}" that is not known: there are {", ".join(fields)}'
+        return f'{where} has an unknown key "{match[1][:40]}"; it may have: {", ".join(fields)}'
     if what.startswith("Invalid enum value"):
-        some = " or ".join(f'"{one}"' for one in _choices(fields.get(where)))
+        some = " or ".join(f'"{one}"' for one in _choices(fields.get(where.rpartition(": ")[2])))
         return f"{where} must be {some or 'another value'}"
     return f"{where}: {what[:1].lower()}{what[1:]}"
 
@@ -185,9 +185,8 @@ def _named(kinds: str) -> str:
 
     text = re.sub(r"`(.*?)`", said, kinds)
     text = re.sub(r"text of length (.*)", r"text \1 characters", text)
-    return (
-        text.replace(" of length", "").replace(" >=", " of at least").replace(" <=", " of at most")
-    )
+    text = re.sub(r"(list|object) of length (.*)", r"\1 \2 elements", text)
+    return text.replace(" >=", " of at least").replace(" <=", " of at most")
 
 
 def _choices(kind: Any) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from ...shared.domain.fields import Entity
 from ...shared.domain.text import printable
 from ...shared.domain.values import shown
 from ..whole_file import write_whole
-from .shape import MISSION_KEYS, TRIP_KEYS, Shape, done_by, fields_of, missions_from
+from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
 
 if TYPE_CHECKING:
     from ...app import App
@@ -101,7 +101,7 @@ def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
         raise _Unreadable(str(error)) from None
     for shape, was in zip(shapes, missions, strict=True):
         shape["launched"], shape["ended"] = was.get("launched") is True, was.get("ended")
-        if done := done_by(was, "a mission"):  # it was read as part of its mission
+        if done := was.get("done"):
             shape["done"] = done
     if not gone:
         return KeptPlan(missions=shapes, revision=revision)

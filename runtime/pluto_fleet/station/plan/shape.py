@@ -7,15 +7,17 @@ letter.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from math import isfinite
-from typing import TYPE_CHECKING
+from collections.abc import Collection, Mapping, Sequence
+from functools import cache
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from ...files.reading import listed
+import msgspec
+from msgspec import Meta
+
 from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.text import quoted
-from ...shared.domain.values import shown
+from ..operation import in_words
 
 if TYPE_CHECKING:
     from ...app import App
@@ -24,49 +26,87 @@ Shape = dict[str, object]
 """A mission or a trip as JSON."""
 
 MOST_MISSIONS, MOST_TRIPS = 1_000, 10_000
-MOST_PARAMETERS = 64
-LONGEST_TEXT = 1_000
-LARGEST = 1e15
-"""The largest integer that is exact in a browser."""
-
-MISSION_KEYS = ("key", "name", "launched", "ended", "done", "opens", "deadline", "after", "trips")
+COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
 MOMENTS = ("opens", "deadline")
 """When a mission may begin, and when it is due: in a file they are its window, or its deadline."""
-TRIP_KEYS = ("key", "name", "action", "target", "source", "parameters", "item")
+
+_KEY = r"\A[A-Za-z0-9_-]{8,32}\Z"
+_WHOLE = r"\A[^\ud800-\udfff]*\Z"
+_PATTERNS = {_KEY: "of 8 to 32 letters, digits, - and _", _WHOLE: "without half a character"}
+"""What a text must be that matches, in words."""
+
+Key = Annotated[str, Meta(pattern=_KEY)]
+Text = Annotated[str, Meta(max_length=1_000, pattern=_WHOLE)]
+Number = Annotated[int, Meta(ge=-(10**15), le=10**15)] | Annotated[float, Meta(ge=-1e15, le=1e15)]
+Scalar = bool | Number | Text
+Place = Annotated[list[Number], Meta(min_length=2, max_length=3)]
+End = Literal["COMPLETED", "FAILED", "CANCELLED", "BROKEN_OFF"]
+"""The final status of a mission's last flight, if it has not changed since."""
+
+
+class _Item(msgspec.Struct, forbid_unknown_fields=True):
+    """What a drone carries."""
+
+    name: Scalar | None = None
+    mass: Scalar | None = None
+
+
+_TRIP: Mapping[str, Any] = {
+    "key": Key,
+    "name": Text | None,
+    "action": Text,
+    "target": Place | None,
+    "source": Place | None,
+    "parameters": Annotated[dict[Text, Scalar | None], Meta(max_length=64)] | None,
+    "item": _Item | None,
+}
+_MISSION: Mapping[str, Any] = {
+    "key": Key,
+    "name": Text,
+    "launched": bool | None,
+    "ended": End | None,
+    "done": list[Text] | None,
+    **dict.fromkeys(MOMENTS, Scalar | None),
+}
+TRIP_KEYS = tuple(_TRIP)
 """The keys of every app's trips; the graph adds more."""
+MISSION_KEYS = (*_MISSION, "after", "trips")
+_NEEDED = {"key", "action", "trips"}
 
-COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
-ENDS = (COMPLETED, "FAILED", "CANCELLED", BROKEN_OFF)
-"""The final statuses of a mission's last flight, if it has not changed since."""
 
-KEY = re.compile(r"[A-Za-z0-9_-]{8,32}")
+@cache
+def _kinds(on_missions: tuple[str, ...], on_trips: tuple[str, ...]) -> tuple[Any, Any]:
+    """Return the types of a mission and of a trip, in an app with these fields."""
+    trip = _struct("Trip", {**_TRIP, **dict.fromkeys(on_trips, Scalar | None)}, _NEEDED)
+    fields = {**_MISSION, **dict.fromkeys(on_missions, Scalar | None)}
+    fields |= {"after": list[Text] | None, "trips": list[trip]}  # type: ignore[valid-type]
+    return _struct("Mission", fields, _NEEDED | {"name"}), trip
+
+
+def _struct(name: str, kinds: Mapping[str, Any], needed: Collection[str]) -> type[msgspec.Struct]:
+    fields = [(key, kind) if key in needed else (key, kind, None) for key, kind in kinds.items()]
+    return msgspec.defstruct(name, fields, kw_only=True, forbid_unknown_fields=True)
 
 
 def missions_from(given: object, app: App) -> list[Shape]:
     """Return missions in a normal form; raise `BadInput` if they do not fit the schema."""
-    elements = _list(given, "missions")
-    if len(elements) > MOST_MISSIONS:
-        raise _too_many("missions", MOST_MISSIONS)
-    missions = [_mission(one, f"mission {i}", app) for i, one in enumerate(elements, 1)]
+    missions = [_mission(one) for one in _read(given, app, "mission")]
     check_together(missions)
     return missions
 
 
 def trips_from(given: object, app: App) -> list[Shape]:
     """Return a mission's trips in a normal form; raise `BadInput` if they do not fit the schema."""
-    elements = _list(given, "trips")
-    if len(elements) > MOST_TRIPS:
-        raise _too_many("trips", MOST_TRIPS)
-    return [_trip(one, f"trip {i}", app) for i, one in enumerate(elements, 1)]
+    return [_trip(one) for one in _read(given, app, "trip")]
 
 
 def check_together(missions: Sequence[Shape]) -> None:
     """Raise `BadInput` if there are too many, or two have the same key."""
-    if len(missions) > MOST_MISSIONS:
-        raise _too_many("missions", MOST_MISSIONS)
     keys = [str(one["key"]) for mission in missions for one in (mission, *trips_of(mission))]
+    if len(missions) > MOST_MISSIONS:
+        raise BadInput(f"a plan has at most {MOST_MISSIONS} missions")
     if len(keys) - len(missions) > MOST_TRIPS:
-        raise _too_many("trips", MOST_TRIPS)
+        raise BadInput(f"a plan has at most {MOST_TRIPS} trips")
     seen: set[str] = set()
     for key in keys:
         if key in seen:
@@ -85,155 +125,59 @@ def fields_of(app: App, entity: Entity) -> list[str]:
     return [field.name for field in app.fields if field.on is entity]
 
 
-def _mission(given: object, who: str, app: App) -> Shape:
-    fields = fields_of(app, Entity.MISSION)
-    data = _table(given, who, (*MISSION_KEYS, *fields))
-    if data.get("launched") is not None and not isinstance(data["launched"], bool):
-        raise _wrong(f"{who}: launched", data["launched"], "true or false")
-    if data.get("ended") not in (None, *ENDS):
-        raise _wrong(f"{who}: ended", data["ended"], " or ".join(ENDS))
-    done_by(data, who)
-    trips = _list(_given(data, "trips", who), f"{who}: trips")
-    return {
-        "key": _key(data, who),
-        "name": _text(_given(data, "name", who), f"{who}: name"),
-        "launched": False,  # neither can be set by pages, nor what was done
-        "ended": None,
-        **_scalars(data, [*MOMENTS, *fields], who),
-        **_after(data, who),
-        "trips": [_trip(one, f"{who}, trip {i}", app) for i, one in enumerate(trips, 1)],
-    }
-
-
-def done_by(data: Mapping[str, object], who: str) -> list[str]:
-    """Return the names of the trips that a mission has done; raise `BadInput` if that is no list of texts."""
-    names = [] if data.get("done") is None else _list(data["done"], f"{who}: done")
-    if len(names) > MOST_TRIPS:
-        raise _too_many("trips", MOST_TRIPS)
-    return [_text(name, f"{who}: done") for name in names]
-
-
-def _after(data: Mapping[str, object], who: str) -> Shape:
-    names = [] if data.get("after") is None else _list(data["after"], f"{who}: after")
-    if len(names) > MOST_MISSIONS:
-        raise _too_many("missions", MOST_MISSIONS)
-    found = [_text(name, f"{who}: after") for name in names]
-    return {"after": found} if found else {}
-
-
-def _trip(given: object, who: str, app: App) -> Shape:
-    fields = fields_of(app, Entity.TRIP)
-    data = _table(given, who, (*TRIP_KEYS, *fields))
-    trip: Shape = {"key": _key(data, who)}
-    if data.get("name") is not None:
-        trip["name"] = _text(data["name"], f"{who}: name")
-    trip["action"] = _text(_given(data, "action", who), f"{who}: action")
-    trip["target"] = _place(data.get("target"), f"{who}: target")
-    if data.get("source") is not None:
-        trip["source"] = _place(data["source"], f"{who}: source")
-    trip["parameters"] = _parameters(data.get("parameters"), f"{who}: parameters")
-    trip["item"] = _item(data.get("item"), f"{who}: item")
-    return {**trip, **_scalars(data, fields, who)}
-
-
-def _parameters(given: object, who: str) -> Shape:
-    data = {} if given is None else _object(given, who)
-    if len(data) > MOST_PARAMETERS:
-        raise _too_many("parameters for an action", MOST_PARAMETERS)
-    names = [_text(name, f"{who}: a name") for name in data]
-    return _scalars(data, names, who)
-
-
-def _item(given: object, who: str) -> Shape | None:
-    if given is None:
-        return None
-    return _scalars(_table(given, who, ("name", "mass")), ("name", "mass"), who)
-
-
-def _place(given: object, who: str) -> list[object] | None:
-    if given is None:
-        return None
-    elements = _list(given, who)
-    if len(elements) not in (2, 3):
-        raise _wrong(who, given, "a list of two or three numbers")
-    for element in elements:
-        if isinstance(element, bool) or not isinstance(element, int | float):
-            raise _wrong(who, given, "a list of two or three numbers")
-        _number(element, who)
-    return list(elements)
-
-
-def _scalars(data: Mapping[str, object], keys: Sequence[str], who: str) -> Shape:
-    """Return the scalars under these keys: numbers, texts, booleans."""
-    found: Shape = {}
-    for key in keys:
-        value = data.get(key)
-        if value is None:
-            continue
-        where = f"{who}: {quoted(key)}"
-        if isinstance(value, str):
-            _text(value, where)
-        elif not isinstance(value, bool):
-            _number(value, where)
-        found[key] = value
+def _read(given: object, app: App, what: Literal["mission", "trip"]) -> list[Any]:
+    """Return the structs of missions or trips."""
+    on_missions = tuple(fields_of(app, Entity.MISSION))
+    on_trips = tuple(fields_of(app, Entity.TRIP))
+    kinds = _kinds(on_missions, on_trips)
+    kind = kinds[0] if what == "mission" else kinds[1]
+    try:
+        found: list[Any] = msgspec.convert(given, list[kind])  # type: ignore[valid-type]
+    except msgspec.ValidationError as error:
+        raise BadInput(_sentence(str(error), what, kinds)) from None
     return found
 
 
-def _number(value: object, where: str) -> None:
-    if not isinstance(value, int | float):
-        raise _wrong(where, value, "a number or a text")
-    if isinstance(value, float) and not isfinite(value):
-        raise _wrong(where, value, "a finite number")
-    if abs(value) > LARGEST:
-        raise BadInput(f"{where} is too large a number")
+_PLACE = re.compile(r"`\$(?=[\[.])(?:\[(\d+)\])?(?:\.trips\[(\d+)\])?\.?(.*)`\Z")
 
 
-def _text(value: object, where: str) -> str:
-    if not isinstance(value, str):
-        raise _wrong(where, value, "a text")
-    if len(value) > LONGEST_TEXT:
-        raise BadInput(f"{where} is longer than {LONGEST_TEXT} characters")
-    if any("\ud800" <= character <= "\udfff" for character in value):
-        raise BadInput(f"{where} holds half a character: it is no text")
-    return value
+def _sentence(error: str, what: str, kinds: tuple[Any, Any]) -> str:
+    """Return what is wrong, with the mission and the trip in which it is."""
+    for pattern, words in _PATTERNS.items():
+        error = error.replace(f"matching regex {pattern!r}", words)
+    within = kinds[0] if what == "mission" and ".trips[" not in error else kinds[1]
+    known = _Item if ".item`" in error else within
+
+    def place(match: re.Match[str]) -> str:
+        first, trip, rest = match.groups()
+        where = f"{what} {int(first) + 1}" if first is not None else f"{what}s"
+        where += f", trip {int(trip) + 1}" if trip is not None else ""
+        return f"`${where}: {rest}`" if rest else f"`${where}`"
+
+    fields = {one.name: one.type for one in msgspec.structs.fields(known)}
+    if " - at `" not in error:
+        error += f" - at `${what}s`"
+    return in_words(_PLACE.sub(place, error), fields)
 
 
-def _key(data: Mapping[str, object], who: str) -> str:
-    value = _given(data, "key", who)
-    if not isinstance(value, str) or KEY.fullmatch(value) is None:
-        raise _wrong(f"{who}: key", value, "8 to 32 letters, digits, - and _")
-    return value
+def _written(one: msgspec.Struct, kept: Collection[str] = ()) -> Shape:
+    """Return what is said, and what is kept though nothing is said of it."""
+    fields = msgspec.structs.asdict(one).items()
+    return {name: value for name, value in fields if value is not None or name in kept}
 
 
-def _given(data: Mapping[str, object], key: str, who: str) -> object:
-    if key not in data:
-        raise BadInput(f"{who} has no {key}")
-    return data[key]
+def _mission(read: Any) -> Shape:
+    found = _written(read, ("launched", "ended"))
+    found.pop("done", None)
+    found |= {"launched": False, "ended": None}  # neither can be set by pages, nor what was done
+    if not read.after:
+        found.pop("after", None)
+    return {**found, "trips": [_trip(one) for one in read.trips]}
 
 
-def _table(given: object, who: str, keys: Sequence[str]) -> dict[str, object]:
-    data = _object(given, who)
-    for key in data:
-        if key not in keys:
-            raise BadInput(f"{who} has an unknown key {quoted(key)}; it may have: {listed(keys)}")
-    return data
-
-
-def _object(given: object, who: str) -> dict[str, object]:
-    if not isinstance(given, dict):
-        raise _wrong(who, given, "an object")
-    return given
-
-
-def _list(given: object, who: str) -> list[object]:
-    if not isinstance(given, list):
-        raise _wrong(who, given, "a list")
-    return given
-
-
-def _wrong(where: str, value: object, wanted: str) -> BadInput:
-    return BadInput(f"{where} {shown(value)} is not {wanted}")
-
-
-def _too_many(what: str, most: int) -> BadInput:
-    return BadInput(f"a plan has at most {most} {what}")
+def _trip(read: Any) -> Shape:
+    found = _written(read, ("target", "parameters", "item"))
+    given = (read.parameters or {}).items()
+    found["parameters"] = {name: value for name, value in given if value is not None}
+    found["item"] = None if read.item is None else _written(read.item)
+    return found

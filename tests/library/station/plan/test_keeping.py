@@ -76,7 +76,7 @@ def test_no_revision_ever_means_two_plans(file: Path) -> None:
         (b'{"version": 1, "app": "alfalfa", "revision": 1, "missions": [3]}',
          "it is damaged, or is something else"),
         (b'{"version": 1, "app": "alfalfa", "revision": 1, "missions": [{}]}',
-         "mission 1 has no trips"),
+         "mission 1 has no key"),
         (b" " * (1 << 25) + b"{}", "it is larger than any plan"),
     ],
     ids=range(8),
