@@ -23,6 +23,7 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.driver import Driver, begun
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.process.realtime import RealTime
+from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.flow.standing import fleet_data
@@ -70,13 +71,14 @@ async def _flown(
         )
         for one in crafts
     ]
-    server = Server(builds, MemoryLog())
+    world = World(seed, fleet.airspace, fleet.world)
+    server = Server(builds, MemoryLog(), world)
     await server.start()
     for drone in server.drones.values():
         prepare(drone)
     streamer = await camera()
     real = real_fleet(fleet, missions, server.uris)
-    options = fitted({}, f"127.0.0.1:{port_of(streamer)}")
+    options = fitted({}, f"127.0.0.1:{port_of(streamer)}", world)
     real = replace(real, drones=tuple(replace(one, options=options) for one in real.drones))
     kernel = RealTime()
     drones = [

@@ -18,7 +18,7 @@ from statistics import mean, stdev
 from tempfile import mkdtemp
 from typing import Any
 
-from pluto_fleet.crtp.drone import Build
+from pluto_fleet.crtp.drone import EMPTY_WORLD, Build
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
@@ -102,7 +102,7 @@ async def measured(drones: int, times: int) -> dict[str, list[float]]:
     server = Server(builds, log)
     await server.start()
     streamer = await camera()
-    options = fitted({}, f"127.0.0.1:{port_of(streamer)}")
+    options = fitted({}, f"127.0.0.1:{port_of(streamer)}", EMPTY_WORLD)
     crafts = [
         Craft(_vehicle(build, server.uris[build.id], options, folder / build.id), log, build.home)
         for build in builds

@@ -5,15 +5,19 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import inf
 from random import Random
 
-from .battery import CHARGE, FLIGHT, SimulatedBattery
+from ..shared.alone.world import World
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.fleet_data import DroneData, WorldData
+from ..shared.domain.model import Category
+from ..shared.domain.motion import CRAZYFLIE
+from .battery import CHARGE, FLIGHT, CarriedBody, SimulatedBattery
 from .body import Body
 from .commander import META, RELEASE, command, target_of
 from .estimator import NOISE, RATE, Estimator
 from .flight_log import CommandRecord, FlightLog, Point, PositionRecord
-from .logs import Logs, variables
+from .logs import Logs, quantities, variables
 from .packets import NULL, PROTOCOL, Port, packed, unpacked
 from .params import Parameters, parameters
 from .supervisor import Supervisor
@@ -24,8 +28,6 @@ _SETTLES = 0.7
 """Seconds until its estimate has settled after a reset."""
 _BOOTS = 1.0
 """Seconds of silence after a restart."""
-_DOCK = 0.3
-"""Metres around its home within which its pad charges it."""
 _TRACED = 0.02
 """Seconds between two rows of the trace."""
 
@@ -36,6 +38,9 @@ RELEASES = {8: "2024.10", 9: "2025.02", 10: "2025.12", 12: "2026.08"}
 """The newest firmware release for each protocol version."""
 
 _WHO = b"Bitcraze Crazyflie".ljust(30, b"\0")
+
+
+EMPTY_WORLD = World(0, Airspace(), WorldData())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,8 +74,15 @@ class Build:
 class SimulatedCrazyflie:
     """A drone, which sends packets by `send`. Times are those of `time.monotonic`."""
 
-    def __init__(self, build: Build, log: FlightLog, send: Callable[[bytes], None]) -> None:
+    def __init__(
+        self,
+        build: Build,
+        log: FlightLog,
+        send: Callable[[bytes], None],
+        world: World = EMPTY_WORLD,
+    ) -> None:
         self.build, self._log, self._send = build, log, send
+        self.now = self._traced = 0.0
         random = Random(f"{build.seed}/{build.id}")
         self.body = Body(build.home, random)
         self.estimator = Estimator(
@@ -79,12 +91,18 @@ class SimulatedCrazyflie:
             noise=build.noise,
             rate=build.rate,
         )
+        kind = Category(
+            name="crazyflie",
+            speed=1.0,
+            flight_time=build.flight,
+            charge_time=build.charge,
+            motion=CRAZYFLIE.exact,
+        )
+        entry = DroneData(id=build.id, category=kind.name, home=build.home)
+        self.carried = CarriedBody(entry, kind, world, self)
+        """The drone as all simulated ones are: its battery, and what it measures."""
         self.battery = SimulatedBattery(
-            level=build.level,
-            flight=build.flight,
-            charge=build.charge,
-            cells=build.cells,
-            shuts_down=build.shuts_down,
+            self.carried, cells=build.cells, shuts_down=build.shuts_down
         )
         self.supervisor = Supervisor(auto_arm=build.auto_arm)
         self.parameters = Parameters(parameters(build.cells), self._changed)
@@ -92,6 +110,8 @@ class SimulatedCrazyflie:
             self.body,
             self.battery,
             self.supervisor,
+            self.carried.read,
+            quantities(world),
             variance=lambda: self.variance,
             info=self.info,
             holds=lambda: self.parameters["gripper.closed"],
@@ -100,32 +120,35 @@ class SimulatedCrazyflie:
         self._logs = Logs(self.variables)
         self.on, self.busy, self.unsure = True, False, False
         self._boots_until = self._settles_at = -1e9
-        self._now = self._traced = 0.0
 
     @property
     def answers(self) -> bool:
         """Whether its radio is on."""
-        return self.on and self._now >= self._boots_until
+        return self.on and self.now >= self._boots_until
 
     @property
     def variance(self) -> float:
         """The variance of its position, in square metres."""
-        if self.unsure or self._now < self._settles_at:
+        if self.unsure or self.now < self._settles_at:
             return _UNSURE
-        return self.estimator.variance(self._now)
+        return self.estimator.variance(self.now)
 
     def info(self) -> int:
         """Return the bits of `supervisor.info`."""
         plan = self.body.plan
         return self.supervisor.info(
             high_level=plan is not None,
-            finished=plan is None or plan.over(self._now),
+            finished=plan is None or plan.over(self.now),
             planner_off=self.body.planner_off,
         )
 
     def step(self, now: float) -> None:
         """Advance the time until now, and send what is due."""
-        passed, self._now = now - self._now if self._now else 0.0, now
+        passed = now - self.now if self.now else 0.0
+        is_new = not self.now
+        self.now = now
+        if is_new:
+            self.carried.stand(self.build.home, self.build.level)
         seconds = min(0.1, passed)
         was_flying = self.body.airborne
         self.estimator.step(now)
@@ -136,8 +159,8 @@ class SimulatedCrazyflie:
         self.supervisor.step(now, thrust=thrust, tumbled=self.body.tumbled)
         if not self.supervisor.can_fly:
             self.body.cut()
-        on_pad = self.build.charge < inf and _near(self.body.position, self.build.home)
-        if self.on and self.battery.step(seconds, loaded=thrust, charging=on_pad and not thrust):
+        self.carried.carried(self.body.position, motors=thrust)
+        if self.on and self.battery.step(seconds):
             self.note("switched off")
             self.switch(False)
         if now - self._traced >= _TRACED and (was_flying or self.body.airborne):
@@ -151,7 +174,7 @@ class SimulatedCrazyflie:
 
     def hear(self, raw: bytes) -> None:
         """Process a packet of another sender at once."""
-        self.receive(raw, self._now)
+        self.receive(raw, self.now)
 
     def receive(self, raw: bytes, now: float) -> None:
         """Process a packet, and answer it."""
@@ -191,7 +214,7 @@ class SimulatedCrazyflie:
         body = self.body
         flying = body.airborne
         self._log.command(
-            CommandRecord(self._now, self.build.id, what, flying, body.position, values)
+            CommandRecord(self.now, self.build.id, what, flying, body.position, values)
         )
 
     def _link(self, channel: int, data: bytes) -> None:
@@ -265,7 +288,7 @@ class SimulatedCrazyflie:
     def _changed(self, name: str, value: float) -> None:
         self.note(f"set {name}", value=value)
         if name == "kalman.resetEstimation" and value:
-            self._settles_at = self._now + _SETTLES
+            self._settles_at = self.now + _SETTLES
         elif name == "supervisor.landedTimeout":
             self.supervisor.landed = value / 1000.0
 
@@ -279,7 +302,7 @@ class SimulatedCrazyflie:
         """Restart it where it is; in the air it falls."""
         self.note("restart")
         self.switch(True)
-        self._boots_until = self._now + _BOOTS
+        self._boots_until = self.now + _BOOTS
 
     def switch(self, on: bool) -> None:
         """Switch it on or off; in the air it falls."""
@@ -295,8 +318,3 @@ def _release(protocol: int) -> bytes:
     """Return the newest release of the firmware that speaks so old a protocol."""
     known = [name for spoken, name in RELEASES.items() if spoken <= protocol]
     return (known[-1] if known else "2023.11").encode() + b" simulated"
-
-
-def _near(position: Point, home: Point) -> bool:
-    (x, y, z), (hx, hy, hz) = position, home
-    return abs(x - hx) < _DOCK and abs(y - hy) < _DOCK and abs(z - hz) < 0.05

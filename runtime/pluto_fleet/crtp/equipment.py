@@ -7,9 +7,11 @@ import struct
 from collections.abc import Mapping
 from contextlib import suppress
 
+from ..shared.alone.world import World
 from ..shared.domain.actions import BUILT_IN, PHOTO, PICK
 from .drone import Build, SimulatedCrazyflie
 from .flight_log import MemoryLog
+from .logs import quantities
 from .params import parameters
 from .server import HOST
 
@@ -66,13 +68,13 @@ def port_of(server: asyncio.Server) -> int:
 
 
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
-_ANY = {"*": "sim.measured"}
-"""The log variable for every other quantity."""
+_NOTHING = "sim.nothing"
+"""The log variable for what there is not in its world."""
 _GRIP = {"parameter": "gripper.closed", "pick": 1, "release": 0, "seconds": BUILT_IN[PICK].seconds}
 
 
-def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
-    """Return the options of a simulated drone, whose camera streams there.
+def fitted(given: Mapping[str, object], camera: str, world: World) -> dict[str, object]:
+    """Return the options of a simulated drone in a world, whose camera streams there.
 
     They are those of the fleet file, which is known to be right; where that names a part of a real
     drone that a simulated one lacks, it has one of its own instead.
@@ -83,7 +85,7 @@ def fitted(given: Mapping[str, object], camera: str) -> dict[str, object]:
         "cells": 1,
         "decks": [],
         "grip": _grip(given.get("grip")),
-        "measure": {**_SENSORS, **_sensors(given.get("measure")), **_ANY},
+        "measure": _sensors(given.get("measure"), world),
     }
 
 
@@ -101,13 +103,15 @@ def _grip(given: object) -> Mapping[str, object]:
     return {**_GRIP, "seconds": given.get("seconds", _GRIP["seconds"])}
 
 
-def _sensors(given: object) -> Mapping[str, str]:
-    """Return the log variables of a file that exist."""
+def _sensors(given: object, world: World) -> Mapping[str, str]:
+    """Return the log variables of all quantities: of a file those that exist."""
     there = SimulatedCrazyflie(_SAMPLE, MemoryLog(), lambda _: None).variables
     named = given if isinstance(given, Mapping) else {}
     return {
-        quantity: name if name in there else _SENSORS.get(quantity, _ANY["*"])
-        for quantity, name in named.items()
+        **quantities(world),
+        **_SENSORS,
+        **{quantity: name for quantity, name in named.items() if name in there},
+        "*": _NOTHING,
     }
 
 

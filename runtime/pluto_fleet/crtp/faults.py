@@ -39,7 +39,7 @@ _OF_DRONES: Mapping[str, Callable[[SimulatedCrazyflie, float], None]] = {
     "tumble": _tumble,
     "fetch": _fetch,
     "volts": lambda drone, volts: drone.battery.set_volts(volts),
-    "level": lambda drone, level: setattr(drone.battery, "level", level),
+    "level": lambda drone, level: drone.carried.charge_to(level),
     "busy": lambda drone, on: setattr(drone, "busy", bool(on)),
     "unsure": lambda drone, on: setattr(drone, "unsure", bool(on)),
     "upright": lambda drone, _: drone.body.place(drone.body.position),

@@ -7,7 +7,9 @@ import struct
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import IntEnum
+from functools import partial
 
+from ..shared.alone.world import World
 from .battery import SimulatedBattery
 from .body import Body
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
@@ -155,13 +157,17 @@ def variables(
     body: Body,
     battery: SimulatedBattery,
     supervisor: Supervisor,
+    measure: Callable[[str], float],
+    names: Mapping[str, str],
     *,
     variance: Reader,
     info: Reader,
     holds: Reader,
 ) -> Mapping[str, tuple[str, Reader]]:
     """Return the log variables: the type of each, and its reader."""
+    measured = {name: ("f", partial(measure, quantity)) for quantity, name in names.items()}
     return {
+        **measured,
         "stateEstimate.x": ("f", lambda: body.estimate[0]),
         "stateEstimate.y": ("f", lambda: body.estimate[1]),
         "stateEstimate.z": ("f", lambda: body.estimate[2]),
@@ -181,7 +187,7 @@ def variables(
         "pm.vbatMV": ("H", lambda: battery.volts * 1000.0),
         "pm.batteryLevel": ("B", lambda: min(100.0, max(0.0, (battery.volts - 3.0) / 1.2 * 100.0))),
         "pm.state": ("b", lambda: battery.state),
-        "pm.chargeCurrent": ("f", lambda: 0.4 if battery.charging else 0.0),
+        "pm.chargeCurrent": ("f", lambda: 0.4 if battery.body.charges else 0.0),
         "supervisor.info": ("H", info),
         "sys.canfly": ("B", lambda: supervisor.can_fly),
         "sys.isFlying": ("B", lambda: supervisor.flying),
@@ -197,7 +203,7 @@ def variables(
         "baro.temp": ("f", lambda: 24.0),
         "baro.pressure": ("f", lambda: 1013.25 - 0.12 * body.position[2]),
         "baro.asl": ("f", lambda: body.position[2]),
-        "bme.temp": ("f", lambda: temperature(body.position)),
+        "bme.temp": ("f", partial(measure, "temperature")),
         "bme.humidity": ("f", lambda: 40.0),
         "range.front": ("H", lambda: _FAR * 1000.0),
         "range.back": ("H", lambda: _FAR * 1000.0),
@@ -205,12 +211,12 @@ def variables(
         "range.right": ("H", lambda: _FAR * 1000.0),
         "range.up": ("H", lambda: _FAR * 1000.0),
         "range.zrange": ("H", lambda: min(_FAR, body.position[2]) * 1000.0),
-        "sim.measured": ("f", lambda: temperature(body.position)),
+        "sim.nothing": ("f", lambda: 0.0),
         "gripper.holds": ("B", holds),
     }
 
 
-def temperature(position: tuple[float, float, float]) -> float:
-    """Return how warm it is somewhere, in degrees: a little warmer to the east, and above."""
-    x, _, z = position
-    return 20.0 + 0.5 * x + 0.25 * z
+def quantities(world: World) -> dict[str, str]:
+    """Return the log variables of what there is to measure in a world, by its names."""
+    there = sorted({*world.background, *(source.quantity for source in world.sources)})
+    return {quantity: f"sim.quantity{number}" for number, quantity in enumerate(there)}

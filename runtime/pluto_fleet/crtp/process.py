@@ -16,20 +16,32 @@ import sys
 import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+import msgspec
 
 from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
+from ..shared.alone.world import World
+from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
+from ..shared.domain.fleet_data import WorldData
 from .battery import CHARGE, FLIGHT
 from .drone import Build, SimulatedCrazyflie
 from .equipment import camera, port_of
 from .flight_log import FileLog, Point
 from .server import HOST, Server
 
-NOTE, DRONES, LOCK, LOG = "crtp", "crtp.json", "crtp.lock", "crtp.log"
+NOTE, DRONES, WORLD, LOCK, LOG = (
+    "crtp",
+    "crtp.json",
+    "crtp-world.json",
+    "crtp.lock",
+    "crtp.log",
+)
 """The files in its folder; NOTE has the address for `ask`."""
 COMMAND = "crtp"
 
@@ -45,6 +57,22 @@ Battery = tuple[float, float]
 """The seconds from full to empty in the air, and from empty to full on the pad."""
 USUAL: Battery = FLIGHT, CHARGE
 
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Surroundings:
+    """What there is to measure around simulated drones."""
+
+    seed: int = 0
+    data: WorldData = field(default_factory=WorldData)
+
+    @property
+    def world(self) -> World:
+        """The same as simulated drones of a gateway are in."""
+        return World(self.seed, Airspace(), self.data)
+
+
+NOTHING = Surroundings()
+
 _STARTED: dict[Path, subprocess.Popen[bytes]] = {}
 """The processes started by this one, by folder; reaped by `end`."""
 
@@ -56,6 +84,7 @@ def start(
     homes: Mapping[str, Point],
     command: Sequence[str] | None = None,
     batteries: Mapping[str, Battery] | None = None,
+    world: Surroundings = NOTHING,
 ) -> dict[str, str]:
     """Start the simulated drones of a folder, unless they run; return their URIs.
 
@@ -77,6 +106,7 @@ def start(
         for id, home in homes.items()
     }
     _write(folder, drones)
+    (folder / WORLD).write_bytes(msgspec.json.encode(world))
     words = [*(command or respawn.library(COMMAND)), str(folder)]
     process = respawn.start(words, folder / LOG)
     _STARTED[folder] = process
@@ -130,7 +160,9 @@ def main(arguments: Sequence[str]) -> int:
 
 async def _run(folder: Path) -> None:
     kept, log = _kept(folder), FileLog(folder)
-    server = Server([_build(id, number, one) for number, (id, one) in enumerate(kept.items())], log)
+    around = msgspec.json.decode((folder / WORLD).read_bytes(), type=Surroundings)
+    builds = [_build(id, number, one) for number, (id, one) in enumerate(kept.items())]
+    server = Server(builds, log, around.world)
     for id, drone in server.drones.items():
         _restore(drone, kept[id])
     over = asyncio.Event()

@@ -9,7 +9,8 @@ from math import dist
 from random import Random
 from typing import Any
 
-from .drone import Build, SimulatedCrazyflie
+from ..shared.alone.world import World
+from .drone import EMPTY_WORLD, Build, SimulatedCrazyflie
 from .faults import Value, let
 from .flight_log import FlightLog
 from .packets import NULL, LossyChannel
@@ -26,8 +27,8 @@ Address = tuple[str | Any, int]
 class Endpoint(asyncio.DatagramProtocol):
     """A drone behind a UDP port."""
 
-    def __init__(self, build: Build, log: FlightLog) -> None:
-        self.drone = SimulatedCrazyflie(build, log, self._send)
+    def __init__(self, build: Build, log: FlightLog, world: World) -> None:
+        self.drone = SimulatedCrazyflie(build, log, self._send, world)
         self.air = LossyChannel(Random(f"air/{build.seed}/{build.id}"))
         self.talked = 0.0
         self._client: Address | None = None
@@ -93,9 +94,10 @@ class Endpoint(asyncio.DatagramProtocol):
 class Server:
     """Simulated drones; to be started and closed in a running loop."""
 
-    def __init__(self, builds: Sequence[Build], log: FlightLog) -> None:
+    def __init__(self, builds: Sequence[Build], log: FlightLog, world: World = EMPTY_WORLD) -> None:
         self._log = log
-        self.endpoints = {build.id: Endpoint(build, log) for build in builds}
+        self._world = world
+        self.endpoints = {build.id: Endpoint(build, log, world) for build in builds}
         """The drones by their ids."""
         self._ticking: asyncio.Task[None] | None = None
 
@@ -108,7 +110,7 @@ class Server:
     async def join(self, build: Build) -> None:
         """Add a drone to those that run, at a free port, unless it is there."""
         if build.id not in self.endpoints:
-            endpoint = Endpoint(build, self._log)
+            endpoint = Endpoint(build, self._log, self._world)
             await endpoint.listen(0)
             self.endpoints[build.id] = endpoint
 

@@ -245,7 +245,8 @@ async def _real(
     if not flight.crtp:
         return real
     from ..crtp.equipment import fitted, settable
-    from ..crtp.process import start, told  # rarely needed
+    from ..crtp.process import Surroundings, start, told  # rarely needed
+    from ..shared.alone.world import invented
 
     homes = {drone.id: drone.home for drone in fleet.drones}
     kinds = {one.name: one for one in flight.app.categories}
@@ -257,13 +258,15 @@ async def _real(
         for drone in fleet.drones
         for kind in (kinds[drone.category],)
     }
-    uris = await asyncio.to_thread(start, folder, homes, None, batteries)
+    data = invented(flight.seed, fleet.airspace) if fleet.world is None else fleet.world
+    around = Surroundings(seed=flight.seed, data=data)
+    uris = await asyncio.to_thread(start, folder, homes, None, batteries, around)
     camera = await asyncio.to_thread(told, folder, "camera")
     drones = (
         replace(
             drone,
             uri=uris[drone.id],
-            options=fitted(drone.options, camera),
+            options=fitted(drone.options, camera, around.world),
             parameters=settable(drone.parameters),
         )
         for drone in real.drones

@@ -89,7 +89,7 @@ async def test_one_that_doubts_its_place_for_a_moment_does_there_what_it_came_fo
     await passes(0.2)
     assert not measuring.done()
     await one.let("unsure", False)
-    assert await measuring == pytest.approx(20.6, abs=0.1)
+    assert await measuring == pytest.approx(21.0, abs=0.1)
     await up.land(FAST)
     assert one.events == []
 
