@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import secrets
 from collections.abc import Mapping
 from contextlib import closing
@@ -18,6 +17,7 @@ from urllib.parse import parse_qs, quote, urlencode, urlsplit
 
 import msgspec
 
+from ..process.untrusted import parsed
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import bounded, printable, quoted
 from ..station.interface import Interface
@@ -114,8 +114,8 @@ class Connection(Interface):
 
     def _read(self, answer: bytes, wanted: Any) -> Any:
         try:
-            data = _data(answer)
-        except (ValueError, RecursionError):
+            data = parsed(answer)
+        except ValueError:
             raise self._no_station("is no JSON") from None
         try:
             msgspec.convert(data, wanted)
@@ -156,13 +156,6 @@ class Connection(Interface):
         return found
 
 
-def _data(answer: bytes) -> Any:
-    data = json.loads(answer)
-    if b"\\ud" in answer:  # a hook may give half a character: it is shown as `?`
-        data = json.loads(json.dumps(data, ensure_ascii=False).encode(errors="replace"))
-    return data
-
-
 def _bounded(answer: HTTPResponse, largest: int) -> bytes | None:
     """Return what is answered; None: it is larger."""
     found = bytearray()
@@ -181,8 +174,8 @@ _SHOWN = 100
 
 def _refusal(status: int, answer: bytes) -> Refused:
     try:
-        data = _data(answer)
-    except (ValueError, RecursionError):
+        data = parsed(answer)
+    except ValueError:
         data = None
     match data:
         case {"revision": int()} if status == CONFLICT:
