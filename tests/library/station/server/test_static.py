@@ -8,7 +8,6 @@ import re
 from base64 import b64encode
 from hashlib import sha256
 from pathlib import Path
-from typing import get_args
 
 import pytest
 
@@ -16,7 +15,6 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.pictures import floor_plan
 from pluto_fleet.station.sign import logo_of, title_of
 from pluto_fleet.station.web.static import FOLDER, pages
-from pluto_fleet.station.wire import SaidKey
 from tests.library.station.map.test_drawn import SVG, ward
 
 from .asking import OURS, AStation, asked, without
@@ -169,10 +167,3 @@ def test_a_picture_may_lie_deeper_or_be_linked_to_beside_it(tmp_path: Path) -> N
     (tmp_path / "now.png").symlink_to("maps/ward.PNG")
     for name in ("maps/ward.PNG", "now.png"):
         assert floor_plan(tmp_path, name).read_bytes() == b""
-
-
-def test_the_catalogue_says_all_that_the_station_can_say() -> None:
-    """Neither is a key without a text, nor a text without a key."""
-    catalogue = (FOLDER / "texts" / "de.js").read_text("utf-8")  # English comes with the words
-    said = re.findall(r'^  "said\.([a-z.-]+)":', catalogue, re.MULTILINE)
-    assert sorted(said) == sorted(get_args(SaidKey))
