@@ -12,14 +12,14 @@ from contextlib import suppress
 from copy import deepcopy
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..drones.protocol import Acts
 from ..drones.real_fleet import RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
 from ..files.toml import toml_value
 from ..flight.simulate import simulate
-from ..jobs.controls import ForwardingControls
+from ..jobs.controls import Act, ForwardingControls, GoTo, Hold, Land, Read, TakeOff, Write
 from ..report.report import exit_code, report
 from ..report.sentences import line_of
 from ..report.terminal import table
@@ -37,9 +37,8 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.drones import DroneEntry
     from ..flight.outcome import SimulationResult
-    from ..jobs.controls import Controls
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
+    from ..jobs.controls import Command, Controls
+    from ..shared.domain.model import Point
     from ..shared.time.kernel import Kernel
     from .options import Options
     from .plans import LoadedPlan
@@ -153,6 +152,7 @@ class CommandLog(ForwardingControls):
         self, kernel: Kernel, drones: Controls, speeds: Mapping[str, float], climb: float
     ) -> None:
         super().__init__(drones)
+        self.break_off = self._break_off
         self._kernel = kernel
         self._speeds, self._climb_limit = speeds, climb
         self.rows: list[tuple[str, str, str, str, str]] = []
@@ -171,59 +171,31 @@ class CommandLog(ForwardingControls):
     def _climb(self, drone: str) -> float:
         return min(self._climb_limit, self._speeds[drone])
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off straight up to a height; does nothing for a drone that flies."""
-        if self._controls.telemetry[drone].landed:
-            self._note(drone, "take off", self._here(drone, height), self._climb(drone))
-        await self._controls.takeoff(drone, height)
+    async def do(self, drone: str, command: Command) -> Any:
+        """Note a command, and carry it out."""
+        landed = self.telemetry[drone].landed
+        match command:
+            case TakeOff(height) if landed:
+                self._note(drone, "take off", self._here(drone, height), self._climb(drone))
+            case GoTo(target):
+                self._note(drone, "go to", target, self._speeds[drone])
+            case Land() if not landed:
+                self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
+            case Hold():
+                self._note(drone, "hover, for an action of the app's own")
+            case Act(action, parameters, item):
+                given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
+                what = [*([] if item is None else [toml_value(item.name)]), *given]
+                self._note(drone, f"{action}, {', '.join(what)}" if what else action)
+            case Read(name):
+                self._note(drone, f"read {name}")
+            case Write(name, value):
+                self._note(drone, f"set {name} = {value!r}")
+            case _:
+                pass
+        return await self._controls.do(drone, command)
 
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        self._note(drone, "go to", target, self._speeds[drone])
-        await self._controls.go_to(drone, target)
-
-    async def land(self, drone: str) -> None:
-        """Land here; does nothing for a drone that stands on the ground."""
-        if not self._controls.telemetry[drone].landed:
-            self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
-        await self._controls.land(drone)
-
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        self._note(drone, "hover, for an action of the app's own")
-        await self._controls.hold(drone)
-
-    async def act(
-        self,
-        drone: str,
-        action: str,
-        parameters: Mapping[str, Plain],
-        item: Item | None,
-        job: str | None,
-    ) -> object:
-        """Do a built-in action here, and return its result."""
-        given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
-        what = [*([] if item is None else [toml_value(item.name)]), *given]
-        self._note(drone, f"{action}, {', '.join(what)}" if what else action)
-        return await self._controls.act(drone, action, parameters, item, job)
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone, for an action of the app's own."""
-        self._note(drone, f"read {name}")
-        return await self._controls.read(drone, name)
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone, for an action of the app's own."""
-        self._note(drone, f"set {name} = {value!r}")
-        await self._controls.write(drone, name, value)
-
-    def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
-        if not self._controls.telemetry[drone].landed:
+    def _break_off(self, drone: str) -> None:
+        if not self.telemetry[drone].landed:
             self._note(drone, "stop, and hover")
         self._controls.break_off(drone)
-
-    async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is; only ever on a user's explicit command."""
-        self._note(drone, "cut the motors")
-        await self._controls.cut(drone)

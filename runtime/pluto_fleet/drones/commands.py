@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from math import dist, inf, isfinite
 from typing import TYPE_CHECKING, Any, SupportsFloat
 
+from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
 from ..jobs.reports import motors_cut
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
@@ -19,9 +20,10 @@ from ..shared.domain.text import percent, place, shown
 from .protocol import Acts, Readable
 from .telemetry import RISING
 from .timeouts import shortened
-from .vehicle import SLOWEST_PLANNED, TIME_MARGIN
+from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN
 
 if TYPE_CHECKING:
+    from ..jobs.controls import Command
     from ..shared.domain.model import Item, Point
     from .vehicle import Vehicle
 
@@ -60,6 +62,28 @@ def _photo(gave: Any) -> Photo:
         sharpness=_number(getattr(gave, "sharpness", 1.0)),
         file=None if file is None else str(file),
     )
+
+
+async def do(vehicle: Vehicle, command: Command) -> object:
+    """Carry out a command; those that move it, or act, one after the other."""
+    match command:
+        case TakeOff(height):
+            await vehicle.does(RISE, take_off, height)
+        case GoTo(target):
+            await vehicle.does("fly", go_to, target)
+        case Land():
+            await vehicle.does(LAND, land)
+        case Hold():
+            await vehicle.does("hover", hold)
+        case Act(action, parameters, item):
+            return await vehicle.does(action, act, action, parameters, item)
+        case Read(name):
+            return await read(vehicle, name)
+        case Write(name, value):
+            await write(vehicle, name, value)
+        case Cut():
+            await cut(vehicle)
+    return None
 
 
 CUT_LIMIT = 2.0

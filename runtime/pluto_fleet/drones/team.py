@@ -9,7 +9,7 @@ import asyncio
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from ..jobs.reports import SILENCE, DroneReport
 from ..jobs.telemetry import Subscription
@@ -23,17 +23,17 @@ from .localization import OWN, LocalizationFeed
 from .protocol import DroneSetup, Locatable, Readable
 from .recovery import recover, wait_until_home
 from .safety import EACH, SafetyMonitor, follow_events
-from .vehicle import LAND, RISE, Cargo, TeamDrone, Vehicle
+from .vehicle import Cargo, TeamDrone, Vehicle
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from ..jobs.controls import FleetDrone
+    from ..jobs.controls import Command, FleetDrone
     from ..jobs.telemetry import Telemetry
     from ..process.realtime import RealTime
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Item, Point
+    from ..shared.domain.model import Point
     from .protocol import DroneNavigation
     from .real_fleet import RealDrone, RealFleet, RequiredAction
 
@@ -169,52 +169,13 @@ class Team:
         """Begin a flight; raise `FlightFailed` if the drone takes no commands."""
         self.vehicles[drone].check()
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off straight up to a height, if it is ready; does nothing for a drone that flies."""
-        await self._does(drone, RISE, commands.take_off, height)
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        await self._does(drone, "fly", commands.go_to, target)
-
-    async def land(self, drone: str) -> None:
-        """Land here; does nothing for a drone that stands on the ground."""
-        await self._does(drone, LAND, commands.land)
-
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        await self._does(drone, "hover", commands.hold)
-
-    async def act(
-        self,
-        drone: str,
-        action: str,
-        parameters: Mapping[str, Plain],
-        item: Item | None,
-        job: str | None,
-    ) -> object:
-        """Do a built-in action here, and return its result."""
-        return await self._does(drone, action, commands.act, action, parameters, item)
-
-    async def _does(self, drone: str, *command: Any) -> object:
-        return await self._kernel.call_hook(self.vehicles[drone].does, *command)
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone."""
-        value = await self._kernel.call_hook(commands.read, self.vehicles[drone], name)
-        return float(str(value))
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone."""
-        await self._kernel.call_hook(commands.write, self.vehicles[drone], name, value)
+    async def do(self, drone: str, command: Command) -> object:
+        """Carry out a command, and return when it is done."""
+        return await self._kernel.call_hook(commands.do, self.vehicles[drone], command)
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         self.vehicles[drone].break_off()
-
-    async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is."""
-        await self._kernel.call_hook(commands.cut, self.vehicles[drone])
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""

@@ -8,7 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..jobs.flown import ACTION, LAND, LEG, TAKE_OFF, is_beside
+from ..jobs.controls import Act, Cut, GoTo, Hold, Land, TakeOff
+from ..jobs.flown import is_beside
 from ..jobs.reports import motors_cut
 from ..shared.domain.errors import ANY_ERROR, Cancelled, Failure, FlightFailed
 from ..shared.fleet.reach import docked, flight_seconds
@@ -20,7 +21,7 @@ from .traffic.way_back import way_back, way_from
 from .traffic.ways import Section
 
 if TYPE_CHECKING:
-    from ..jobs.controls import Controls, FleetDrone
+    from ..jobs.controls import Command, Controls, FleetDrone
     from ..jobs.flown import Flown
     from ..jobs.link import Order
     from ..jobs.reports import DroneReport
@@ -131,20 +132,17 @@ class Executor:
             return None
         begins()
         item = item_of(order["item"])
-        acting = controls.act(drone, action, order["parameters"], item, flight)
-        return await self._noticed(drone, self._told(drone, ACTION, acting, action=action))
+        acting = self._does(drone, Act(action, order["parameters"], item, flight))
+        return await self._noticed(drone, acting)
 
     def moves(self, drone: str) -> bool:
         """Return whether a drone is carrying out a command now, as far as that is measured."""
         return self._measuring is not None and drone in self._measuring.moving
 
-    def _told(
-        self, drone: str, what: str, command: Coroutine[Any, Any, T], **more: Any
-    ) -> Coroutine[Any, Any, T]:
-        """Return a command that is measured, if commands are."""
-        if self._measuring is None:
-            return command
-        return self._measuring.measured(drone, what, command, **more)
+    def _does(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
+        """Return what carries out a command, and measures it, if commands are measured."""
+        done = self._controls.do(drone, command)
+        return done if self._measuring is None else self._measuring.measured(drone, command, done)
 
     # Commands
 
@@ -161,7 +159,7 @@ class Executor:
     async def hold(self, drone: str) -> None:
         """Hover, for as long as an action of the app's own takes; never returns by itself."""
         self._refuse_if_cut(drone)
-        await self._noticed(drone, self._controls.hold(drone))
+        await self._noticed(drone, self._controls.do(drone, Hold()))
 
     def begins(self, drone: str) -> None:
         """Begin a flight without a job."""
@@ -172,7 +170,7 @@ class Executor:
         """Land here, or beside it where another stands."""
         self._refuse_if_cut(drone)
         if self._controls.telemetry[drone].landed:
-            await self._controls.land(drone)
+            await self._controls.do(drone, Land())
         else:
             await self.travels(drone, partial(self.way_down, drone), anywhere=True)
 
@@ -182,18 +180,10 @@ class Executor:
         await self.travels(drone, partial(self._home, drone), partial(self.begins, drone))
         await self.land(drone)
 
-    async def read(self, drone: str, name: str) -> float:
-        """Return what a drone measures under this name."""
-        return await self._controls.read(drone, name)
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set what a drone has under this name."""
-        await self._controls.write(drone, name, value)
-
     async def cut_motors(self, drone: str) -> None:
         """Switch a drone's motors off now, wherever it is; it is lost then."""
         with self._cut.recording_cut(drone):
-            await self._controls.cut(drone)
+            await self._controls.do(drone, Cut())
 
     def _refuse_if_cut(self, drone: str) -> None:
         """Raise `FlightFailed` if the motors were cut, and the drone has not been repaired since."""
@@ -326,22 +316,20 @@ class Executor:
         return True
 
     async def _follow(self, section: Section) -> None:
-        controls, traffic, drone = self._controls, self._traffic, section.drone
+        traffic, drone = self._traffic, section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
             with self._leaving(drone):
-                height = points[0][2]
-                rises = controls.takeoff(drone, height)
-                await self._told(drone, TAKE_OFF, rises, height=height)
+                await self._does(drone, TakeOff(points[0][2]))
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)
         for point in points:
-            await self._told(drone, LEG, controls.go_to(drone, point), to=point)
+            await self._does(drone, GoTo(point))
             if traffic is not None:
                 traffic.passed(drone)
         if section.lands:
-            await self._told(drone, LAND, controls.land(drone), height=0.0)
+            await self._does(drone, Land())
 
     def _to(self, drone: str, stops: Sequence[Point]) -> Section:
         """To all stops, and hover at the last."""

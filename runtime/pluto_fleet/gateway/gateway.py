@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..drones.lag import Lag
 from ..drones.real_fleet import RealDrone
-from ..jobs.controls import FleetDrone
+from ..jobs.controls import FleetDrone, Read, Write
 from ..jobs.link import Link
 from ..jobs.reports import (
     Down,
@@ -200,7 +200,7 @@ class Gateway:
         leaving: Leaving | None = None,
         measures: bool = False,
     ) -> None:
-        self.kernel = kernel
+        self.kernel, self.controls = kernel, controls
         self.take_in: TakeIn = _take_in_none
         """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
         self.rehearse: Rehearse | None = None
@@ -414,11 +414,11 @@ class Gateway:
 
 
 async def _read(gateway: Gateway, order: Order) -> object:
-    return value_data(await gateway.navigation.read(order["drone"], order["name"]))
+    return value_data(await gateway.controls.do(order["drone"], Read(order["name"])))
 
 
 async def _write(gateway: Gateway, order: Order) -> None:
-    await gateway.navigation.write(order["drone"], order["name"], order["value"])
+    await gateway.controls.do(order["drone"], Write(order["name"], order["value"]))
 
 
 async def _recover(gateway: Gateway, order: Order) -> bool | str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Mapping
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..jobs.flown import BROKEN_OFF, DONE, FAILED, TAKE_OFF
+from ..jobs.controls import Act, GoTo, Land, TakeOff
+from ..jobs.flown import ACTION, BROKEN_OFF, DONE, FAILED, LAND, LEG, TAKE_OFF
 from ..shared.domain.errors import Cancelled, Failure, FlightFailed
 
 if TYPE_CHECKING:
-    from ..jobs.controls import FleetDrone
+    from ..jobs.controls import Command, FleetDrone
     from ..jobs.flown import Flown
     from ..jobs.telemetry import Telemetry
-    from ..shared.domain.model import Point
     from ..shared.time.kernel import Kernel
 
 T = TypeVar("T")
@@ -35,23 +35,24 @@ class Measuring:
         """The drones that carry out a command now."""
 
     async def measured(
-        self,
-        drone: str,
-        what: str,
-        command: Coroutine[Any, Any, T],
-        *,
-        to: Point | None = None,
-        height: float | None = None,
-        **more: object,
+        self, drone: str, command: Command, carried_out: Coroutine[Any, Any, T]
     ) -> T:
-        """Carry out a command `to` a point, or to a `height` here, and tell how that went."""
+        """Carry out a command, and tell how that went, if it moves a flying drone, or acts with it."""
         telemetry, category = self._telemetry[drone], self._drones[drone].category
-        if telemetry.landed is not (what == TAKE_OFF):
-            return await command  # it is refused, or there is nothing to do
         begun, start, level = self._kernel.now, telemetry.location, telemetry.battery_level
-        end = to or (start if height is None else (*start[:2], height))
-        if what == TAKE_OFF:
-            more = {"flight_time": category.flight_time, "charge_time": category.charge_time}
+        more: dict[str, object] = {}
+        match command:
+            case TakeOff(height) if telemetry.landed:
+                what, end = TAKE_OFF, (*start[:2], height)
+                more = {"flight_time": category.flight_time, "charge_time": category.charge_time}
+            case GoTo(target) if not telemetry.landed:
+                what, end = LEG, target
+            case Land() if not telemetry.landed:
+                what, end = LAND, (*start[:2], 0.0)
+            case Act(action) if not telemetry.landed:
+                what, end, more = ACTION, start, {"action": action}
+            case _:
+                return await carried_out
 
         def tell(ended: str) -> None:
             self._hear(
@@ -71,7 +72,7 @@ class Measuring:
 
         self.moving.add(drone)
         try:
-            result = await command
+            result = await carried_out
         except FlightFailed as error:
             tell(BROKEN_OFF if error.failure is Failure.REFUSED else FAILED)
             raise

@@ -1,14 +1,13 @@
-"""The commands that the gateway can give to each drone, simulated or real.
+"""The commands that the gateway can give to each drone, simulated or real, in metres and seconds.
 
-Metres, seconds. Each command returns when it is done: on arrival, when landed; it raises
-`FlightFailed` when the drone cannot finish. A cancelled command leaves the drone hovering
-where it is. No-fly areas and other drones are not considered here: see `gateway/executor.py`.
+No-fly areas and other drones are not considered here: see `gateway/executor.py`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Protocol
+from collections.abc import Coroutine, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
 
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
@@ -41,6 +40,67 @@ class FleetDrone(Protocol):
         ...
 
 
+@dataclass(frozen=True, slots=True)
+class TakeOff:
+    """Take off straight up to a height; nothing for a drone that flies."""
+
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
+class GoTo:
+    """Fly straight to a point."""
+
+    target: Point
+
+
+@dataclass(frozen=True, slots=True)
+class Land:
+    """Land here; nothing for a drone that stands on the ground."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hold:
+    """Hover, for as long as an action of the app's own takes; it never ends by itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """Do a built-in action here; what comes of it is its result."""
+
+    action: str
+    parameters: Mapping[str, Plain]
+    item: Item | None
+    flight: str | None = None
+    """The job that it is done for, by the id of its flight."""
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """Return a sensor or variable, for an action of the app's own."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    """Set a parameter, for an action of the app's own."""
+
+    name: str
+    value: float
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """Switch its motors off now, wherever it is; only ever on a user's explicit command.
+
+    A command in progress raises `FlightFailed`, and the drone takes no commands until `mended`.
+    """
+
+
+Command = TakeOff | GoTo | Land | Hold | Act | Read | Write | Cut
+
+
 class Controls(Protocol):
     """A team of drones, by their ids, one command at a time for each."""
 
@@ -60,50 +120,15 @@ class Controls(Protocol):
         """
         ...
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off straight up to a height; does nothing for a drone that flies."""
-        ...
+    def do(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
+        """Carry out a command, and return when it is done: on arrival, when landed.
 
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        ...
-
-    async def land(self, drone: str) -> None:
-        """Land here; does nothing for a drone that stands on the ground."""
-        ...
-
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes; never returns by itself."""
-        ...
-
-    async def act(
-        self,
-        drone: str,
-        action: str,
-        parameters: Mapping[str, Plain],
-        item: Item | None,
-        job: str | None,
-    ) -> object:
-        """Do a built-in action here, and return its result."""
-        ...
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone, for an action of the app's own."""
-        ...
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone, for an action of the app's own."""
+        Raises `FlightFailed` when the drone cannot finish. Cancelled, it leaves the drone hovering.
+        """
         ...
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
-        ...
-
-    async def cut(self, drone: str) -> None:
-        """Switch its motors off now, wherever it is; only ever on a user's explicit command.
-
-        A command in progress raises `FlightFailed`, and the drone takes no commands until `mended`.
-        """
         ...
 
     def mended(self, drone: str) -> None:
@@ -128,37 +153,12 @@ class Controls(Protocol):
 
 
 class ForwardingControls:
-    """A wrapper of other controls, which forwards all that is not a command to fly."""
+    """A wrapper of other controls, which forwards all that is no command."""
 
     def __init__(self, controls: Controls) -> None:
         self._controls = controls
         self.telemetry = controls.telemetry
-        """What is known of each drone."""
-
-    def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        """Return why a drone's hardware cannot do a built-in action, or None."""
-        return self._controls.why_not(drone, action, parameters)
-
-    def begins(self, drone: str, flight: str | None, seconds: float) -> None:
-        """Called at the start of a flight, with its expected duration."""
-        self._controls.begins(drone, flight, seconds)
-
-    def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it may be asked anew."""
-        self._controls.mended(drone)
-
-    async def fetched(self, drone: str) -> bool:
-        """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
-        return await self._controls.fetched(drone)
-
-    def unload(self, drone: str) -> None:
-        """Take off what it carries: a person meets it in its dock."""
-        self._controls.unload(drone)
-
-    async def reach(self, drone: str) -> bool:
-        """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
-        return await self._controls.reach(drone)
-
-    async def drone_report(self, drone: str) -> DroneReport:
-        """Ask a drone where it is and what it has done; say so if it does not answer."""
-        return await self._controls.drone_report(drone)
+        self.why_not, self.begins = controls.why_not, controls.begins
+        self.break_off, self.mended = controls.break_off, controls.mended
+        self.reach, self.fetched = controls.reach, controls.fetched
+        self.unload, self.drone_report = controls.unload, controls.drone_report

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
 from ..jobs.reports import motors_cut
 from ..shared.alone.faults import CARRYING_HOME, Faults, draw
 from ..shared.domain.actions import BUILT_IN, Plain
@@ -18,6 +19,7 @@ from ..shared.time.kernel import EventKind, Kernel
 from .body import SimulatedBody, SimulatedDrone
 
 if TYPE_CHECKING:
+    from ..jobs.controls import Command
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
@@ -146,7 +148,27 @@ class SimulatedNavigation:
         else:
             body.begin(flight, draw(self._faults, self._seed, flight, seconds))
 
-    async def takeoff(self, drone: str, height: float) -> None:
+    def do(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
+        """Return what carries out a command."""
+        match command:
+            case TakeOff(height):
+                return self._take_off(drone, height)
+            case GoTo(target):
+                return self._go_to(drone, target)
+            case Land():
+                return self._land(drone)
+            case Hold():
+                return self._hold(drone)
+            case Act(action, parameters, item, flight):
+                return self._act(drone, action, parameters, item, flight)
+            case Read(name):
+                return self._read(drone, name)
+            case Write(name, value):
+                return self._write(drone, name, value)
+            case Cut():
+                return self._cut(drone)
+
+    async def _take_off(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""
         body = self.bodies[drone]
         body.check()
@@ -154,18 +176,18 @@ class SimulatedNavigation:
             x, y, _ = body.place
             await self._until(body, body.follow([(x, y, height)]), "to take off")
 
-    async def go_to(self, drone: str, target: Point) -> None:
+    async def _go_to(self, drone: str, target: Point) -> None:
         """Fly straight to a point."""
         body = self._in_the_air(drone)
         await self._until(body, body.follow([body.place, target]), f"to fly to {place(target)}")
 
-    async def act(
+    async def _act(
         self,
         drone: str,
         action: str,
         parameters: Mapping[str, Plain],
         item: Item | None,
-        job: str | None = None,
+        job: str | None,
     ) -> object:
         """Do a built-in action here, and return its result.
 
@@ -200,21 +222,21 @@ class SimulatedNavigation:
             await Future[None]()  # until it is broken off
         return value
 
-    async def hold(self, drone: str) -> None:
+    async def _hold(self, drone: str) -> None:
         """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
         body.can_act("the action")
         await self._until(body, inf, "to hover")
 
-    async def read(self, drone: str, name: str) -> float:
+    async def _read(self, drone: str, name: str) -> float:
         """Return the value that was written under this name, or else what is measured here."""
         return self._in_the_air(drone).read(name)
 
-    async def write(self, drone: str, name: str, value: float) -> None:
+    async def _write(self, drone: str, name: str, value: float) -> None:
         """Store a value under this name."""
         self._in_the_air(drone).settings[name] = value
 
-    async def cut(self, drone: str) -> None:
+    async def _cut(self, drone: str) -> None:
         """Switch its motors off: it falls, if it flies and can be reached, and stays off."""
         cut = motors_cut(drone)
         body = self.bodies[drone]
@@ -227,7 +249,7 @@ class SimulatedNavigation:
         if body.down is not None:
             body.dock()
 
-    async def land(self, drone: str) -> None:
+    async def _land(self, drone: str) -> None:
         """Land here; does nothing for a drone that stands on the ground."""
         body = self.bodies[drone]
         body.check()

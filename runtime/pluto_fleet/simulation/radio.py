@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..jobs.controls import ForwardingControls
+from ..jobs.controls import Cut, ForwardingControls, Read, Write
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.time.future import Future
 from ..shared.time.kernel import FLEET, EventKind, Kernel
 
 if TYPE_CHECKING:
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Command, Controls
     from ..jobs.reports import DroneReport
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
 
 T = TypeVar("T")
 
@@ -36,13 +34,15 @@ class Radio(ForwardingControls):
         """A future for each drone's command, which fails if the command is aborted."""
         self.late = 0
         """The number of delayed messages."""
+        self.break_off, self.reach = self._break_off, self._reach
+        self.drone_report = self._drone_report
 
     def _late(self, what: str) -> float:
         seconds = self._delay(what)
         self.late += seconds > 0
         return seconds
 
-    def break_off(self, drone: str) -> None:
+    def _break_off(self, drone: str) -> None:
         """Stop what a drone does, or a command in transit."""
         order = self._orders.pop(drone, None)
         self._controls.break_off(drone)
@@ -50,51 +50,21 @@ class Radio(ForwardingControls):
             why = f"{drone} was told to break it off"
             order.fail(FlightFailed(Failure.REFUSED, why))
 
-    async def hold(self, drone: str) -> None:
-        """Hover, for as long as an action of the app's own takes."""
-        await self._sent(drone, partial(self._controls.hold, drone))
+    async def do(self, drone: str, command: Command) -> Any:
+        """Carry out a command, once it has arrived."""
+        done = partial(self._controls.do, drone, command)
+        match command:
+            case Cut():
+                return await done()
+            case Read() | Write():
+                return await self._asked(done())
+            case _:
+                return await self._sent(drone, done)
 
-    async def takeoff(self, drone: str, height: float) -> None:
-        """Take off to a height."""
-        await self._sent(drone, partial(self._controls.takeoff, drone, height))
-
-    async def go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
-        await self._sent(drone, partial(self._controls.go_to, drone, target))
-
-    async def land(self, drone: str) -> None:
-        """Land here."""
-        await self._sent(drone, partial(self._controls.land, drone))
-
-    async def act(
-        self,
-        drone: str,
-        action: str,
-        parameters: Mapping[str, Plain],
-        item: Item | None,
-        job: str | None,
-    ) -> object:
-        """Do a built-in action here, and return its result."""
-        act = self._controls.act
-        return await self._sent(drone, partial(act, drone, action, parameters, item, job))
-
-    async def read(self, drone: str, name: str) -> float:
-        """Return a sensor or variable of a drone."""
-        return await self._asked(self._controls.read(drone, name))
-
-    async def write(self, drone: str, name: str, value: float) -> None:
-        """Set a parameter of a drone."""
-        await self._asked(self._controls.write(drone, name, value))
-
-    async def cut(self, drone: str) -> None:
-        """Switch its motors off."""
-        await self._controls.cut(drone)
-
-    async def reach(self, drone: str) -> bool:
-        """Wait, after a failed flight, until a drone takes commands again."""
+    async def _reach(self, drone: str) -> bool:
         return await self._sent(drone, partial(self._controls.reach, drone))
 
-    async def drone_report(self, drone: str) -> DroneReport:
+    async def _drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done, be it busy or not."""
         return await self._asked(self._controls.drone_report(drone))
 

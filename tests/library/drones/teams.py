@@ -15,6 +15,7 @@ from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RequiredAction
 from pluto_fleet.drones.team import Team
 from pluto_fleet.drones.vehicle import TeamDrone
+from pluto_fleet.jobs.controls import TakeOff
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
@@ -102,7 +103,7 @@ class Flown(Asked):
 
     async def up(self, drone: str = "cf1") -> FakeDrone:
         await self.do(self.team.drone_report(drone))
-        await self.do(self.team.takeoff(drone, 1.0))
+        await self.do(self.team.do(drone, TakeOff(1.0)))
         return self.drones[drone]
 
 

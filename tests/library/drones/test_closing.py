@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.jobs.controls import GoTo
 from tests.kit.drones import FakeDrone, run, the_loop
 from tests.library.drones.teams import flying
 
@@ -16,7 +17,7 @@ async def test_all_land_at_once_before_their_links_are_closed(tmp_path: Path) ->
     async with flying(tmp_path, *drones) as flown:
         for drone in drones[1:]:
             await flown.up(drone.id)
-        flown.begin(flown.team.go_to("cf3", (3.0, 9.0, 1.0)))
+        flown.begin(flown.team.do("cf3", GoTo((3.0, 9.0, 1.0))))
         await flown.until(lambda: drones[2].place[1] > 2)
         before = the_loop().now
     assert the_loop().now - before < 6

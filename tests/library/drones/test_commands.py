@@ -11,6 +11,7 @@ import pytest
 from pluto_fleet.drones.commands import result_of
 from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.jobs.controls import Act, Cut, GoTo, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
 from tests.kit.drones import FakeDrone, the_loop
@@ -28,15 +29,15 @@ async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
         assert report.reached
         assert (report.landed, report.problems, report.done) == (True, (), None)
         team.begins("cf1", None, 0.0)
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
         assert not seen.landed
-        await flown.do(team.takeoff("cf1", 1.0))  # it flies already
-        await flown.do(team.go_to("cf1", (3.0, 1.0, 1.0)))
+        await flown.do(team.do("cf1", TakeOff(1.0)))  # it flies already
+        await flown.do(team.do("cf1", GoTo((3.0, 1.0, 1.0))))
         assert seen.location == pytest.approx((3, 1, 1), abs=0.1)
-        assert await flown.do(team.act("cf1", "measure", {}, None, "j")) == 21.5
-        await flown.do(team.land("cf1"))
+        assert await flown.do(team.do("cf1", Act("measure", {}, None, "j"))) == 21.5
+        await flown.do(team.do("cf1", Land()))
         assert seen.landed
-        await flown.do(team.land("cf1"))
+        await flown.do(team.do("cf1", Land()))
         told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
         assert flown.drones["cf1"].told == told
 
@@ -63,7 +64,7 @@ async def test_a_drone_that_is_slower_than_its_category_is_waited_for(tmp_path: 
     async with flying(tmp_path, category=category) as flown:
         drone = await flown.up()
         drone.slow = {"go_to": 17.0}  # 20 s for 9 m: at 1 m/s at most, 0.46 on average
-        await flown.do(flown.team.go_to("cf1", (9.5, 1.0, 1.0)))
+        await flown.do(flown.team.do("cf1", GoTo((9.5, 1.0, 1.0))))
         assert drone.place == pytest.approx((9.5, 1, 1), abs=0.1)
 
 
@@ -79,7 +80,7 @@ async def test_a_roll_call_says_what_keeps_a_drone_from_flying(tmp_path: Path) -
         assert problems == ("its position is uncertain", "\\x1b[2Jlocked", "cf1 cannot take_photo")
         assert flown.team.why_not("cf1", "take_photo", {}) == "cf1 cannot take_photo"
         assert flown.team.why_not("cf1", "dance", {}) == "cf1 has no action dance"
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        failed = await flown.failure(flown.team.do("cf1", TakeOff(1.0)))
         assert failed.failure is Failure.REFUSED
         assert "cf1 is not ready: its position is uncertain; " in str(failed)
         assert drone.told == []
@@ -91,7 +92,7 @@ async def test_no_drone_takes_off_below_its_reserve(tmp_path: Path) -> None:
     drone.level = 0.15
     async with flying(tmp_path, drone) as flown:
         await flown.do(flown.team.drone_report("cf1"))
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        failed = await flown.failure(flown.team.do("cf1", TakeOff(1.0)))
         assert "15 % in its battery, and 20 % are its reserve" in str(failed)
         assert drone.told == []
 
@@ -100,10 +101,10 @@ async def test_what_is_broken_off_ends_in_a_hover(tmp_path: Path) -> None:
     """The command under way raises, and the next one waits until the drone hovers."""
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
-        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        flies = flown.begin(team.do("cf1", GoTo((5.0, 1.0, 1.0))))
         await flown.until(lambda: drone.place[0] > 2)
         flown.kernel.post(team.break_off, "cf1")
-        landing = flown.begin(team.land("cf1"))
+        landing = flown.begin(team.do("cf1", Land()))
         await flown.kernel.offer(landing)
         assert "told to break it off" in str(flies.error)
         assert drone.told[-2:] == ["hold", "land"]
@@ -119,12 +120,12 @@ async def test_a_takeoff_that_is_broken_off_before_the_drone_says_that_it_flies_
     async with flying(tmp_path, drone) as flown:
         await flown.do(flown.team.drone_report("cf1"))
         seen = flown.team.telemetry["cf1"]
-        rises = flown.begin(flown.team.takeoff("cf1", 1.0))
+        rises = flown.begin(flown.team.do("cf1", TakeOff(1.0)))
         await flown.until(lambda: not seen.landed, 1)
         flown.kernel.post(rises.cancel)
         assert not seen.landed
         drone.hangs.clear()
-        await flown.do(flown.team.land("cf1"))
+        await flown.do(flown.team.do("cf1", Land()))
         assert drone.told == ["hold", "land"]
         assert seen.landed
 
@@ -133,12 +134,12 @@ async def test_what_is_aboard_outlives_the_gateway(tmp_path: Path) -> None:
     """A real drone cannot tell, so it is written down."""
     async with flying(tmp_path) as flown:
         await flown.up()
-        await flown.do(flown.team.act("cf1", "pick_item", {}, PILLS, "j"))
+        await flown.do(flown.team.do("cf1", Act("pick_item", {}, PILLS, "j")))
         assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
     async with flying(tmp_path) as flown:
         assert (await flown.do(flown.team.drone_report("cf1"))).carrying == "pills"
         await flown.up()
-        await flown.do(flown.team.act("cf1", "release_item", {}, PILLS, "k"))
+        await flown.do(flown.team.do("cf1", Act("release_item", {}, PILLS, "k")))
         assert (await flown.do(flown.team.drone_report("cf1"))).carrying is None
 
 
@@ -150,17 +151,17 @@ async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None
         drone.fell = Rejected  # it says no more than that it will not
         if hangs:
             drone.hangs = drone.clings = {"go_to", "hold"}
-        flies = flown.begin(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        flies = flown.begin(team.do("cf1", GoTo((5.0, 1.0, 1.0))))
         await flown.until(lambda: "fly" in team.vehicles["cf1"].commands.doing)
         before = the_loop().now
-        await flown.do(team.cut("cf1"))
+        await flown.do(team.do("cf1", Cut()))
         assert the_loop().now - before < 0.2
         assert not drone.motors
         await flown.until(lambda: flies.is_set, 1)
         assert str(flies.error) == "cf1's motors were cut"
         assert drone.told[-1] == "emergency stop"
-        assert "motors were cut" in str(await flown.failure(team.takeoff("cf1", 1.0)))
-        flown.begin(team.land("cf1"))
+        assert "motors were cut" in str(await flown.failure(team.do("cf1", TakeOff(1.0))))
+        flown.begin(team.do("cf1", Land()))
         flown.kernel.post(team.break_off, "cf1")
         await flown.until(lambda: team.telemetry["cf1"].landed)
         assert drone.told[-1] == "emergency stop"

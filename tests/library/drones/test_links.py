@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.drones.errors import Rejected
+from pluto_fleet.jobs.controls import GoTo, Hold, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import flying
@@ -19,12 +20,12 @@ async def test_silence_in_the_air_is_a_lost_link(tmp_path: Path, command: str) -
         drone, team = await flown.up(), flown.team
         drone.hangs = {"go_to"}
         flies = flown.begin(
-            team.hold("cf1") if command == "hold" else team.go_to("cf1", (5.0, 1.0, 1.0))
+            team.do("cf1", Hold()) if command == "hold" else team.do("cf1", GoTo((5.0, 1.0, 1.0)))
         )
         await flown.until(lambda: team.vehicles["cf1"].commands.doing)
         drone.goes_silent()
         assert await flown.until(lambda: flies.is_set) == pytest.approx(3.1, abs=0.15)
-        failed = await flown.failure(team.go_to("cf1", (5.0, 1.0, 1.0)))
+        failed = await flown.failure(team.do("cf1", GoTo((5.0, 1.0, 1.0))))
         assert failed.failure is Failure.LINK
         assert not team.telemetry["cf1"].landed
         assert "hold" not in drone.told
@@ -55,8 +56,8 @@ async def test_a_drone_that_comes_back_can_be_flown_home(tmp_path: Path) -> None
         assert await flown.until(lambda: reaches.is_set) < 48
         assert reaches.result()
         team.begins("cf1", None, 0.0)
-        await flown.do(team.go_to("cf1", (1.0, 1.0, 1.0)))
-        await flown.do(team.land("cf1"))
+        await flown.do(team.do("cf1", GoTo((1.0, 1.0, 1.0))))
+        await flown.do(team.do("cf1", Land()))
         assert (await flown.do(team.drone_report("cf1"))).boot == 0
 
 
@@ -124,5 +125,5 @@ async def test_a_parameter_that_cannot_be_set_keeps_it_on_the_ground(tmp_path: P
     async with flying(tmp_path, drone, parameters=SET) as flown:
         report = await flown.do(flown.team.drone_report("cf1"))
         assert report.problems == ('cf1 has no parameter "posCtlPid.xVelMx"',) * len(SET)
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        failed = await flown.failure(flown.team.do("cf1", TakeOff(1.0)))
         assert "xVelMx" in str(failed) and "takeoff" not in drone.told

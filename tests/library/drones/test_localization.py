@@ -14,6 +14,7 @@ from pluto_fleet.drones import localization
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import make_team
+from pluto_fleet.jobs.controls import Hold, TakeOff
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput, Failure
@@ -172,15 +173,15 @@ async def test_a_drone_that_is_not_seen_lands_and_does_not_take_off(tmp_path: Pa
     async with flying(tmp_path, drone, feeding=feeding) as flown:
         await flown.up()
         the_loop().call_later(2, setattr, camera, "looks", False)
-        failed = await flown.failure(flown.team.hold("cf1"))
+        failed = await flown.failure(flown.team.do("cf1", Hold()))
         assert failed.failure is Failure.LINK
         why = r"cf1 does not know where it is, and lands: no position from camera for 1\.[01] s"
         assert re.fullmatch(why, str(failed))
         await flown.until(lambda: not drone.motors)
-        failed = await flown.failure(flown.team.takeoff("cf1", 1.0))
+        failed = await flown.failure(flown.team.do("cf1", TakeOff(1.0)))
         camera.looks = True
         assert await flown.do(flown.team.reach("cf1"))
-        await flown.do(flown.team.takeoff("cf1", 1.0))
+        await flown.do(flown.team.do("cf1", TakeOff(1.0)))
 
 
 def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: Path) -> None:

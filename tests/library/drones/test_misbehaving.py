@@ -11,6 +11,7 @@ import pytest
 
 from pluto_fleet.drones.errors import NavigationError
 from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
+from pluto_fleet.jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import Flown, flying
@@ -35,13 +36,13 @@ async def everything(flown: Flown, drone: str = "cf1") -> list[str]:
     team = flown.team
     wrong: list[str] = []
     for command in (
-        team.takeoff(drone, 1.0),
-        team.go_to(drone, (2.0, 2.0, 1.0)),
-        team.act(drone, "measure", {}, None, None),
-        team.read(drone, "range.front"),
-        team.write(drone, "led", 1.0),
-        team.land(drone),
-        team.cut(drone),
+        team.do(drone, TakeOff(1.0)),
+        team.do(drone, GoTo((2.0, 2.0, 1.0))),
+        team.do(drone, Act("measure", {}, None, None)),
+        team.do(drone, Read("range.front")),
+        team.do(drone, Write("led", 1.0)),
+        team.do(drone, Land()),
+        team.do(drone, Cut()),
     ):
         try:
             await flown.do(command)
@@ -110,11 +111,11 @@ async def test_a_failure_counts_by_what_it_says_of_itself(tmp_path: Path) -> Non
     async with flying(tmp_path) as flown:
         drone = await flown.up()
         drone.raises = {"go_to": Odd("x" * 1000)}
-        failed = await flown.failure(flown.team.go_to("cf1", (2, 2, 1)))
+        failed = await flown.failure(flown.team.do("cf1", GoTo((2, 2, 1))))
         assert failed.failure is Failure.ACTION
         assert len(str(failed)) < 400
         drone.raises = {"go_to": Stranger("too little left\x07")}
-        failed = await flown.failure(flown.team.go_to("cf1", (2, 2, 1)))
+        failed = await flown.failure(flown.team.do("cf1", GoTo((2, 2, 1))))
         assert (failed.failure, str(failed)) == (Failure.BATTERY, "too little left\\x07")
 
 
@@ -123,12 +124,12 @@ async def test_who_holds_up_the_loop_is_named(tmp_path: Path) -> None:
     async with flying(tmp_path, FakeDrone(), FakeDrone("cf2", (3.0, 1.0, 0.0))) as flown:
         drone = await flown.up()
         await flown.up("cf2")
-        hovers = flown.begin(flown.team.hold("cf2"))
+        hovers = flown.begin(flown.team.do("cf2", Hold()))
         drone.blocks = {"go_to": 0.4}
-        await flown.do(flown.team.go_to("cf1", (2, 1, 1)))
+        await flown.do(flown.team.do("cf1", GoTo((2, 1, 1))))
         assert "the navigation of cf1 blocked for 0.4 s" in flown.log
         drone.blocks = {"go_to": 3.0}
-        await flown.do(flown.team.go_to("cf1", (3, 1, 1)))
+        await flown.do(flown.team.do("cf1", GoTo((3, 1, 1))))
         assert not hovers.is_set
 
 
@@ -139,7 +140,7 @@ async def test_telemetry_that_makes_no_sense_is_silence(tmp_path: Path) -> None:
         seen = flown.team.telemetry["cf1"]
         before = seen.location
         drone.put((float("nan"), 1.0, 1.0))
-        failed = await flown.failure(flown.team.hold("cf1"))
+        failed = await flown.failure(flown.team.do("cf1", Hold()))
         assert failed.failure is Failure.LINK
         assert seen.location == before
         drone.put((1.0, 1.0, 1.0))
@@ -168,9 +169,9 @@ async def test_answers_that_are_none_are_mistakes(tmp_path: Path) -> None:
         drone.says = [None] * 1000
         assert len((await flown.do(flown.team.drone_report("cf1"))).problems) == 20
         drone.says = ()
-        await flown.do(flown.team.takeoff("cf1", 1.0))
+        await flown.do(flown.team.do("cf1", TakeOff(1.0)))
         assert "made a mistake: ValueError" in str(
-            await flown.failure(flown.team.read("cf1", "range.front"))
+            await flown.failure(flown.team.do("cf1", Read("range.front")))
         )
         drone.events_told(cast("DroneEvent", object()))
         drone.happens(BATTERY_LOW)

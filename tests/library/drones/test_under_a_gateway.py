@@ -14,6 +14,7 @@ from pluto_fleet.drones.real_fleet import RealFleet
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
+from pluto_fleet.jobs.controls import TakeOff
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.future import Future
@@ -65,7 +66,7 @@ async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_pat
         await flown.do(link.fleet_report())
         for id in flown.drones:
             link.heartbeat()
-            await flown.do(flown.team.takeoff(id, 1.2))
+            await flown.do(flown.team.do(id, TakeOff(1.2)))
         lost.goes_silent()
         others = [flown.drones["cf1"], flown.drones["cf3"]]
         seconds = await flown.until(lambda: not any(drone.motors for drone in others))
@@ -84,7 +85,7 @@ async def test_while_the_gateway_is_held_up_its_brain_is_not_silent(tmp_path: Pa
         link = Commander(line)
         await flown.do(link.fleet_report())
         link.heartbeat()
-        await flown.do(flown.team.takeoff("cf1", 1.2))
+        await flown.do(flown.team.do("cf1", TakeOff(1.2)))
         link.heartbeat()
         held_up = PATIENCE + 1.0
         the_loop().call_later(1.0, the_loop().advance, held_up)
@@ -112,7 +113,7 @@ async def test_a_goodbye_leaves_none_behind_in_the_air(tmp_path: Path, back: boo
         flown.kernel.post(ending.look)
         await flown.do(link.fleet_report())
         for id in flown.drones:
-            await flown.do(flown.team.takeoff(id, 1.2))
+            await flown.do(flown.team.do(id, TakeOff(1.2)))
         writer.write(line({"do": "link", "epoch": 2}))
         writer.write(line({"do": "goodbye"}))
         lost.goes_silent()

@@ -12,6 +12,7 @@ from pluto_fleet.drones.errors import Rejected
 from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST
 from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
+from pluto_fleet.jobs.controls import GoTo, Hold, Land, TakeOff
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from tests.kit.drones import FakeDrone, the_loop
@@ -20,7 +21,7 @@ from tests.library.drones.teams import FIELD, Flown, flying
 
 async def fails(flown: Flown, drone: str = "cf1") -> tuple[Failure | None, str]:
     """Let a drone hover until something goes wrong, and return what."""
-    failed = await flown.failure(flown.team.hold(drone))
+    failed = await flown.failure(flown.team.do(drone, Hold()))
     return failed.failure, str(failed)
 
 
@@ -80,7 +81,7 @@ async def test_a_drone_that_does_not_know_where_it_is_stops_and_lands_there(tmp_
         await flown.until(lambda: not drone.motors)
         assert drone.told[1:] == ["hold", "land"]
         assert await flown.do(team.reach("cf1"))
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 def test_a_little_beside_the_permitted_area_is_no_reason_to_land() -> None:
@@ -113,28 +114,28 @@ async def test_a_drone_with_a_low_battery_lands_and_is_waited_for(tmp_path: Path
     """It says so itself; put home and charged, it is well."""
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
-        await flown.do(team.go_to("cf1", (4.0, 4.0, 1.0)))
+        await flown.do(team.do("cf1", GoTo((4.0, 4.0, 1.0))))
         the_loop().call_later(1, drone.happens, BATTERY_LOW, "3.1 V")
         failure, why = await fails(flown)
         assert failure is Failure.BATTERY
         assert why == "the battery of cf1 is low at (4, 4), where it lands: 3.1 V"
         assert await flown.do(team.reach("cf1"))
         assert not drone.motors
-        failed = await flown.failure(team.takeoff("cf1", 1.0))
+        failed = await flown.failure(team.do("cf1", TakeOff(1.0)))
         assert failed.failure is Failure.BATTERY
         fetched = flown.begin(team.fetched("cf1"))
         the_loop().call_later(100, drone.put, (1.1, 1.1, 0.0))
         await flown.until(lambda: fetched.is_set)
         assert fetched.result()
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 async def test_fetching_comes_to_an_end(tmp_path: Path) -> None:
     """After ten minutes it is lost."""
     async with flying(tmp_path) as flown:
         drone, team = await flown.up(), flown.team
-        await flown.do(team.go_to("cf1", (4.0, 4.0, 1.0)))
-        await flown.do(team.land("cf1"))
+        await flown.do(team.do("cf1", GoTo((4.0, 4.0, 1.0))))
+        await flown.do(team.do("cf1", Land()))
         drone.reasons = ("locked",)
         fetched = flown.begin(team.fetched("cf1"))
         assert await flown.until(lambda: fetched.is_set) == pytest.approx(600, abs=3)
@@ -156,7 +157,7 @@ async def test_a_drone_that_falls_has_crashed(tmp_path: Path, tells: bool) -> No
         assert not await flown.do(team.reach("cf1"))
         drone.reasons = ()
         assert await flown.do(team.reach("cf1"))
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 class Mended(FakeDrone):
@@ -186,7 +187,7 @@ async def test_only_a_person_lets_a_drone_forget_its_crash(tmp_path: Path) -> No
         team.mended("cf1")
         assert await flown.do(team.reach("cf1"))
         assert drone.told.count("looked after") == 1
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought_back_again(
@@ -203,7 +204,7 @@ async def test_a_drone_that_does_not_forget_its_crash_is_lost_and_can_be_brought
         del drone.raises["looked_after"]
         team.mended("cf1")
         assert await flown.do(team.reach("cf1"))
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 async def test_a_drone_that_crashes_on_its_way_home_is_lost_at_once(tmp_path: Path) -> None:
@@ -244,7 +245,7 @@ async def test_what_happens_on_the_ground_fails_no_flight(tmp_path: Path) -> Non
         await flown.until(lambda: len(flown.log) >= 5)
         assert flown.log[-1] == "cf1: sneezed: so it is"
         team.begins("cf1", None, 0.0)
-        await flown.do(team.takeoff("cf1", 1.0))
+        await flown.do(team.do("cf1", TakeOff(1.0)))
 
 
 async def test_who_must_land_is_not_kept_up(tmp_path: Path) -> None:
@@ -254,8 +255,8 @@ async def test_who_must_land_is_not_kept_up(tmp_path: Path) -> None:
         drone.happens(BATTERY_LOW)
         await flown.until(lambda: "land" in drone.told)
         flown.kernel.post(team.break_off, "cf1")
-        assert (await flown.failure(team.go_to("cf1", (2, 2, 1)))).failure is Failure.BATTERY
-        await flown.do(team.land("cf1"))
+        assert (await flown.failure(team.do("cf1", GoTo((2, 2, 1))))).failure is Failure.BATTERY
+        await flown.do(team.do("cf1", Land()))
         assert (drone.motors, drone.told) == (False, ["takeoff 1", "land"])
 
 

@@ -6,6 +6,7 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
+from pluto_fleet.jobs.controls import TakeOff
 from pluto_fleet.shared.alone.faults import Faults, draw
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -42,10 +43,10 @@ class Team(SimulatedNavigation):
         self.kernel, self.faults, self.seed, self.space = kernel, faults, seed, space
         self.drones = drones
 
-    async def takeoff(self, drone: str, height: float, order: Flight | None = None) -> None:
+    async def takes_off(self, drone: str, height: float, order: Flight | None) -> None:
         drawn = draw(self.faults, self.seed, *order) if order else {}
         self.bodies[drone].begin(order and order[0], drawn)
-        await super().takeoff(drone, height)
+        await self.do(drone, TakeOff(height))
 
     async def recover(self, drone: str) -> bool:
         return await Executor(self.kernel, self, self.drones, self.space).recover(drone)
@@ -92,7 +93,7 @@ def at_home(faults: Faults | None = None, **given: Any) -> tuple[VirtualTime, Te
 def hovering(faults: Faults | None = None, **given: Any) -> tuple[VirtualTime, Team]:
     """Return the same, with cf1 at its cruise height above its home, on its flight."""
     kernel, navigation = at_home(faults, **given)
-    fly(kernel, navigation.takeoff("cf1", 1.2, order()))
+    fly(kernel, navigation.takes_off("cf1", 1.2, order()))
     return kernel, navigation
 
 

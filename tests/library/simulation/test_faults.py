@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pluto_fleet.jobs.controls import Act, GoTo, Land
 from pluto_fleet.shared.alone.faults import Faults, draw
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
@@ -29,9 +30,9 @@ FAR = (4.0, 5.0, 1.2)
 
 async def flight(navigation: Team, target: Point = FAR) -> object:
     """A trip with nothing left out, as the engine flies it."""
-    await navigation.takeoff("cf1", 1.2, order())
-    await navigation.go_to("cf1", target)
-    return await navigation.act("cf1", "take_photo", {}, None)
+    await navigation.takes_off("cf1", 1.2, order())
+    await navigation.do("cf1", GoTo(target))
+    return await navigation.do("cf1", Act("take_photo", {}, None))
 
 
 def place_at(seconds: float) -> Point:
@@ -57,7 +58,7 @@ def test_a_crash_comes_at_its_moment(seed: int) -> None:
     assert telemetry.battery_level == pytest.approx(1 - moment / 420)
     assert not fly(kernel, navigation.recover("cf1"))
     assert kernel.now == pytest.approx(moment)
-    assert failure(kernel, navigation.takeoff("cf1", 1.2, None)).failure is Failure.CRASH
+    assert failure(kernel, navigation.takes_off("cf1", 1.2, None)).failure is Failure.CRASH
 
 
 def test_a_mishap_comes_even_without_commands() -> None:
@@ -67,7 +68,7 @@ def test_a_mishap_comes_even_without_commands() -> None:
     telemetry = navigation.telemetry["cf1"]
     assert telemetry.location == HOME
     assert telemetry.landed
-    assert failure(kernel, navigation.land("cf1")).failure is Failure.BATTERY
+    assert failure(kernel, navigation.do("cf1", Land())).failure is Failure.BATTERY
 
 
 @given(st.integers(0, 300), st.floats(0, 80), st.floats(0.005, 1))
@@ -91,7 +92,7 @@ def test_under_all_mishaps_the_drone_comes_home_or_is_lost(
         before = telemetry.battery_level
         fly(kernel, kernel.sleep(12))
         assert telemetry.battery_level == pytest.approx(min(1, before + 0.01))
-        fly(kernel, navigation.takeoff("cf1", 1.2, None))
+        fly(kernel, navigation.takes_off("cf1", 1.2, None))
     else:
-        assert failure(kernel, navigation.land("cf1")).failure is Failure.CRASH
+        assert failure(kernel, navigation.do("cf1", Land())).failure is Failure.CRASH
     assert navigation.carrying("cf1") is None

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.jobs.controls import GoTo, Land, TakeOff
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category
@@ -61,7 +62,7 @@ def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     telemetry = field.navigation.telemetry["cf1"]
     assert telemetry.location == pytest.approx(THERE)
     assert not telemetry.landed
-    fly(field.kernel, field.navigation.land("cf1"))
+    fly(field.kernel, field.navigation.do("cf1", Land()))
     assert field.later(tmp_path, 5).navigation.telemetry["cf1"].landed
 
 
@@ -126,11 +127,11 @@ def test_chance_does_not_depend_on_the_process(tmp_path: Path, is_killed: bool) 
     """A leg takes as long in a process that was started on the way."""
     field = Kept(tmp_path, category=replace(SCOUT, motion=CRAZYFLIE))
     field.navigation.begins("cf1", Task().id, 15.0)
-    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
+    fly(field.kernel, field.navigation.do("cf1", TakeOff(1.2)))
     if is_killed:
         field = field.later(tmp_path, 60)
     begun = field.kernel.now
-    fly(field.kernel, field.navigation.go_to("cf1", THERE))
+    fly(field.kernel, field.navigation.do("cf1", GoTo(THERE)))
     expected = varied(CRAZYFLIE, 1).flies(5.0, SCOUT.speed)
     factor = varies(CRAZYFLIE.spread, f"1/{Task().id}/4.00/5.00/1.20")
     assert field.kernel.now - begun == pytest.approx(factor * expected)
@@ -140,11 +141,11 @@ def test_chance_does_not_depend_on_the_process(tmp_path: Path, is_killed: bool) 
 def test_mishaps_stay_what_they_were(tmp_path: Path, what: Failure) -> None:
     """A drone that takes no commands takes none from another process either."""
     field = Kept(tmp_path)
-    fly(field.kernel, field.navigation.takeoff("cf1", 1.2))
+    fly(field.kernel, field.navigation.do("cf1", TakeOff(1.2)))
     field.navigation.strike("cf1", what)
     field = field.later(tmp_path, 10)
     assert field.navigation.telemetry["cf1"].landed
-    error = failure(field.kernel, field.navigation.takeoff("cf1", 1.2))
+    error = failure(field.kernel, field.navigation.do("cf1", TakeOff(1.2)))
     assert error.failure is what
     assert fly(field.kernel, field.gateway.recover("cf1")) is (what is not Failure.CRASH)
 
