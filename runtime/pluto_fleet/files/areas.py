@@ -9,7 +9,7 @@ from math import dist
 from typing import TYPE_CHECKING, Any
 
 from ..extras import has
-from ..shared.alone.files import read_fields
+from ..shared.alone.files import with_fields
 from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity
@@ -40,8 +40,9 @@ def trips_of_areas(
     paths = {trip.name: (*mission.path, "trip", trip.index) for trip in before}
     needed: Keys = {"polygon": None, "action": partial(values.one_of, app.actions), "spacing": None}
     others: Keys = {"name": values.name, "height": None, "parameters": None}
+    keys = with_fields(app, Entity.TRIP, needed, others)
     for place, table in enumerate(mission.tables("area"), 1):
-        given = read_fields(table, app, Entity.TRIP, needed, others)
+        given = table.read(*keys)
         name = given.pop("name", None)
         table.differs("name", name, "area", areas)
         prefix = f"area {place}." if name is None else f"{name} "

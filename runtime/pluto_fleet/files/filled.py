@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -40,33 +38,6 @@ def columns_of(template: object) -> Iterator[tuple[KeyPath, str | None]]:
     for key, value in pairs:
         for path, column in columns_of(value):
             yield (key, *path), column
-
-
-@dataclass
-class Weight:
-    """How much a template makes of one row, beside the values of the row itself."""
-
-    parts: int = 0
-    characters: int = 0
-    columns: Counter[str] = field(default_factory=Counter)
-    """How often each column is named."""
-
-
-def weight_of(template: object) -> Weight:
-    """Return how much a template makes of each row, without making it."""
-    weight = Weight()
-    left = [template]
-    while left:
-        one = left.pop()
-        weight.parts += 1
-        if isinstance(one, str):
-            weight.characters += len(one)
-            weight.columns.update(column for _, column in columns_of(one) if column is not None)
-        elif isinstance(one, dict):
-            left.extend(one.values())
-        elif isinstance(one, list):
-            left.extend(one)
-    return weight
 
 
 def filled(template: object, row: Mapping[str, str]) -> object:

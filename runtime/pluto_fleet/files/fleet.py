@@ -24,8 +24,7 @@ from ..shared.domain.quantities import Type
 from ..shared.domain.text import number, quoted
 from .addresses import SUCH_AS, address_of, crowded_air
 from .drones import CRAZYFLIE, DroneEntry, drones_of, joining_drone
-from .landmarks import NO_LANDMARKS, Landmarks
-from .landmarks_reading import read_landmarks
+from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
 from .options import Options, navigation_options, options_in
 from .reading import Document, listed, read, top
 

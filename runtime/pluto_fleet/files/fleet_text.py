@@ -76,20 +76,11 @@ def _drone(drone: DroneEntry) -> dict[str, Any]:
 
 
 def _world(world: WorldData) -> dict[str, Any]:
-    sources = [
-        {
-            "quantity": source.quantity,
-            "at": _floats(source.at),
-            "peak": float(source.peak),
-            "radius": float(source.radius),
-        }
-        for source in world.sources
-    ]
-    features = [
-        {"kind": feature.kind, "at": _floats(feature.at), "radius": float(feature.radius)}
-        for feature in world.features
-    ]
-    return {"background": {**world.background}, "source": sources, "feature": features}
+    return {
+        "background": {**world.background},
+        "source": [asdict(source) | {"at": [*source.at]} for source in world.sources],
+        "feature": [asdict(feature) | {"at": [*feature.at]} for feature in world.features],
+    }
 
 
 def _floats(numbers: Sequence[float]) -> list[float]:

@@ -23,7 +23,6 @@ from .filled import (
     columns_of,
     filled,
     is_number,
-    weight_of,
 )
 from .reading import PlanTable, listed, near, text_of
 
@@ -31,12 +30,8 @@ if TYPE_CHECKING:
     from ..shared.domain.values import KeyPath, Read
 
 MOST_ROWS = 10_000
+"""The most missions that the lists of a file make."""
 MOST_COLUMNS = 1_000
-MOST_READ = 8 << 20
-"""Of all lists of a file: the most missions that they make, and characters that are read; and columns of each."""
-MOST_PARTS = 1_000_000
-MOST_CHARACTERS = 10_000_000
-"""What all lists of a file make of its texts: so many values and tables, of so many characters."""
 
 _LONGEST_VALUE = csv.field_size_limit()  # in characters
 _SAID = {
@@ -55,41 +50,6 @@ Row = tuple[int, Mapping[str, str]]
 
 class _Unusable(ValueError):
     """What is wrong with a list; the message continues after its name."""
-
-
-class _TooMuch(_Unusable):
-    """The lists of one file make too much: no more of them is read."""
-
-
-class _Made:
-    """What the lists of one file have made so far, counted before it is made."""
-
-    def __init__(self) -> None:
-        self.read = self.rows = self.parts = self.characters = 0
-
-    def count_text(self, text: str) -> None:
-        """Count the text of a list."""
-        self.read += len(text)
-        if self.read > MOST_READ:
-            raise _TooMuch(_too_much("is too long", MOST_READ, "characters"))
-
-    def count_row(self) -> None:
-        """Count a row of a list."""
-        self.rows += 1
-        if self.rows > MOST_ROWS:
-            raise _TooMuch(_too_much("has too many rows", MOST_ROWS, "missions"))
-
-    def count(self, template: object, rows: Sequence[Row]) -> None:
-        """Count what becomes of a template with these rows."""
-        weight = weight_of(template)
-        self.parts += weight.parts * len(rows)
-        self.characters += weight.characters * len(rows)
-        for column, times in weight.columns.items():
-            self.characters += times * sum(len(row[column]) for _, row in rows)
-        if self.parts > MOST_PARTS:
-            raise _TooMuch(_too_much("makes too much", MOST_PARTS, "values"))
-        if self.characters > MOST_CHARACTERS:
-            raise _TooMuch(_too_much("makes too much", MOST_CHARACTERS, "characters"))
 
 
 class RowTable(PlanTable):
@@ -142,19 +102,17 @@ def _of_cells(cells: Sequence[Filled]) -> str:
 
 def each_row(top: PlanTable) -> Iterator[PlanTable]:
     """Yield the missions' tables; of one with `each` a table for each row of its list."""
-    made: _Made | None = _Made()
+    left = MOST_ROWS
     for table in top.tables("mission", needed=True):
         if "each" not in table.data:
             yield table
-        elif made is not None:
-            try:
-                yield from _of_rows(table, made)
-            except _TooMuch as wrong:
-                table.problem(f"each {quoted(str(table.data['each']))} {wrong}", "each")
-                made = None  # of no further list anything is read
+            continue
+        for made in _of_rows(table, left):
+            yield made
+            left -= 1
 
 
-def _of_rows(table: PlanTable, made: _Made) -> Iterator[PlanTable]:
+def _of_rows(table: PlanTable, left: int) -> Iterator[PlanTable]:
     document = table.document
     template = {key: value for key, value in table.data.items() if key != "each"}
     document.is_made = True
@@ -162,16 +120,11 @@ def _of_rows(table: PlanTable, made: _Made) -> Iterator[PlanTable]:
     if list_ is None:
         return
     if document.folder is None:
-        said = (
-            f"each {quoted(list_)} lies beside a missions file, and this one is in no folder:"
-            " start with that file, --missions M.toml"
-        )
-        table.problem(said, "each")
+        said = "lies beside a missions file, and this one is in no folder: start with that file"
+        table.problem(f"each {quoted(list_)} {said}, --missions M.toml", "each")
         return
     try:
-        rows, odd = _rows(document.folder / list_, made)
-    except _TooMuch:
-        raise
+        rows, odd = _rows(document.folder / list_, left)
     except _Unusable as wrong:
         rows, odd = [], [f"{wrong}"]
     for wrong_row in odd:
@@ -183,7 +136,6 @@ def _of_rows(table: PlanTable, made: _Made) -> Iterator[PlanTable]:
         said = "name is the same for every row, and names must differ: put a column into it"
         table.problem(f"{said}, such as {such}", "name")
         return
-    made.count(template, rows)
     for number, row in rows:
         data: Any = {key: filled(value, row) for key, value in template.items()}
         known = quoted(data["name"]) if values.is_name(data.get("name")) else number
@@ -228,13 +180,12 @@ def _key(path: KeyPath) -> str:
 # The file
 
 
-def _rows(path: Path, made: _Made) -> tuple[list[Row], list[str]]:
+def _rows(path: Path, left: int) -> tuple[list[Row], list[str]]:
     """Return the rows of a list that have values, at least one, and what is wrong with others.
 
     Raises `_Unusable` if it cannot be read as a whole.
     """
     text = _text(path)
-    made.count_text(text)
     if not text.strip():
         raise _Unusable("is empty: its first line names the columns")
     lines = csv.reader(StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
@@ -262,9 +213,9 @@ def _rows(path: Path, made: _Made) -> tuple[list[Row], list[str]]:
                     f" names {len(columns)}"
                 )
             rows.append((number, dict(zip(columns, stripped, strict=False))))
-            if len(rows) > MOST_ROWS:
-                raise _TooMuch(f"has more than {MOST_ROWS:,} rows")
-            made.count_row()
+            if len(rows) > left:
+                said = f"all lists of a file make at most {MOST_ROWS:,} missions"
+                raise _Unusable(f"has too many rows: {said}")
     except csv.Error as error:
         said = _SAID.get(str(error), str(error))
         raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None
@@ -320,10 +271,6 @@ def _columns(names: Sequence[str]) -> list[str]:
     if all(_is_number(name) for name in names):
         raise _Unusable("has no line that names its columns: its first line holds numbers")
     return [*names]
-
-
-def _too_much(what: str, most: int, of: str) -> str:
-    return f"{what}: all lists of a file make at most {most:,} {of}"
 
 
 def _nameless(place: int) -> str:

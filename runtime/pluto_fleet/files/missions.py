@@ -56,7 +56,8 @@ def read_missions(
             break  # the same is wrong in row after row
         given = read_mission(table, index, app, airspace, names)
         given["promises"] = read_promises(table)
-        given["trips"] += trips_of_areas(table, given["trips"], app, airspace)
+        if "area" in table.data:
+            given["trips"] += trips_of_areas(table, given["trips"], app, airspace)
         missions.append(app.mission(**given))
     for place, said in [] if document.problems else misplaced(missions, known):
         tables[place].problem(said, "after")

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from datetime import date, time
 from math import isfinite
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from ..shared.domain.text import quoted
 from .reading import listed, near
@@ -37,34 +38,27 @@ def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]
     return {name: options_in(every.table(name)) for name in every.data if name in used}
 
 
-def plain(value: object, depth: int = 1) -> object:
-    """Read a value that JSON can hold without change."""
-    if depth > DEEPEST:
-        raise ValueError("is nested too deep")
-    match value:
-        case str() | bool():
-            return value
-        case int() if abs(value) < _LARGEST_WHOLE:
-            return value
-        case int():
-            raise ValueError("is too large")
-        case float() if isfinite(value):
-            return value
-        case float():
-            raise ValueError("is not a finite number")
-        case list():
-            return [_inner(element, depth) for element in value]
-        case dict():
-            return {key: _inner(element, depth) for key, element in value.items()}
-    raise ValueError("is a date or a time: put it in quotes")
+def plain(value: object) -> object:
+    """Return a value, if JSON can hold it without change."""
+    for part, depth in _parts(value, 1):
+        if depth > DEEPEST:
+            raise ValueError("is nested too deep")
+        if said := _no_json(part):
+            raise ValueError(said if part is value else f"has an element that {said}")
+    return value
 
 
-def _inner(value: object, depth: int) -> object:
-    try:
-        return plain(value, depth + 1)
-    except ValueError as wrong:
-        said = f"{wrong}".removeprefix(_HAS)
-        raise ValueError(said if said.endswith("too deep") else f"{_HAS}{said}") from None
+def _parts(value: object, depth: int) -> Iterator[tuple[object, int]]:
+    yield value, depth
+    inner = value.values() if isinstance(value, dict) else value
+    if isinstance(value, dict | list) and depth <= DEEPEST:
+        for part in cast("Iterable[object]", inner):
+            yield from _parts(part, depth + 1)
 
 
-_HAS = "has an element that "
+def _no_json(value: object) -> str:
+    if isinstance(value, date | time):
+        return "is a date or a time: put it in quotes"
+    if isinstance(value, float) and not isfinite(value):
+        return "is not a finite number"
+    return "is too large" if isinstance(value, int) and abs(value) >= _LARGEST_WHOLE else ""

@@ -14,14 +14,7 @@ from ..shared.domain.model import AfterTrip
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import duration, quoted
 from ..shared.domain.values import shown
-from ..shared.fleet.reach import (
-    Lacks,
-    Miss,
-    chain_of,
-    flight_seconds,
-    miss_of,
-    stops_of,
-)
+from ..shared.fleet.reach import Miss, chain_of, flight_seconds, miss_of, stops_of
 
 if TYPE_CHECKING:
     from ..app import App
@@ -71,6 +64,15 @@ def wrong_fields(missions: Sequence[Mission[Any]], app: App) -> Iterator[str]:
                         put_plain(of, field.name, value)
 
 
+def chains(mission: Mission[Any]) -> Iterator[Sequence[Trip]]:
+    """Yield a mission's trips, those together that one drone must fly."""
+    rest: Sequence[Trip] = mission.trips
+    while rest:
+        chain = chain_of(rest)
+        rest = rest[len(chain) :]
+        yield chain
+
+
 def unflyable(
     missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, airspace: Airspace
 ) -> list[Unflyable]:
@@ -82,22 +84,35 @@ def unflyable(
         homes.setdefault(category.name, []).append(home)
     found = []
     for mission in missions:
-        rest: Sequence[Trip] = mission.trips
-        while rest:
-            chain = chain_of(rest)
-            rest = rest[len(chain) :]
-            asked = [
-                (categories[name], min(points, key=partial(dist, chain[0].target)))
-                for name, points in homes.items()
-            ]
-            misses = _misses(app, airspace, asked, chain)
-            if misses is not None and any(miss.lacks > Lacks.PAYLOAD for miss in misses):
-                asked = drones  # a farther home may still have a shorter route
-                misses = _misses(app, airspace, asked, chain)
-            if misses is not None:
-                reason = _cannot(_nearest(misses, asked))
+        for chain in chains(mission):
+            near = partial(dist, chain[0].target)
+            nearest = [(categories[name], min(homes[name], key=near)) for name in homes]
+            misses = _misses(app, airspace, nearest, chain)
+            if misses:  # a farther home may still have a shorter route
+                misses = _misses(app, airspace, drones, chain)
+            if misses:
+                why = "; ".join(dict.fromkeys(miss.reason for miss in misses))
+                reason = f"no drone of the fleet can do it: {why}"
                 found.append(Unflyable(mission=mission, trips=chain, reason=reason))
     return found
+
+
+def _misses(
+    app: App,
+    airspace: Airspace,
+    drones: Sequence[tuple[Category, Point]],
+    chain: Sequence[Trip],
+) -> Sequence[Miss]:
+    """Return each category's nearest miss, in the fleet's order; nothing if a drone lacks nothing."""
+    best: dict[str, Miss | None] = dict.fromkeys(category.name for category, _ in drones)
+    for category, home in drones:
+        miss = miss_of(app, airspace, category, home, chain)
+        if miss is None:
+            return ()
+        known = best[category.name]
+        if known is None or (-miss.lacks, miss.by) < (-known.lacks, known.by):
+            best[category.name] = miss
+    return [miss for miss in best.values() if miss is not None]
 
 
 def uncharged(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> str | None:
@@ -110,10 +125,7 @@ def uncharged(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> s
     takes = 0.0
     here = None
     for mission in missions:
-        rest: Sequence[Trip] = mission.trips
-        while rest:
-            chain = chain_of(rest)
-            rest = rest[len(chain) :]
+        for chain in chains(mission):
             takes += min(_seconds(app, fleet, kind, home, here, chain) for kind, home in drones)
             if fleet.after_trip is not AfterTrip.HOME:
                 here = (*chain[-1].target[:2], 0.0)
@@ -157,37 +169,6 @@ def endless(missions: Sequence[Mission[Any]], app: App) -> list[str]:
         for name in rounds
         if getattr(mission, name) is True
     ]
-
-
-def _misses(
-    app: App,
-    airspace: Airspace,
-    drones: Sequence[tuple[Category, Point]],
-    chain: Sequence[Trip],
-) -> list[Miss] | None:
-    """Return what each drone lacks; None as soon as one lacks nothing."""
-    misses = []
-    for category, home in drones:
-        miss = miss_of(app, airspace, category, home, chain)
-        if miss is None:
-            return None
-        misses.append(miss)
-    return misses
-
-
-def _nearest(misses: Sequence[Miss], drones: Sequence[tuple[Category, Point]]) -> list[Miss]:
-    """Keep each category's nearest miss, in the fleet's order."""
-    best: dict[str, Miss] = {}
-    for miss, (category, _) in zip(misses, drones, strict=True):
-        known = best.get(category.name)
-        if known is None or (-miss.lacks, miss.by) < (-known.lacks, known.by):
-            best[category.name] = miss
-    return list(best.values())
-
-
-def _cannot(misses: Sequence[Miss]) -> str:
-    reasons = dict.fromkeys(miss.reason for miss in misses)
-    return "no drone of the fleet can do it: " + "; ".join(reasons)
 
 
 def look_alikes(

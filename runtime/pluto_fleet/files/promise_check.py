@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 from ..shared.domain.fields import FieldType, time_of_day
 from ..shared.domain.model import AfterTrip
 from ..shared.domain.text import counted, duration, quoted
-from ..shared.fleet.reach import chain_of, flight_seconds, stops_of
+from ..shared.fleet.reach import flight_seconds, stops_of
 from ..shared.flow.promises import kept_from
 from ..shared.time.hours import DAY
+from .plan_check import chains
 
 if TYPE_CHECKING:
     from ..app import App
@@ -156,12 +157,7 @@ class _Bounds:
 
     def flights(self, mission: Mission[Any]) -> list[_Flight]:
         """Return a mission's flights, in their order."""
-        found, rest = list[_Flight](), mission.trips
-        while rest:
-            chain = chain_of(rest)
-            rest = rest[len(chain) :]
-            found.append(self._flight(chain))
-        return found
+        return [self._flight(chain) for chain in chains(mission)]
 
     def _flight(self, chain: Sequence[Trip]) -> _Flight:
         kinds = [self._categories[name] for name in self._homes]

@@ -75,7 +75,7 @@ def promised(given: dict[str, Any]) -> Mapping[str, Any]:
 
 def read_promises(table: Table) -> Mapping[str, Any]:
     """Return what is promised of a mission, and note what is wrong with it."""
-    given = {key: table.value(key, read) for key, read in KEYS.items()}
+    given = {key: table.value(key, read) for key, read in KEYS.items() if key in table.data}
     try:
         return promised(given)
     except ValueError as error:

@@ -7,7 +7,7 @@ what is promised, and how real drones are reached.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -86,31 +86,30 @@ def read_mission(
 ) -> dict[str, Any]:
     """Return what a mission is made of; `names` are those of the missions before it."""
     keys: Keys = {"name": values.name, "trip": None, **dict.fromkeys(LIBRARY)}
-    given = {"name": f"{index + 1}", **read_fields(table, app, Entity.MISSION, {}, keys)}
+    given = table.read(*with_fields(app, Entity.MISSION, {}, keys))
+    given = {"name": f"{index + 1}", **given}
     table.differs("name", given["name"], "mission", names)
     return {**given, "index": index, "trips": read_trips(table, app, airspace)}
 
 
 def read_trips(table: Table, app: App, airspace: Airspace) -> list[Trip]:
     """Return a mission's trips."""
-    names = dict[str, Table]()
-    tables = [*table.tables("trip", needed=not table.data.get("area"))]
-    trips = [_trip(one, index, app, airspace, names) for index, one in enumerate(tables)]
-    for index, said in _wrongly_carried(trips):
-        tables[index].problem(said, "item")
-    return trips
-
-
-def _trip(table: Table, index: int, app: App, airspace: Airspace, names: dict[str, Table]) -> Trip:
     point = partial(values.point_on, airspace, airspace.cruise_height, table.point)
     needed: Keys = {"action": partial(values.one_of, app.actions), "target": point}
     others: Keys = {"name": values.name, "source": point, "parameters": None, "item": None}
-    given = {"name": f"{index + 1}", **read_fields(table, app, Entity.TRIP, needed, others)}
-    table.differs("name", given["name"], "trip", names)
-    if action := app.actions.get(given["action"]):
-        given["parameters"] = read_parameters(table.table("parameters"), action)
-        given["item"] = _item(table, action.name)
-    return app.trip(**given, index=index)
+    keys = with_fields(app, Entity.TRIP, needed, others)
+    trips, names = list[Any](), dict[str, Table]()
+    tables = [*table.tables("trip", needed=not table.data.get("area"))]
+    for index, one in enumerate(tables):
+        given = {"name": f"{index + 1}", **one.read(*keys)}
+        one.differs("name", given["name"], "trip", names)
+        if action := app.actions.get(given["action"]):
+            given["parameters"] = read_parameters(one.table("parameters"), action)
+            given["item"] = _item(one, action.name)
+        trips.append(app.trip(**given, index=index))
+    for index, said in _wrongly_carried(trips):
+        tables[index].problem(said, "item")
+    return trips
 
 
 def _item(table: Table, action: str) -> Item | None:
@@ -126,17 +125,16 @@ def _item(table: Table, action: str) -> Item | None:
     return None if None in given.values() else Item(**given)
 
 
-def read_fields(
-    table: Table, app: App, entity: Entity, needed: Keys, others: Keys
-) -> dict[str, Any]:
-    """Return what stands under these keys, and the fields of this app's missions or trips."""
+def with_fields(
+    app: App, entity: Entity, needed: Keys, others: Keys
+) -> tuple[Keys, Keys, Mapping[str, str]]:
+    """Return what `Table.read` takes: these keys, and the fields of this app's missions or trips."""
     fields = {field.name: field for field in app.fields if field.on is entity}
     evaluator = partial(values.one_of, app.evaluators)
     readers: dict[Any, Any] = {**values.READERS, FieldType.EVALUATOR: evaluator}
     keys = {name: readers[field.type] for name, field in fields.items()}
     hints = {name: field.hint for name, field in fields.items() if field.hint}
-    needed = {**needed, **{name: keys[name] for name in hints}}
-    return table.read(needed, {**others, **keys}, hints)
+    return {**needed, **{name: keys[name] for name in hints}}, {**others, **keys}, hints
 
 
 def _wrongly_carried(trips: Sequence[Trip]) -> Iterator[tuple[int, str]]:

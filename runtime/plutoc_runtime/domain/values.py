@@ -7,7 +7,6 @@ with the path of its key; whoever reads goes on, with None in its place, and ref
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from copy import copy
 from dataclasses import dataclass
 from datetime import date, time
 from functools import partial
@@ -318,8 +317,8 @@ class Table:
         return ".".join(part for part in (*self.path, key) if isinstance(part, str))
 
     def _inner(self, data: Mapping[str, Any], *inside: str | int, who: str) -> Self:
-        inner = copy(self)
-        inner.data, inner.path, inner.who = data, (*self.path, *inside), who
+        inner = object.__new__(type(self))
+        inner.__dict__.update(self.__dict__, data=data, path=(*self.path, *inside), who=who)
         return inner
 
 

@@ -7,8 +7,7 @@ import stat
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...files.landmarks import NO_LANDMARKS, Landmarks
-from ...files.landmarks_reading import KEYS, read_landmarks
+from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, read_landmarks
 from ...files.landmarks_text import with_landmarks
 from ...files.reading import PlanTable, parsed, text_of
 from ...shared.alone.files import read_map

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from ...files.landmarks_reading import read_landmarks
+from ...files.landmarks import read_landmarks
 from ...files.landmarks_text import landmark_tables
 from ...files.reading import Document, PlanTable
 from ...shared.domain.errors import BadInput
