@@ -29,19 +29,8 @@ _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
 _EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
 _EXTRAS["--jobs"] = ""
 """What needs the library, and with which of its extras."""
-_WORDS = [*_EXTRAS, "check", "simulate", "--version"]
-_WORDS += [
-    "--start",
-    "--date",
-    "--zone",
-    "--fleet",
-    "--seed",
-    "--no-spread",
-    "--fail",
-    "--until",
-    "--trace",
-    "--json",
-]
+_WORDS = [*_EXTRAS, "check", "simulate", "--version", "--start", "--date", "--zone", "--fleet"]
+_WORDS += ["--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
 _WORLD = "each drone alone in the air"
 
 
@@ -250,13 +239,8 @@ def _parser(app: App) -> ArgumentParser:
     for one in (check, simulate):
         one.add_argument("--fleet", metavar="F.toml", type=Path, help="the map and the drones")
     add = simulate.add_argument
-    add(
-        "--seed",
-        metavar="N",
-        type=typed(whole),
-        default=0,
-        help="what chance depends on (default 0)",
-    )
+    chance = "what chance depends on (default 0)"
+    add("--seed", metavar="N", type=typed(whole), default=0, help=chance)
     add("--no-spread", action="store_true", help="let all take exactly as long as expected")
     add("--fail", metavar="WHAT=SHARE,…", type=typed(shares), default={}, help="such as crash=2%%")
     add_beginning(add, "midnight")
