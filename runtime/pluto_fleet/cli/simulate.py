@@ -110,7 +110,7 @@ def _watcher(options: Options, missions: int, progress: Progress) -> Listener:
     def watch(event: Event) -> None:
         nonlocal ended
         ended += event["event"] == "mission.ended"
-        now = float(str(event["t"]))
+        now = event["t"]
         gone = now / options.until if options.until else 0.0
         progress.update(max(gone, ended / missions), f"{duration(now)} simulated")
 

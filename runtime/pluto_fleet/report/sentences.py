@@ -24,7 +24,7 @@ def line_of(event: Event) -> str | None:
     said = sentence_of(event)
     if said is None:
         return None
-    time = f"{float(str(event['t'])):>8.1f} s  "
+    time = f"{float(event['t']):>8.1f} s  "
     mission = event.get("mission")
     text = f"{mission}: {said}" if mission else said
     first, *rest = text.split("\n")  # a hook's traceback has many lines
@@ -47,8 +47,7 @@ def _launched(event: Fact) -> str:
 
 
 def _beside(event: Fact) -> str:
-    at: Any = event["at"]
-    where = f"{place(at)} at a height of {number(at[2])} m"
+    where = f"{place(event['at'])} at a height of {number(event['at'][2])} m"
     return (
         f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
     )
@@ -64,8 +63,7 @@ def _extended(event: Fact) -> str:
 
 
 def _replanned(event: Fact) -> str:
-    todo: Any = event["todo"]
-    trips = ", ".join(str(trip["name"]) for trip in todo) or "none"
+    trips = ", ".join(trip["name"] for trip in event["todo"]) or "none"
     return f"was changed by a person; trips to do: {trips}"
 
 
@@ -89,7 +87,7 @@ def _waits(event: Fact) -> str:
     if "until" in event:
         rest = float(event["until"]) - float(event["t"])
         said += f", until {event['hour']} ({duration(max(0.0, rest))} more)"
-    names: Any = event.get("missions", ())
+    names = event.get("missions", ())
     more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
     return f"{', '.join(names[:_NAMED])}{more}: {said}" if names else said
 

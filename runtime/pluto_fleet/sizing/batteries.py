@@ -56,9 +56,8 @@ def most_charging(
         if what == "trip.launched":
             flown[str(event["drone"])] = True
         elif what in _DOCKED and flown[(id := str(event["drone"]))]:
-            data: Any = event
-            drone, now, level = drones[id], data["t"], data["battery"]
-            if level >= FULL or not docked(tuple(data["at"]), drone.home):
+            drone, now, level = drones[id], event["t"], event["battery"]
+            if level >= FULL or not docked(tuple(event["at"]), drone.home):
                 continue
             flown[id] = False
             on = chargers.setdefault(drone.category, [])

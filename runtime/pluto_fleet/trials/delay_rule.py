@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from .rules import Say, at, changed, listed
+from .rules import Say, at, changed
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -51,8 +51,8 @@ class DelaysAreWaited:
         mission, trip = event["mission"], event["trip"]
         attempt = self._tries.get((mission, trip), 1)
         place = mission, event.get("block"), trip, self._round.get(mission, 0), attempt
-        until, now = float(str(event["until"])), float(str(event["t"]))
-        over = float(str(event.get("over", until)))
+        until, now = event["until"], event["t"]
+        over = event.get("over", until)
         last = self._delay.get(mission)
         if last is not None and last.place == place:
             expected = last.over if last.rest is None else now + last.rest
@@ -77,7 +77,7 @@ class DelaysAreWaited:
         if delay is None:
             return
         self._waited.add(delay.place)
-        now = float(str(event["t"]))
+        now = event["t"]
         over = delay.over if delay.rest is None else now + delay.rest
         if now < max(over, delay.begins) - _ROUNDED:
             self._say(
@@ -86,10 +86,10 @@ class DelaysAreWaited:
             )
 
     def _reset(self, event: Event) -> None:
-        self._tries[event["mission"], event["trip"]] = int(str(event["attempt"]))
+        self._tries[event["mission"], event["trip"]] = event["attempt"]
 
     def _extend(self, event: Event) -> None:
-        for trip in listed(event, "redo"):
+        for trip in event["redo"]:
             key = event["mission"], trip
             self._tries[key] = self._tries.get(key, 1) + 1
 
@@ -151,9 +151,9 @@ class _Delay:
     def stand(self, event: Event) -> None:
         """Suspend it."""
         if self.rest is None:
-            self.rest = self.over - float(str(event["t"]))
+            self.rest = self.over - event["t"]
 
     def run(self, event: Event) -> None:
         """Continue it."""
         if self.rest is not None:
-            self.over, self.rest = float(str(event["t"])) + self.rest, None
+            self.over, self.rest = event["t"] + self.rest, None

@@ -67,7 +67,7 @@ class Invariants:
 
     def take(self, event: Event) -> None:
         """Process an event."""
-        now: Any = event["t"]
+        now = event["t"]
         if now < self._now:
             self.found.append(f"{at(event)}: {event['event']} comes after {self._now:g} s")
         self._now = now

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from .rules import Say, at, listed
+from .rules import Say, at
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -42,16 +41,16 @@ class PromisesAreKept:
         return self._promised.setdefault(event["mission"], _Promised())
 
     def _promise(self, event: Event) -> None:
-        mission, deadline = self._of(event), event.get("deadline")
+        mission = self._of(event)
         if mission.after or mission.deadline is not None:
             self._say(f"{at(event)}: {event['mission']} is promised something once more")
-        mission.opens = _seconds(event, "opens")
-        mission.deadline = None if deadline is None else _seconds(event, "deadline")
-        mission.after = listed(event, "after") if "after" in event else []
+        mission.opens = event.get("opens", 0.0)
+        mission.deadline = event.get("deadline")
+        mission.after = event.get("after", [])
 
     def _begin(self, event: Event) -> None:
         mission = self._of(event)
-        if _seconds(event, "t") < mission.opens - _ROUNDED:
+        if event["t"] < mission.opens - _ROUNDED:
             self._say(
                 f"{at(event)}: {event['mission']} begins before its window, {mission.opens:g} s"
             )
@@ -65,7 +64,7 @@ class PromisesAreKept:
 
     def _late(self, event: Event) -> None:
         mission = self._of(event)
-        if mission.deadline is None or _seconds(event, "t") < mission.deadline - _ROUNDED:
+        if mission.deadline is None or event["t"] < mission.deadline - _ROUNDED:
             self._say(f"{at(event)}: {event['mission']} is late before its deadline")
         if mission.late:
             self._say(f"{at(event)}: {event['mission']} is late once more")
@@ -73,13 +72,9 @@ class PromisesAreKept:
 
     def _end(self, event: Event) -> None:
         mission = self._of(event)
-        mission.ended = str(event["status"])
+        mission.ended = event["status"]
         due = mission.deadline
-        if due is not None and _seconds(event, "t") > due + _ROUNDED and not mission.late:
+        if due is not None and event["t"] > due + _ROUNDED and not mission.late:
             self._say(
                 f"{at(event)}: {event['mission']} ends, was due at {due:g} s, and is not late"
             )
-
-
-def _seconds(event: Mapping[str, object], key: str) -> float:
-    return float(str(event.get(key, 0.0)))

@@ -13,7 +13,7 @@ from ..journal.fold import Record, Records
 from ..shared.alone.simulate import Bound
 from .case import BrokenHook
 from .invariants import ENDS, Invariants, items_of
-from .rules import at, listed
+from .rules import at
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -74,7 +74,7 @@ class ExactlyOnce:
                 self._round[event["mission"]] = event["round"]
             case "mission.extended":
                 mission = event["mission"]
-                for trip in listed(event, "redo"):
+                for trip in event["redo"]:
                     self._wanted[mission, trip, self._round.get(mission, 0)] += 1
             case "mission.ended" if event["status"] == "COMPLETED":
                 self._completed[event["mission"]] = None
@@ -259,7 +259,7 @@ class TrialRecord:
             if event["event"] == "mission.ended":
                 self._end(event)
             elif event["event"] == "trip.delayed":
-                self.delays += float(str(event["until"])) - float(str(event["t"]))
+                self.delays += event["until"] - event["t"]
 
     def _end(self, event: Event) -> None:
         mission, reason = str(event["mission"]), str(event["reason"])

@@ -30,7 +30,7 @@ class Rule(Protocol):
 
 def at(event: Event) -> str:
     """Return an event's time, as the beginning of a sentence."""
-    return f"{float(str(event['t'])):g} s"
+    return f"{event['t']:g} s"
 
 
 def flight(event: Event) -> tuple[object, object, object, object]:
@@ -44,16 +44,9 @@ def named(flown: tuple[object, object, object, object]) -> str:
     return f"{trip} ({drone}, round {round_}, attempt {attempt})"
 
 
-def listed(event: Event, key: str) -> list[Any]:
-    """Return a fact that is a list: of names, or of trips."""
-    value = event[key]
-    assert isinstance(value, list)
-    return value
-
-
-def changed(event: Event) -> list[Any]:
+def changed(event: Event) -> Any:
     """Return the trips to do that a hook has changed, or that a person has put in place of others."""
-    return listed(event, "put" if event["event"] == "mission.changed" else "todo")
+    return event["put" if event["event"] == "mission.changed" else "todo"]
 
 
 ENDS = ("COMPLETED", "FAILED", "CANCELLED")
@@ -90,7 +83,7 @@ class EndsOnce:
         self._set_out_by_now[event["mission"]] = None
 
     def _end(self, event: Event) -> None:
-        mission, status, reason = event["mission"], event["status"], str(event["reason"])
+        mission, status, reason = event["mission"], event["status"], event["reason"]
         self._ended[mission] += 1
         self._waits.pop(mission, None)
         if status not in ENDS:
@@ -102,7 +95,7 @@ class EndsOnce:
 
     def _wait(self, event: Event) -> None:
         self._waits[event["mission"]] = event["reason"]
-        if not str(event["reason"]).strip():
+        if not event["reason"].strip():
             self._say(f"{at(event)}: {event['mission']} waits for a person, who is asked nothing")
 
     def _go_on(self, event: Event) -> None:
@@ -151,11 +144,11 @@ class CompletedDidEverything:
         }
 
     def _create(self, event: Event) -> None:
-        own = self._own[event["mission"]] = listed(event, "trips")
+        own = self._own[event["mission"]] = event["trips"]
         self._to_do[event["mission"]] = Counter(own)
 
     def _extend(self, event: Event) -> None:
-        self._to_do[event["mission"]].update(listed(event, "redo") + listed(event, "add"))
+        self._to_do[event["mission"]].update(event["redo"] + event["add"])
 
     def _repeat(self, event: Event) -> None:
         self._to_do[event["mission"]] = Counter(self._own[event["mission"]])
@@ -163,8 +156,8 @@ class CompletedDidEverything:
     def _change(self, event: Event) -> None:
         own = self._own[event["mission"]]
         to_do = self._to_do[event["mission"]]
-        put = {str(trip["name"]): trip for trip in listed(event, "put")}
-        for name in listed(event, "gone"):
+        put = {str(trip["name"]): trip for trip in event["put"]}
+        for name in event["gone"]:
             if name not in put:
                 del to_do[name]
                 own[:] = [one for one in own if one != name]
@@ -174,7 +167,7 @@ class CompletedDidEverything:
                 own.append(name)
 
     def _replan(self, event: Event) -> None:
-        todo, done = listed(event, "todo"), listed(event, "done")
+        todo, done = event["todo"], event["done"]
         own = [str(trip["name"]) for trip in (*done, *todo) if not trip.get("added")]
         self._own[event["mission"]] = own
         self._to_do[event["mission"]] = Counter(trip["name"] for trip in todo)
@@ -297,17 +290,17 @@ class LimitsAreKept:
         self.hears = {"trip.launched": self._launch, "trip.failed": self._fail}
 
     def _launch(self, event: Event) -> None:
-        self._since[event["mission"]] = float(str(event["t"]))
+        self._since[event["mission"]] = event["t"]
 
     def _fail(self, event: Event) -> None:
-        limit = _LIMIT.search(str(event["reason"]))
+        limit = _LIMIT.search(event["reason"])
         since = self._since.get(event["mission"])
         if limit is None or since is None:
             return
         parts = [(float(number), unit) for number, unit in _PART.findall(limit[1])]
         seconds = sum(number * _SECONDS[unit] for number, unit in parts)
         rounded = 0.1 if len(parts) == 1 and parts[0][1] == "s" else _SECONDS[parts[-1][1]]
-        flown = float(str(event["t"])) - since
+        flown = event["t"] - since
         if flown < seconds - rounded:
             self._say(
                 f"{at(event)}: {event['trip']} of {event['mission']} failed after {flown:g} s "

@@ -5,9 +5,9 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from math import isfinite
-from typing import Protocol
+from typing import Any, Protocol
 
-Event = Mapping[str, object]  # `t`, seconds; `event`, such as `trip.launched`; and its facts
+Event = Mapping[str, Any]  # `t`, seconds; `event`, such as `trip.launched`; and its facts
 
 
 class Clock(Protocol):
