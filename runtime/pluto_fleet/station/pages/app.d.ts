@@ -3,7 +3,10 @@
 import type * as signals from "@preact/signals";
 import type * as preact from "preact";
 import type { World as TheWorld } from "./core/world.js";
+import type { Camera as TheCamera } from "./map/camera.js";
 import type { At as AtPlace } from "./map/view.js";
+import type { ResultsModel as TheModel } from "./results/model.js";
+import type { IconName as Sign } from "./ui/parts.js";
 import type * as wire from "./wire";
 
 declare global {
@@ -12,6 +15,9 @@ declare global {
   type ComponentChildren = preact.ComponentChildren;
   type World = TheWorld;
   type At = AtPlace;
+  type Camera = TheCamera;
+  type ResultsModel = TheModel;
+  type IconName = Sign;
 
   type Alert = wire.Alert;
   type DroneHours = wire.DroneHours;
@@ -71,4 +77,114 @@ declare global {
   /** A mission of the plan, with the fields that the app's missions have beside. */
   type PlanMission = wire.PlanMission & { launched: boolean; ended: string | null };
   type PlanShape = Omit<wire.PlanData, "missions"> & { missions: PlanMission[] };
+
+  /** A trip as its pin and its card show it. */
+  interface About {
+    key: string;
+    trip: PlanTrip;
+    /** from 1 */
+    number: number;
+    /** where it is now, also while it is dragged */
+    target: Point | null;
+    isHeld: boolean;
+    /** so many trips before it are at the same place */
+    beside: number;
+    /** the name of the place where it is */
+    place: string;
+    /** it cannot be changed, or not any more */
+    isFixed: boolean;
+    problems: ShownProblem[];
+    /** the number of the trip that picks what this one puts down */
+    pickedIn: number | null;
+  }
+
+  /** A layer as it is shown. */
+  interface ShownLayer {
+    id: string;
+    kind: Layer["kind"];
+    /** as the app calls it */
+    title: string | null;
+    quantity: string | null;
+    unit: string | null;
+    /** at the ends of the colours; null: nothing has been measured */
+    range: { low: number, high: number } | null;
+    /** metres for which a value speaks */
+    reach: number;
+    /** the oldest first */
+    results: Result[];
+  }
+
+  /** Things of a kind that were found at a place, on one photo or several. */
+  interface Pin {
+    key: string;
+    tag: string;
+    x: number;
+    y: number;
+    /** on the newest that shows any */
+    count: number;
+    /** the newest first */
+    results: Result[];
+  }
+
+  interface Label {
+    key: string;
+    text: string;
+    /** of what it names, in pixels */
+    x: number;
+    y: number;
+    /** the higher, the earlier it gets its place */
+    importance: number;
+    /** it is shown though it covers others */
+    always?: boolean;
+    /** pixels between the middle of what it names and the label */
+    gap?: number;
+    /** a class */
+    kind?: string;
+  }
+
+  interface Notice {
+    text: string;
+    bad: boolean;
+    /** it is the station's own sentence */
+    isSaid: boolean;
+    undo: (() => void) | null;
+  }
+
+  /** What was typed and cannot be in the plan. */
+  interface Draft {
+    typed: string;
+    why: string;
+    /** its value in the plan */
+    now: (thing: PlanMission | PlanTrip) => unknown;
+  }
+
+  /** What is selected, on all pages: a mission (by the key in the plan and its name in the flight) with one of its trips, or a drone. */
+  interface Selected {
+    key: string | null;
+    mission: string | null;
+    trip: string | null;
+    drone: string | null;
+  }
+
+  interface StartWords {
+    /** the button's */
+    text: string;
+    can: boolean;
+    /** beside it: why not, or what will be left out */
+    said: string;
+    /** if that is what keeps it */
+    problem: ShownProblem | null;
+  }
+
+  type PlacedDraft = Draft & { mission: string, trip: string | null, field: string };
+  /** isOwn: this page says it, in its language. */
+  type ShownProblem = PlanProblem & { typed?: string, isOwn?: boolean };
+  type Change = (missions: PlanMission[]) => PlanMission[];
+  type PhotoOnMap = { result: Result, x: number, y: number, width: number, height: number, sharpness: number, picture: string | null, sees: string[] };
+  /** A place with its results, the newest first. */
+  type Spot = { x: number, y: number, results: Result[] };
+  /** y goes down in pixels, up in metres. */
+  type View = { left: number, bottom: number, scale: number };
+  /** In pixels. */
+  type Box = { width: number, height: number };
 }

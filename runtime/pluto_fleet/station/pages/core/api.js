@@ -52,10 +52,7 @@ export function takeTokenFromAddress() {
 /** Who presses the buttons, for the station's records. */
 export const who = signal("");
 
-/**
- * @param {string} method @param {string} path
- * @param {{ body?: BodyInit, type?: string, timeout?: number }} [given]
- */
+/** @param {string} method @param {string} path @param {{ body?: BodyInit, type?: string, timeout?: number }} [given] */
 async function request(method, path, { body, type = "application/json", timeout = 8000 } = {}) {
   /** @type {Record<string, string>} */
   const headers = { "X-Pluto": "1" };
@@ -90,10 +87,7 @@ export async function send(method, path, content, options) {
   return { status: answer.status, data };
 }
 
-/**
- * @param {string} path @param {number} [timeout] ms
- * @returns {Promise<any>}
- */
+/** @param {string} path @param {number} [timeout] ms @returns {Promise<any>} */
 export const get = async (path, timeout) => (await send("GET", path, undefined, { timeout })).data;
 
 /**
@@ -123,10 +117,7 @@ export async function fetchFile(path) {
   return (await request("GET", path, { timeout: 30000 })).blob();
 }
 
-/**
- * Let the browser save what the station has at an address.
- * @param {string} path @param {string} name
- */
+/** Let the browser save what the station has at an address. @param {string} path @param {string} name */
 export async function download(path, name) {
   const address = URL.createObjectURL(await fetchFile(path));
   Object.assign(document.createElement("a"), { href: address, download: name }).click();

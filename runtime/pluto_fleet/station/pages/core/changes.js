@@ -3,8 +3,6 @@
 
 import { freeName, newKey } from "./keys.js";
 
-/** @typedef {(missions: PlanMission[]) => PlanMission[]} Change */
-
 /** @param {PlanMission[]} missions @param {string} key */
 const has = (missions, key) => missions.some((mission) => mission.key === key);
 

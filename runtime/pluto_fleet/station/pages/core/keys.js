@@ -6,10 +6,7 @@ export function newKey() {
   return Array.from(bytes, (byte) => byte.toString(16).padStart(2, "0")).join("");
 }
 
-/**
- * The first of "Mission 1", "Mission 2", … that is not taken.
- * @param {string} stem @param {string[]} taken @param {number} [from]
- */
+/** The first of "Mission 1", "Mission 2", … that is not taken. @param {string} stem @param {string[]} taken @param {number} [from] */
 export function freeName(stem, taken, from = 1) {
   const names = new Set(taken.map((name) => name.trim()));
   let number = from;

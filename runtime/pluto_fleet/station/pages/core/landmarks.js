@@ -32,10 +32,7 @@ export function followMap() {
   });
 }
 
-/**
- * Change the map; another page that was quicker is told of, and its map is shown.
- * @param {(map: MapData) => Partial<MapData>} change
- */
+/** Change the map; another page that was quicker is told of, and its map is shown. @param {(map: MapData) => Partial<MapData>} change */
 export async function changeMap(change) {
   const before = landmarks.peek();
   if (!before) return false;

@@ -2,14 +2,6 @@
 
 import { signal } from "@preact/signals";
 
-/**
- * @typedef {object} Notice
- * @property {string} text
- * @property {boolean} bad
- * @property {boolean} isSaid it is the station's own sentence
- * @property {(() => void) | null} undo
- */
-
 const SHOWN_FOR = 6000; // ms
 const UNDO_FOR = 20000; // ms
 

@@ -6,21 +6,9 @@ import { get, ofStation, pause, send } from "./api.js";
 import { leaves } from "./changes.js";
 import { t } from "./i18n.js";
 
-/** @import { Change } from "./changes.js" */
-
 const TYPING = 300; // ms until what is being typed is saved
 const BETWEEN = 120; // ms between two savings, also while a pin is dragged
 const MOST_TOLD = 3; // collisions in one message
-
-/**
- * What was typed and cannot be in the plan.
- * @typedef {object} Draft
- * @property {string} typed
- * @property {string} why
- * @property {(thing: PlanMission | PlanTrip) => unknown} now its value in the plan
- */
-/** @typedef {Draft & { mission: string, trip: string | null, field: string }} PlacedDraft */
-/** @typedef {PlanProblem & { typed?: string, isOwn?: boolean }} ShownProblem isOwn: this page says it, in its language */
 
 export class PlanStore {
   /**
@@ -87,10 +75,7 @@ export class PlanStore {
     });
   }
 
-  /**
-   * Tell where two have written at one place.
-   * @param {PlanMission[]} old @param {PlanMission[]} ours
-   */
+  /** Tell where two have written at one place. @param {PlanMission[]} old @param {PlanMission[]} ours */
   tell(old, ours) {
     const [was, mine, theirs, lost, now] =
       [old, ours, this.base.missions, this.unanswered, this.missions.peek()].map(leaves);

@@ -6,12 +6,7 @@ import { effect, signal } from "@preact/signals";
 const kept = new Map();
 const stored = (/** @type {string} */ name) => `pluto-${name}`;
 
-/**
- * A value that this browser remembers.
- * @template Value
- * @param {string} name @param {Value} usual
- * @returns {Signal<Value>}
- */
+/** A value that this browser remembers. @template Value @param {string} name @param {Value} usual @returns {Signal<Value>} */
 function remembered(name, usual) {
   const value = signal(read(name, usual));
   kept.set(stored(name), value);

@@ -26,16 +26,7 @@ export const undo = new Undo();
 export const plan = new PlanStore(
   (text) => tell(text, { bad: true }), (before, after, typing) => undo.record(before, after, typing));
 
-/**
- * What is selected, on all pages: a mission (by the key in the plan and its name in the flight) with
- * one of its trips, or a drone.
- * @typedef {object} Selection
- * @property {string | null} key
- * @property {string | null} mission
- * @property {string | null} trip
- * @property {string | null} drone
- */
-/** @type {Signal<Selection>} */
+/** @type {Signal<Selected>} */
 export const selection = signal({ key: null, mission: null, trip: null, drone: null });
 
 /** Select a mission of the plan. @param {string | null} key @param {string | null} [trip] */

@@ -5,8 +5,6 @@
 import { batch, signal } from "@preact/signals";
 import { leaves } from "./changes.js";
 
-/** @import { Change } from "./changes.js" */
-
 /** @typedef {{ key: string, [field: string]: unknown }} Keyed */
 /**
  * What a plan was and has become; of missions in which nothing differs only the keys.
@@ -120,10 +118,7 @@ export class Undo {
     this.undone = signal([]);
   }
 
-  /**
-   * Remember what was drawn.
-   * @param {PlanMission[]} before @param {PlanMission[]} after @param {boolean} [typing]
-   */
+  /** Remember what was drawn. @param {PlanMission[]} before @param {PlanMission[]} after @param {boolean} [typing] */
   record(before, after, typing = false) {
     const difference = between(before, after);
     if (!difference) return;

@@ -5,10 +5,7 @@ import { batch, signal } from "@preact/signals";
 
 export const LINES_KEPT = 5000; // of the console, and results
 
-/**
- * Rows by their key.
- * @template {Record<string, any>} Row
- */
+/** Rows by their key. @template {Record<string, any>} Row */
 class Rows {
   /** @param {keyof Row & string} key */
   constructor(key) {
@@ -68,10 +65,7 @@ class Rows {
   }
 }
 
-/**
- * The newest entries of a list that only grows, by their numbers.
- * @template {{ number: number }} Entry
- */
+/** The newest entries of a list that only grows, by their numbers. @template {{ number: number }} Entry */
 class Tail {
   constructor() {
     /** @type {Signal<Entry[]>} */
@@ -144,10 +138,7 @@ export class World {
     this.flight = signal("");
   }
 
-  /**
-   * Take what has changed; what is left out stays.
-   * @param {Partial<LiveMessage> & Pick<LiveMessage, "state">} message
-   */
+  /** Take what has changed; what is left out stays. @param {Partial<LiveMessage> & Pick<LiveMessage, "state">} message */
   take(message) {
     batch(() => {
       if (message.flight !== undefined && message.flight !== this.flight.peek()) {

@@ -5,7 +5,7 @@ import { allowNotifications, beep } from "../attention/attention.js";
 import { forgetToken, token } from "../core/api.js";
 import { LANGUAGES, t, tOr } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
-import { Button, Standing } from "../ui/parts.js";
+import { Button, Check, Select, Standing } from "../ui/parts.js";
 import { Step, Steps, touring } from "./tour.js";
 
 const DRONES = ["FREE", "BUSY", "RETURNING", "CHARGING", "LOW", "UNKNOWN", "LOST", "RETIRED"];
@@ -41,20 +41,15 @@ export default function Help() {
 /** @param {{ id: string, label: string, value: Signal<any>, choices: [string, string][] }} props */
 const Choice = ({ id, label, value, choices }) => h("div", { class: "field" },
   h("label", { for: id }, label),
-  h("select", {
-    id, value: value.value,
-    onChange: (/** @type {Event} */ event) => { value.value = /** @type {HTMLSelectElement} */ (event.target).value; },
-  }, choices.map(([name, text]) => h("option", { key: name, value: name }, text))));
+  h(Select, { class: "", id, value: value.value, options: choices, onPick: (picked) => { value.value = picked; } }));
 
 /** @param {{ label: string, value: Signal<boolean>, onChange?: (yes: boolean) => void }} props */
-const Switch = ({ label, value, onChange }) => h("label", { class: "check" }, h("input", {
-  type: "checkbox", checked: value.value,
-  onChange: (/** @type {Event} */ event) => {
-    const { checked } = /** @type {HTMLInputElement} */ (event.target);
-    value.value = checked;
-    onChange?.(checked);
+const Switch = ({ label, value, onChange }) => h(Check, {
+  checked: value.value, onTick: (yes) => {
+    value.value = yes;
+    onChange?.(yes);
   },
-}), label);
+}, label);
 
 export function Settings() {
   return h("section", { class: "card stack", "aria-labelledby": "settings" },

@@ -4,19 +4,14 @@ import { h } from "preact";
 import { get } from "../core/api.js";
 import { duration, moment, t } from "../core/i18n.js";
 import { useAnswer } from "../ui/hooks.js";
-import { Icon } from "../ui/parts.js";
+import { Problem } from "../ui/parts.js";
 
-/** @import { IconName } from "../ui/parts.js" */
-
-/**
- * What the station says at an address; asked again when `anew` changes.
- * @param {string} path @param {unknown} [anew]
- */
+/** What the station says at an address; asked again when `anew` changes. @param {string} path @param {unknown} [anew] */
 export const useAsked = (path, anew) => useAnswer([path], () => get(path, 30000), { anew });
 
 /** What stands where something is still on its way, or could not be had. @param {{ trouble: string }} props */
 export const Waiting = ({ trouble }) => (trouble
-  ? h("p", { class: "problem replay-trouble", role: "alert" }, h(Icon, { name: "warning" }), trouble)
+  ? h(Problem, { class: "problem replay-trouble", role: "alert", text: trouble })
   : h("p", { class: "muted replay-trouble", role: "status" }, t("history.loading")));
 
 /** @type {Record<FlightSummary["end"], ["" | "good" | "warn" | "bad" | "info", IconName]>} */

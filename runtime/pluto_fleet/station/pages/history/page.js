@@ -6,7 +6,7 @@ import { h } from "preact";
 import { duration, number, t } from "../core/i18n.js";
 import { go, part } from "../core/route.js";
 import { world } from "../core/station.js";
-import { Chip, Empty, Icon, Tabs } from "../ui/parts.js";
+import { Chip, Empty, Problem, Tabs } from "../ui/parts.js";
 import { beginWords, ENDS, outcomeWords, useAsked, Waiting } from "./asked.js";
 import { FlightView } from "./flight_view.js";
 
@@ -52,10 +52,10 @@ function Flight({ flight }) {
   return h("tr", { class: "flight" },
     h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, beginWords(flight)),
       simulated && h(Chip, null, t("simulated")),
-      said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), said)),
+      said && h(Problem, { text: said })),
     h("td", { "data-label": t("column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),
     h("td", { "data-label": t("column.missions"), class: failed ? "failed" : "" }, outcomeWords(flight),
-      lost.length > 0 && h("p", { class: "problem" }, h(Icon, { name: "warning" }), t("history.lost", { drones: lost }))),
+      lost.length > 0 && h(Problem, { text: t("history.lost", { drones: lost }), isOwn: true })),
     h("td", { class: "num", "data-label": t("column.trips") }, trips),
     h("td", { class: "num", "data-label": t("column.results") }, results),
     h("td", { class: "num", "data-label": t("column.duration") }, duration(seconds)),

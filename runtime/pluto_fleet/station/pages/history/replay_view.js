@@ -10,7 +10,7 @@ import { tell } from "../core/notices.js";
 import { selection } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Watch } from "../monitor/page.js";
-import { Button, Icon, IconButton, Said } from "../ui/parts.js";
+import { Button, Icon, IconButton, Input, Problem, Said, Select } from "../ui/parts.js";
 import { BatteryChart } from "./battery_chart.js";
 import { marksOf, nextMark, Playback, SPEEDS } from "./playback.js";
 import { Replayer } from "./replayer.js";
@@ -27,12 +27,10 @@ export function Transport({ playback, replay, marks, chosen }) {
         icon: isPlaying ? "pause" : "start", kind: "primary", label: t(isPlaying ? "history.pause" : "history.play"),
         onClick: () => playback.toggle(),
       }),
-      h("select", {
+      h(Select, {
         class: "input speed", "aria-label": t("history.speed"), value: playback.speed.value,
-        onChange: (/** @type {Event} */ { currentTarget }) => {
-          playback.speed.value = Number(/** @type {HTMLSelectElement} */ (currentTarget).value);
-        },
-      }, SPEEDS.map((speed) => h("option", { key: speed, value: speed }, `${number(speed)} ×`))),
+        options: SPEEDS.map((speed) => [speed, `${number(speed)} ×`]), onPick: (speed) => { playback.speed.value = Number(speed); },
+      }),
       h(Clock, { playback, seconds }),
       marks.length > 0 && h(Jump, { playback, marks, way: -1 }), marks.length > 0 && h(Jump, { playback, marks, way: 1 })),
     h("div", { class: "transport-time" },
@@ -48,11 +46,10 @@ const Clock = ({ playback, seconds }) => h("span", { class: "num replay-clock" }
 /** @param {{ playback: Playback, seconds: number }} props */
 function Slider({ playback, seconds }) {
   const time = playback.time.value;
-  return h("input", {
+  return h(Input, {
     type: "range", class: "scrubber", min: 0, max: seconds, step: 0.001, value: time, "aria-label": t("history.time"),
     "aria-valuetext": t("history.time-of", { time: clock(time), all: clock(seconds) }),
-    onInput: (/** @type {Event} */ { currentTarget }) =>
-      playback.set(Number(/** @type {HTMLInputElement} */ (currentTarget).value)),
+    onText: (text) => playback.set(Number(text)),
   });
 }
 
@@ -105,7 +102,7 @@ export function ReplayView({ flight, from = 0, onTime }) {
     return () => { isHere = false; };
   }, [replayer, tries, trouble]);
   if (trouble.value) {
-    return h("div", { class: "replay-trouble stack" }, h("p", { class: "problem", role: "alert" }, h(Icon, { name: "warning" }), trouble.value),
+    return h("div", { class: "replay-trouble stack" }, h(Problem, { role: "alert", text: trouble.value }),
       h("div", null, h(Button, { onClick: () => again(tries + 1) }, t("history.again"))));
   }
   if (!replay) return h("p", { class: "replay-trouble muted", role: "status" }, t("history.loading"));

@@ -5,10 +5,7 @@ import { batch } from "@preact/signals";
 
 /** @typedef {(from: number) => Promise<Replay>} FetchPart */
 
-/**
- * A part that is here: what was shown from one instant up to another.
- * @typedef {{ from: number, until: number, frames: Frame[] }} Part
- */
+/** A part that is here: what was shown from one instant up to another. @typedef {{ from: number, until: number, frames: Frame[] }} Part */
 
 const GRID = 30; // seconds: where one scrubs to often, little is fetched twice
 const SOON = 5; // seconds before the end of a part in which the next one is fetched
@@ -74,10 +71,7 @@ export class Replayer {
     return this.parts.find(({ from, until }) => from <= t && t < until);
   }
 
-  /**
-   * Show an instant; where its part is not here yet, false: then ask `seek`.
-   * @param {number} t seconds
-   */
+  /** Show an instant; where its part is not here yet, false: then ask `seek`. @param {number} t seconds */
   show(t) {
     const part = this.having(t);
     if (!part) return !this.parts.length && this.whole !== null; // a recording of nothing
@@ -108,10 +102,7 @@ export class Replayer {
     return entries.slice(0, countUntil(entries, t, ({ time }) => time));
   }
 
-  /**
-   * Show an instant, as soon as its part is here; false: another one was asked for meanwhile.
-   * @param {number} t seconds
-   */
+  /** Show an instant, as soon as its part is here; false: another one was asked for meanwhile. @param {number} t seconds */
   async seek(t) {
     this.asked += 1;
     const { asked } = this;

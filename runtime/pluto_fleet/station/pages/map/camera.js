@@ -6,9 +6,6 @@ import { useContext } from "preact/hooks";
 import { LINE, placed } from "./labels.js";
 import { between, kept, toMetres, toPixels, whole, zoomed } from "./view.js";
 
-/** @import { Label } from "./labels.js" */
-/** @import { Box, View } from "./view.js" */
-
 const EDGE = 60; // pixels that a revealed place keeps from the edge
 
 /** The camera over one floor plan: what it sees, and how it is moved. */

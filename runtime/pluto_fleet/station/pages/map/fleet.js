@@ -9,8 +9,6 @@ import { Mark, Tags, useCamera } from "./camera.js";
 import { way } from "./routes.js";
 import { toPixels } from "./view.js";
 
-/** @import { Label } from "./labels.js" */
-
 const TAIL = 30; // seconds of the way that it came
 const ROUND = 2 * Math.PI * 10; // pixels around the ring of the battery
 const LABELS_EVERY = 60; // ms

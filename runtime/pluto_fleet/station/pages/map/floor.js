@@ -11,8 +11,6 @@ import { Button, IconButton } from "../ui/parts.js";
 import { Seen } from "./camera.js";
 import { Ground, Rulers, ScaleBar } from "./ground.js";
 
-/** @import { Camera } from "./camera.js" */
-
 /**
  * @param {object} props
  * @param {MapShape} props.map

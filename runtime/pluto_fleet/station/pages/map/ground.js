@@ -10,8 +10,6 @@ import { landmarks } from "../core/landmarks.js";
 import { Mark, useCamera } from "./camera.js";
 import { lines, step } from "./view.js";
 
-/** @import { Label } from "./labels.js" */
-
 /** @type {Map<string, Signal<string | null>>} by the picture's address */
 const pictures = new Map();
 

@@ -1,17 +1,6 @@
 // Names beside what is drawn on the map, which avoid each other: the important ones come first, and
 // what has no room is left out. Those that must be seen are always there.
 
-/**
- * @typedef {object} Label
- * @property {string} key
- * @property {string} text
- * @property {number} x of what it names, in pixels
- * @property {number} y
- * @property {number} importance the higher, the earlier it gets its place
- * @property {boolean} [always] it is shown though it covers others
- * @property {number} [gap] pixels between the middle of what it names and the label
- * @property {string} [kind] a class
- */
 /** @typedef {Label & { left: number, top: number, width: number }} PlacedLabel */
 
 export const LINE = 18; // pixels of a label's height

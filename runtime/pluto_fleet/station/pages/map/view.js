@@ -1,7 +1,5 @@
 // Which part of the map is seen: where (0, 0) lies in pixels, and how many pixels a metre has. Pure.
 
-/** @typedef {{ left: number, bottom: number, scale: number }} View y goes down in pixels, up in metres */
-/** @typedef {{ width: number, height: number }} Box in pixels */
 /** @typedef {readonly number[]} Size along x and y, in metres */
 /** @typedef {{ x: number, y: number }} At */
 

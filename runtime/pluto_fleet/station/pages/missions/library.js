@@ -8,7 +8,7 @@ import { many, moment, t } from "../core/i18n.js";
 import { tell } from "../core/notices.js";
 import { prefs } from "../core/prefs.js";
 import { mayFly, plan, tellError } from "../core/station.js";
-import { Button, Chip, Dialog, Empty, Icon, Said } from "../ui/parts.js";
+import { Button, Check, Chip, Dialog, Empty, Input, Problem } from "../ui/parts.js";
 import { take } from "./commands.js";
 
 const isOpen = signal(false);
@@ -74,7 +74,7 @@ function Item({ one }) {
   const about = [missions !== null && many("many.missions", missions), moment(at_), by].filter(Boolean).join(" · ");
   return h("li", { class: "saved-plan" },
     h("div", { class: "row" }, h("strong", { class: "called" }, name), template && h(Chip, null, t("library.template"))),
-    h("p", { class: "hint" }, about), said && h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: said })),
+    h("p", { class: "hint" }, about), said && h(Problem, { text: said }),
     mayFly.value && h("div", { class: "row" },
       missions !== null && h(Button, { small: true, kind: "primary", onClick: () => { open(one, template); } }, t(template ? "library.add" : "library.open")),
       missions !== null && h(Button, { small: true, onClick: () => { open(one, !template); } }, t(template ? "library.open" : "library.add")),
@@ -96,11 +96,10 @@ function Save() {
     setName("");
   }
   return h("form", { class: "save-plan stack", onSubmit: submit },
-    h("div", { class: "field" }, h("label", { for: "plan-name" }, t("library.name")), h("input", {
-      id: "plan-name", value: name, required: true, maxLength: 80, autocomplete: "off",
-      onInput: (/** @type {InputEvent} */ event) => setName(/** @type {HTMLInputElement} */ (event.currentTarget).value),
+    h("div", { class: "field" }, h("label", { for: "plan-name" }, t("library.name")), h(Input, {
+      class: "", id: "plan-name", value: name, required: true, maxLength: 80, autocomplete: "off", onText: setName,
     })),
     h("div", { class: "row" },
-      h("label", { class: "check" }, h("input", { type: "checkbox", checked: template, onChange: () => setTemplate(!template) }), t("library.as-template")),
+      h(Check, { checked: template, onTick: setTemplate }, t("library.as-template")),
       h("span", { class: "spread" }, h(Button, { type: "submit", kind: "primary" }, t(isThere ? "library.replace" : "library.save")))));
 }

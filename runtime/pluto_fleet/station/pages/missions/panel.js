@@ -7,7 +7,7 @@ import { many, t } from "../core/i18n.js";
 import { app, mayFly, plan, selected } from "../core/station.js";
 import { preflight, start } from "../start/commands.js";
 import { Field } from "../ui/field.js";
-import { Button, HoldButton, Icon, Said } from "../ui/parts.js";
+import { Button, HoldButton, Icon, Problem, Said } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
 import { copy, marked, open, remove, selectedInWords, unlocked } from "./commands.js";
 import { actionsOf, ownFirst } from "./words.js";
@@ -136,5 +136,5 @@ function After({ mission: { key, launched, after = [] } }) {
     h("div", { class: "choices" }, names.map((name) => h("label", { key: name, class: "check" },
       h("input", { type: "checkbox", value: name, checked: after.includes(name), onChange: () => tick(name) }),
       h("span", { class: "called" }, name)))),
-    h("p", { class: "problem", id, hidden: !text }, h(Icon, { name: "warning" }), h(Said, { text, isOwn })));
+    h(Problem, { id, hidden: !text, text, isOwn }));
 }

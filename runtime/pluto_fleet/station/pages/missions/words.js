@@ -2,9 +2,6 @@
 
 import { inWords, many, plain, t, TIME } from "../core/i18n.js";
 
-/** @import { ShownProblem } from "../core/plan.js" */
-/** @import { IconName } from "../ui/parts.js" */
-
 /** @param {{ name: string }} mission */
 export const called = ({ name }) => name.trim() || t("missions.unnamed");
 

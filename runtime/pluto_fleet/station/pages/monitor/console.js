@@ -5,7 +5,7 @@ import { h } from "preact";
 import { useLayoutEffect, useMemo, useRef } from "preact/hooks";
 import { clock, many, t } from "../core/i18n.js";
 import { save, selectMission } from "../core/station.js";
-import { Button, IconButton, Said } from "../ui/parts.js";
+import { Button, IconButton, Input, Said, Select } from "../ui/parts.js";
 
 const SHOWN = 500; // lines
 const KINDS = /** @type {const} */ (["all", "info", "good", "bad", "hook"]);
@@ -34,14 +34,13 @@ export function Console({ world, live }) {
   const unread = isFollowing.value ? 0 : shown.filter((line) => line.number > readTo.current).length;
   return h("div", { class: "console" },
     h("div", { class: "row console-tools" },
-      h("input", {
-        type: "search", class: "input", "aria-label": t("log.find"), placeholder: t("log.find"), value: text.value,
-        onInput: (/** @type {InputEvent} */ event) => { text.value = /** @type {HTMLInputElement} */ (event.target).value; },
+      h(Input, {
+        type: "search", "aria-label": t("log.find"), placeholder: t("log.find"), value: text.value, onText: (now) => { text.value = now; },
       }),
-      h("select", {
-        class: "input", "aria-label": t("log.which"), value: kind.value,
-        onChange: (/** @type {Event} */ event) => { kind.value = /** @type {any} */ (event.target).value; },
-      }, KINDS.map((one) => h("option", { key: one, value: one }, t(`log.kind.${one}`)))),
+      h(Select, {
+        "aria-label": t("log.which"), value: kind.value, options: KINDS.map((one) => [one, t(`log.kind.${one}`)]),
+        onPick: (one) => { kind.value = one; },
+      }),
       live && h(IconButton, { icon: "save", label: t("log.download"), onClick: () => { save("/api/console.txt", "console.txt"); } })),
     h("div", {
       ref: list, class: "log", role: "log", "aria-live": "off", "aria-label": t("monitor.log"), tabIndex: 0,

@@ -5,7 +5,9 @@ import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
 import { duration, many, number, roughly, t, typedNumber } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
-import { Battery, Button, Empty, Icon, IconButton, joined, Said, Standing, toneOf, walking } from "../ui/parts.js";
+import {
+  Battery, Button, Empty, Icon, IconButton, joined, Said, Select, Standing, toneOf, walking,
+} from "../ui/parts.js";
 
 const END = 0.95; // of the way
 
@@ -103,10 +105,7 @@ function WhyNot({ row, live }) {
   return facts.length ? h("p", { class: "because" }, joined(facts)) : null;
 }
 
-/**
- * The card of a drone, on the map.
- * @param {{ world: World, id: string, live: boolean }} props
- */
+/** The card of a drone, on the map. @param {{ world: World, id: string, live: boolean }} props */
 export function DroneCard({ world, id, live }) {
   const row = world.drones.get(id);
   if (!row) return null;
@@ -188,8 +187,7 @@ export function Join() {
       h("div", { class: "fields" },
         field("drone", t("join.drone")),
         h("div", { class: "field" }, h("label", { for: "join-category" }, t("join.category")),
-          h("select", { id: "join-category", name: "category" },
-            categories.map(({ name }) => h("option", { key: name, value: name }, name)))),
+          h(Select, { class: "", id: "join-category", name: "category", options: categories.map(({ name }) => [name, name]) })),
         field("x", t("join.x")), field("y", t("join.y")), !sim && field("uri", t("join.uri"), false)),
       h("div", null, h(Button, { type: "submit", small: true }, t("join.add")))));
 }

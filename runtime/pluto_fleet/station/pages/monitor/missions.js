@@ -7,7 +7,9 @@ import { capital, duration, inWords, isTranslated, number, plain, roughly, say, 
 import { app, mayFly, perform, plan, selectDrone, selection, selectMission } from "../core/station.js";
 import { hasEnded } from "../core/world.js";
 import { start } from "../start/commands.js";
-import { Battery, Button, Chip, Empty, IconButton, Said, Standing, SureButton, toneOf, walking } from "../ui/parts.js";
+import {
+  Battery, Button, Chip, Empty, IconButton, Input, Said, Standing, SureButton, toneOf, walking,
+} from "../ui/parts.js";
 
 /** A trip's name, or its action if it was given none. @param {TripRow} trip @param {number} index */
 export const calledTrip = (trip, index) =>
@@ -76,10 +78,9 @@ export function MissionList({ world, live }) {
   if (!total) return h(Empty, null, t(live ? nothingYet() : "monitor.no-missions"));
   const shown = names.value ? names.value.split("\n") : [];
   return h("div", { class: "mission-rows" },
-    total > MANY && h("input", {
-      type: "search", class: "input", "aria-label": t("monitor.find-mission"),
-      placeholder: t("monitor.find-mission"), value: text.value,
-      onInput: (/** @type {InputEvent} */ event) => { text.value = /** @type {HTMLInputElement} */ (event.target).value; },
+    total > MANY && h(Input, {
+      type: "search", "aria-label": t("monitor.find-mission"), placeholder: t("monitor.find-mission"), value: text.value,
+      onText: (now) => { text.value = now; },
     }),
     h("div", { class: "sieve", role: "group", "aria-label": t("monitor.which-missions") },
       Object.keys(FILTERS).map((name) => h("button", {

@@ -12,7 +12,7 @@ import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor, MapSplit } from "../map/floor.js";
 import { landmarkNames, Landmarks, middle, North } from "../map/ground.js";
-import { Button, Empty, IconButton, Said } from "../ui/parts.js";
+import { Button, Empty, IconButton, Input, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
 
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */
@@ -143,10 +143,7 @@ function PlanTools() {
         scale();
       },
     },
-    h("input", {
-      class: "input", inputmode: "decimal", "aria-label": t("map.length"), placeholder: t("map.length"), value: length,
-      onInput: (/** @type {InputEvent} */ event) => setLength(/** @type {HTMLInputElement} */ (event.target).value),
-    }),
+    h(Input, { inputmode: "decimal", "aria-label": t("map.length"), placeholder: t("map.length"), value: length, onText: setLength }),
     h(Button, { type: "submit", small: true, disabled: points.value.length < 2 }, t("map.apply"))),
     h(Northern, null)));
 }

@@ -9,9 +9,6 @@ import { Button, IconButton } from "../ui/parts.js";
 import { placeOf } from "./layers.js";
 import { drainedWords, sharpnessWords, tagWords, valueWords, whatWords } from "./words.js";
 
-/** @import { Camera } from "../map/camera.js" */
-/** @import { ResultsModel } from "./model.js" */
-
 const CLOSE = 80; // pixels a metre, at which a photo is seen
 
 /** What is known of a result, as pairs of a name and its words. @param {Result} result @returns {[string, string][]} */
@@ -40,9 +37,7 @@ export function facts(result) {
 export const Facts = ({ result }) => h("dl", { class: "facts" }, facts(result).map(([name, words]) =>
   h("div", { key: name }, h("dt", null, name), h("dd", null, words))));
 
-/**
- * @param {{ model: ResultsModel, camera: Camera, onConsole: (result: Result) => void, consoleWords: string }} props
- */
+/** @param {{ model: ResultsModel, camera: Camera, onConsole: (result: Result) => void, consoleWords: string }} props */
 export function ResultCard({ model, camera, onConsole, consoleWords }) {
   const result = model.find(model.chosen.value);
   if (!result) return null;

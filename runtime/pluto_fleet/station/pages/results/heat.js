@@ -4,8 +4,6 @@
 
 import { numberOf, placeOf } from "./layers.js";
 
-/** @import { ShownLayer } from "./layers.js" */
-
 /** @typedef {readonly [number, number, number]} Colour red, green and blue, from 0 to 255 */
 
 /** @type {readonly Colour[]} viridis in equal steps, dark is low */

@@ -1,19 +1,6 @@
 // The layers of the map: what an app says of its results, with the results that it says it of, and which of them
 // lie under the pointer. Pure.
 
-/**
- * A layer as it is shown.
- * @typedef {object} ShownLayer
- * @property {string} id
- * @property {Layer["kind"]} kind
- * @property {string | null} title as the app calls it
- * @property {string | null} quantity
- * @property {string | null} unit
- * @property {{ low: number, high: number } | null} range at the ends of the colours; null: nothing has been measured
- * @property {number} reach metres for which a value speaks
- * @property {Result[]} results the oldest first
- */
-
 const USUAL_REACH = 3;
 
 /** The number of a result that is of a quantity. @param {Result} result @param {string | null} quantity */
@@ -96,17 +83,6 @@ export function layersOn(layers, chosen) {
   return new Set(layers.filter((layer) => chosen[layer.id] ?? usual(layer)).map(({ id }) => id));
 }
 
-/**
- * Things of a kind that were found at a place, on one photo or several.
- * @typedef {object} Pin
- * @property {string} key
- * @property {string} tag
- * @property {number} x
- * @property {number} y
- * @property {number} count on the newest that shows any
- * @property {Result[]} results the newest first
- */
-
 const SAME_PLACE = 0.5; // metres: the same place is never hit exactly
 
 /** Findings as pins, each kind at each place once. @param {readonly Result[]} results the oldest first @returns {Pin[]} */
@@ -138,8 +114,6 @@ export function countsOf(pins) {
   return [...counts.values()].toSorted((a, b) => b.count - a.count || a.tag.localeCompare(b.tag));
 }
 
-/** @typedef {{ result: Result, x: number, y: number, width: number, height: number, sharpness: number, picture: string | null, sees: string[] }} PhotoOnMap */
-
 /** Photos as they lie on the ground, the sharpest last, so that it lies on top. @param {readonly Result[]} results @returns {PhotoOnMap[]} */
 export function photosOf(results) {
   return results.flatMap((result) => {
@@ -151,8 +125,6 @@ export function photosOf(results) {
 }
 
 export const NEAR = 14; // pixels around what is small
-
-/** @typedef {{ x: number, y: number, results: Result[] }} Spot a place with its results, the newest first */
 
 /**
  * The results at a place, the newest first; none: nothing is there.

@@ -3,13 +3,10 @@
 import { h } from "preact";
 import { percent, plain, t } from "../core/i18n.js";
 import { prefs } from "../core/prefs.js";
-import { Empty } from "../ui/parts.js";
+import { Check, Empty, Input } from "../ui/parts.js";
 import { gradient } from "./heat.js";
 import { colourOf, USUAL_OPACITY } from "./map_layers.js";
 import { layerWords, shortNumber } from "./words.js";
-
-/** @import { ShownLayer } from "./layers.js" */
-/** @import { ResultsModel } from "./model.js" */
 
 /** The colours of a layer of numbers, with the values at their ends. @param {{ layer: ShownLayer }} props */
 export const Scale = ({ layer: { range, unit } }) => range && h("div", { class: "scale" },
@@ -47,12 +44,7 @@ function LayerRow({ layer, model }) {
   const isOn = model.on.value.has(id);
   const name = layerWords(layer);
   return h("li", { class: "layer-row stack" },
-    h("label", { class: "check" },
-      h("input", {
-        type: "checkbox", checked: isOn,
-        onChange: (/** @type {Event} */ { currentTarget }) =>
-          model.turn(id, /** @type {HTMLInputElement} */ (currentTarget).checked),
-      }),
+    h(Check, { checked: isOn, onTick: (yes) => model.turn(id, yes) },
       h("strong", null, name), h("span", { class: "muted num" }, t(`layer.count.${kind}`, { n: results.length }))),
     !results.length && h("p", { class: "hint" }, t(`layer.empty.${kind}`)),
     isOn && results.length > 0 && h("div", { class: "stack" },
@@ -65,13 +57,10 @@ function LayerRow({ layer, model }) {
 function Opacity({ id, name, usual }) {
   const value = prefs.opacity.value[id] ?? usual;
   return h("label", { class: "opacity" }, h("span", { class: "muted" }, t("layer.opacity")),
-    h("input", {
-      type: "range", min: 0.1, max: 1, step: 0.1, value, "aria-label": t("layer.opacity-of", { layer: name }),
+    h(Input, {
+      class: "", type: "range", min: 0.1, max: 1, step: 0.1, value, "aria-label": t("layer.opacity-of", { layer: name }),
       "aria-valuetext": percent(value),
-      onInput: (/** @type {Event} */ { currentTarget }) => {
-        const now = Number(/** @type {HTMLInputElement} */ (currentTarget).value);
-        prefs.opacity.value = { ...prefs.opacity.peek(), [id]: now };
-      },
+      onText: (text) => { prefs.opacity.value = { ...prefs.opacity.peek(), [id]: Number(text) }; },
     }));
 }
 

@@ -14,10 +14,7 @@ import { colourAt, css, Field, KINDS, rasterOf, samplesOf, shareOf } from "./hea
 import { numberOf, placeOf, spotsOf } from "./layers.js";
 import { shortNumber } from "./words.js";
 
-/** @import { Box, View } from "../map/view.js" */
 /** @import { Raster } from "./heat.js" */
-/** @import { PhotoOnMap, Pin, ShownLayer } from "./layers.js" */
-/** @import { ResultsModel } from "./model.js" */
 
 const ANEW_EVERY = 500; // ms
 export const USUAL_OPACITY = 0.8;

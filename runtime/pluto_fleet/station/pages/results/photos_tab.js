@@ -8,8 +8,6 @@ import { Button, Dialog, Empty, Icon, IconButton } from "../ui/parts.js";
 import { Facts } from "./card.js";
 import { placeWords, sharpnessWords, tagWords } from "./words.js";
 
-/** @import { ResultsModel } from "./model.js" */
-
 const AT_ONCE = 48;
 
 const photoOf = (/** @type {Result} */ result) => /** @type {PhotoValue} */ (result.value);

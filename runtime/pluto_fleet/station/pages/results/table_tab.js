@@ -4,11 +4,10 @@
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { language, plain, t } from "../core/i18n.js";
-import { Button, Empty, Icon } from "../ui/parts.js";
+import { Button, Empty, Icon, Input, Select } from "../ui/parts.js";
 import { ALL, choices, COLUMNS, windowOf } from "./table_model.js";
 import { drainedWords } from "./words.js";
 
-/** @import { ResultsModel } from "./model.js" */
 /** @import { Filters, Row } from "./table_model.js" */
 
 const ROW = 40; // pixels
@@ -32,11 +31,9 @@ function FilterBar({ model, rows }) {
   /** @param {(row: Row) => readonly (string | null)[]} of */
   const among = (of) => choices(rows, of, language.value);
   return h("div", { class: "filters", role: "search" },
-    h("input", {
-      class: "input", type: "search", "aria-label": t("results.search"), placeholder: t("results.search"),
-      value: model.filters.value.text,
-      onInput: (/** @type {Event} */ { currentTarget }) =>
-        model.filter({ text: /** @type {HTMLInputElement} */ (currentTarget).value }),
+    h(Input, {
+      type: "search", "aria-label": t("results.search"), placeholder: t("results.search"),
+      value: model.filters.value.text, onText: (text) => model.filter({ text }),
     }),
     h(Choice, { model, name: "mission", all: among(({ result }) => [result.mission]) }),
     h(Choice, { model, name: "what", all: among(({ words }) => [words.what]) }),
@@ -48,12 +45,9 @@ function FilterBar({ model, rows }) {
 function Choice({ model, name, all }) {
   const value = model.filters.value[name];
   if (all.length < 2 && !value) return null;
-  return h("select", {
-    class: "input", "aria-label": t(`results.filter.${name}`), value,
-    onChange: (/** @type {Event} */ { currentTarget }) =>
-      model.filter({ [name]: /** @type {HTMLSelectElement} */ (currentTarget).value }),
-  }, h("option", { value: "" }, t(`results.filter.${name}`)),
-  all.map((one) => h("option", { key: one, value: one }, name === "tag" ? plain(one) : one)));
+  const options = all.map((one) => [one, name === "tag" ? plain(one) : one]);
+  const label = t(`results.filter.${name}`);
+  return h(Select, { "aria-label": label, value, options: [["", label], ...options], onPick: (picked) => model.filter({ [name]: picked }) });
 }
 
 /** @param {{ model: ResultsModel, listed: Row[], onPick: (row: Row) => void }} props */

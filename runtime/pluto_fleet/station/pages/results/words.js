@@ -4,7 +4,6 @@ import { capital, clock, measured, number, percent, place, plain, t } from "../c
 import { app } from "../core/station.js";
 import { placeOf } from "./layers.js";
 
-/** @import { ShownLayer } from "./layers.js" */
 /** @import { Row } from "./table_model.js" */
 
 /** A unit stands after its number, apart but for percent. @param {number} value @param {string | null} unit */

@@ -10,7 +10,6 @@ import { leadTo, StartButtons, Stops, words } from "../start/commands.js";
 import { Chip, Icon, Said, Tabs } from "../ui/parts.js";
 
 /** @import { PageName } from "../core/route.js" */
-/** @import { IconName } from "../ui/parts.js" */
 
 /** @type {Record<string, ["" | "good" | "warn" | "info", IconName]>} */
 const PHASES = {

@@ -9,9 +9,7 @@ import { badNotice, goodNotice, spoken } from "../core/notices.js";
 import { Tour, touring } from "../help/tour.js";
 import { preflight } from "../start/commands.js";
 import { Preflight } from "../start/preflight.js";
-import { Button, Icon, IconButton, Said } from "../ui/parts.js";
-
-/** @import { Notice } from "../core/notices.js" */
+import { Button, Icon, IconButton, Problem, Said } from "../ui/parts.js";
 
 /** @param {{ status: number, message: string }} props */
 export function Gate({ status, message }) {
@@ -28,7 +26,7 @@ export function Gate({ status, message }) {
       h("p", null, t("gate.where")),
       h("div", { class: "field" }, h("label", { for: "token" }, t("gate.field")),
         h("input", { id: "token", name: "token", type: "password", autocomplete: "off", required: true })),
-      token.value && h("p", { class: "problem", role: "alert" }, h(Icon, { name: "warning" }), t("gate.wrong")),
+      token.value && h(Problem, { role: "alert", text: t("gate.wrong"), isOwn: true }),
       h("div", null, h(Button, { kind: "primary", type: "submit" }, t("gate.open"))))));
 }
 

@@ -11,8 +11,6 @@ import { isFlying } from "../core/world.js";
 import { Button, HoldButton } from "../ui/parts.js";
 import { inFull, startWords } from "./words.js";
 
-/** @import { ShownProblem } from "../core/plan.js" */
-
 const STOP_FOR = 60000; // ms that a Stop is tried
 const STOP_ALARM = 1500; // ms
 

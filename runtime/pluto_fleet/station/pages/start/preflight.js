@@ -9,7 +9,7 @@ import { toFly } from "../core/plan.js";
 import { go } from "../core/route.js";
 import { line, plan, world } from "../core/station.js";
 import { useAnswer } from "../ui/hooks.js";
-import { Battery, Button, Chip, Dialog, HoldButton, Icon, joined, Said, SaidWords } from "../ui/parts.js";
+import { Battery, Button, Check, Chip, Dialog, HoldButton, Icon, joined, Problem, SaidWords } from "../ui/parts.js";
 import { preflight, start, words } from "./commands.js";
 import { counted } from "./words.js";
 
@@ -55,13 +55,10 @@ export function Preflight({ missions: keys }) {
     ],
   },
   h("p", { class: "preflight-what" }, h("strong", null, counted(missions))),
-  why && h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: why, isOwn: !problem || problem.isOwn })),
-  hasFailed && h("label", { class: "check" }, h("input", {
-    type: "checkbox", checked: onlyFailed,
-    onChange: (/** @type {Event} */ event) => choose(/** @type {HTMLInputElement} */ (event.target).checked),
-  }), t("preflight.only-failed")),
+  why && h(Problem, { text: why, isOwn: !problem || problem.isOwn }),
+  hasFailed && h(Check, { checked: onlyFailed, onTick: choose }, t("preflight.only-failed")),
   h("div", { "aria-live": "polite", "aria-busy": !forecast && !trouble },
-    trouble ? h("p", { class: "problem" }, h(Icon, { name: "warning" }), h(Said, { text: trouble }))
+    trouble ? h(Problem, { text: trouble })
       : forecast ? h(Expected, { forecast }) : h("p", { class: "muted" }, t("preflight.computing"))));
 }
 

@@ -3,16 +3,6 @@
 import { many, t, tOr } from "../core/i18n.js";
 import { toFly } from "../core/plan.js";
 
-/** @import { ShownProblem } from "../core/plan.js" */
-
-/**
- * @typedef {object} StartWords
- * @property {string} text the button's
- * @property {boolean} can
- * @property {string} said beside it: why not, or what will be left out
- * @property {ShownProblem | null} problem if that is what keeps it
- */
-
 /** A problem with the mission and the trip that it is about. @param {PlanMission[]} missions @param {ShownProblem} problem */
 export function inFull(missions, { mission: key, trip, text }) {
   const mission = missions.find((one) => one.key === key);

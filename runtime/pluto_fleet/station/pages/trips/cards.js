@@ -15,7 +15,6 @@ import { copy, meant, move, remove, setAxis, setDraft, setField, setIn, shift, w
 import { abouts, extendTo, isLocked, marked, markOne, toggle } from "./state.js";
 
 /** @import { Changed } from "../ui/field.js" */
-/** @import { About } from "./state.js" */
 
 /** @typedef {{ field: FieldShape, value: (trip: PlanTrip, about: About) => unknown, onChange: Changed, wrong?: (value: unknown) => string }} Slot */
 

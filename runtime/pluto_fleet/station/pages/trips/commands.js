@@ -10,8 +10,6 @@ import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";
 import { abouts, isLocked, markAll, marked, markOne } from "./state.js";
 
-/** @import { Draft } from "../core/plan.js" */
-
 /** @returns {PlanTrip[]} */
 const trips = () => plan.missions.peek().find(({ key }) => key === selection.peek().key)?.trips ?? [];
 /** @param {string} key */

@@ -13,7 +13,7 @@ import { Floor, MapSplit } from "../map/floor.js";
 import { Landmarks } from "../map/ground.js";
 import { MissionField } from "../missions/panel.js";
 import { called } from "../missions/words.js";
-import { Button, Icon, Said } from "../ui/parts.js";
+import { Button, Check, Icon, Said } from "../ui/parts.js";
 import { Others } from "../ui/people.js";
 import { UndoButtons } from "../ui/undo.js";
 import { focusField, focusHead, SeveralTrips, TripCards } from "./cards.js";
@@ -139,9 +139,7 @@ function Picker({ areOthersShown, showOthers }) {
       missions.map((one) => h("option", { key: one.key, value: one.key },
         t("trips.mission-option", { mission: called(one), trips: many("many.trips", one.trips.length) })))),
       h(NewMission, null), h(Others, null)),
-    missions.length > 1 && h("label", { class: "check" }, h("input", {
-      type: "checkbox", checked: areOthersShown, onChange: () => showOthers(!areOthersShown),
-    }), t("trips.show-others")));
+    missions.length > 1 && h(Check, { checked: areOthersShown, onTick: showOthers }, t("trips.show-others")));
 }
 
 /** @param {{ mission: PlanMission }} props */

@@ -11,8 +11,6 @@ import { add } from "./commands.js";
 import { snapped } from "./snapping.js";
 import { hovered, inHand, places, tool } from "./state.js";
 
-/** @import { Camera } from "../map/camera.js" */
-
 const SLIP = 6; // pixels
 const METRES = "-?\\d+([.,]\\d+)?";
 

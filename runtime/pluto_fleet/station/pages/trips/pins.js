@@ -14,9 +14,6 @@ import { copy, meant, nudge, place, remove, where } from "./commands.js";
 import { rounded, snapped } from "./snapping.js";
 import { abouts, held, hovered, isLocked, markAll, marked, markOne, places, toggle } from "./state.js";
 
-/** @import { Label } from "../map/labels.js" */
-/** @import { About } from "./state.js" */
-
 export const BESIDE = 25; // pixels between pins at one place
 const SLIP = 4; // pixels that a press may slip and still be a press
 /** @type {Record<string, [number, number]>} */

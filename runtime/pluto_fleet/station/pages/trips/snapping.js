@@ -15,11 +15,7 @@ export function placeNear({ x, y }, places) {
   return nearest ?? null;
 }
 
-/**
- * @param {At} at @param {boolean} fine to the centimetre, and to no place
- * @param {readonly Place[]} places
- * @returns {[number, number]}
- */
+/** @param {At} at @param {boolean} fine to the centimetre, and to no place @param {readonly Place[]} places @returns {[number, number]} */
 export function snapped(at, fine, places) {
   const place = fine ? null : placeNear(at, places);
   if (place) return [place.x, place.y];

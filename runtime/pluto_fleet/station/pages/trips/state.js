@@ -9,8 +9,6 @@ import { whyNot } from "../map/view.js";
 import { picks } from "./carried.js";
 import { placeAt } from "./snapping.js";
 
-/** @import { ShownProblem } from "../core/plan.js" */
-
 /** Where pins are that are being dragged, by the keys of their trips. @type {Signal<ReadonlyMap<string, Point>>} */
 export const held = signal(new Map());
 
@@ -53,21 +51,6 @@ export const isLocked = computed(() => {
 const offLines = computed(() => (row.value?.trips ?? []).filter(({ status }, at) =>
   status !== "WAITING" || (at === row.value?.current && row.value.status === "RUNNING")).map(({ name }) => name).join("\n"));
 const offNames = computed(() => (offLines.value ? offLines.value.split("\n") : []));
-
-/**
- * A trip as its pin and its card show it.
- * @typedef {object} About
- * @property {string} key
- * @property {PlanTrip} trip
- * @property {number} number from 1
- * @property {Point | null} target where it is now, also while it is dragged
- * @property {boolean} isHeld
- * @property {number} beside so many trips before it are at the same place
- * @property {string} place the name of the place where it is
- * @property {boolean} isFixed it cannot be changed, or not any more
- * @property {ShownProblem[]} problems
- * @property {number | null} pickedIn the number of the trip that picks what this one puts down
- */
 
 /** The trips of the selected mission. */
 export const abouts = computed(() => {

@@ -9,13 +9,12 @@ import { landmarks } from "../core/landmarks.js";
 import { app } from "../core/station.js";
 import { read } from "../ui/field.js";
 import { useAnswer } from "../ui/hooks.js";
-import { Button, IconButton } from "../ui/parts.js";
+import { Button, IconButton, Input, Select } from "../ui/parts.js";
 import { add } from "./commands.js";
 import { take } from "./palette.js";
 import { grid, rounded, row } from "./snapping.js";
 import { abouts, drawn, markAll, marked, pattern, tool } from "./state.js";
 
-/** @import { Camera } from "../map/camera.js" */
 /** @import { Tool } from "./state.js" */
 
 /** @param {At} at @returns {At} */
@@ -175,10 +174,9 @@ export function plainAction() {
 
 /** @param {{ value: string, onPick: (name: string) => void }} props */
 export const ActionChoice = ({ value, onPick }) => h("label", { class: "field" },
-  h("span", { class: "hint" }, t("trips.action")), h("select", {
-    class: "input", value,
-    onChange: (/** @type {Event} */ event) => onPick(/** @type {HTMLSelectElement} */ (event.currentTarget).value),
-  }, app.value?.actions.map(({ name }) => h("option", { key: name, value: name }, capital(name)))));
+  h("span", { class: "hint" }, t("trips.action")), h(Select, {
+    value, onPick, options: (app.value?.actions ?? []).map(({ name }) => [name, capital(name)]),
+  }));
 
 /** The corners, to be written. */
 export function CornerFields() {
@@ -198,10 +196,7 @@ export function CornerFields() {
 
 /** A field of a tool. @param {{ label: string, value: string, numeric?: boolean, onWrite: (text: string) => void }} props */
 export const ToolField = ({ label, value, numeric = true, onWrite }) => h("label", { class: "field" },
-  h("span", { class: "hint" }, label), h("input", {
-    class: "input", inputMode: numeric ? "numeric" : undefined, autocomplete: "off", value,
-    onInput: (/** @type {Event} */ event) => onWrite(/** @type {HTMLInputElement} */ (event.currentTarget).value),
-  }));
+  h("span", { class: "hint" }, label), h(Input, { inputMode: numeric ? "numeric" : undefined, autocomplete: "off", value, onText: onWrite }));
 
 const PAUSE = 250; // ms until what is being drawn is asked for
 
@@ -228,10 +223,9 @@ function Sweep() {
   useEffect(() => { pattern.value = swept?.targets.map(flat) ?? []; }, [swept]);
   const wrong = isTooMany ? t("trips.count-wrong", { n: MOST }) : trouble;
   return h("div", { class: "stack" },
-    zones.length > 0 && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.zone")), h("select", {
-      class: "input", value: zone,
-      onChange: (/** @type {Event} */ event) => setZone(/** @type {HTMLSelectElement} */ (event.currentTarget).value),
-    }, h("option", { value: "" }, t("trips.zone-drawn")), zones.map(({ name }) => h("option", { key: name, value: name }, name)))),
+    zones.length > 0 && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.zone")), h(Select, {
+      value: zone, onPick: setZone, options: [["", t("trips.zone-drawn")], ...zones.map(({ name }) => [name, name])],
+    })),
     !zone && h(CornerFields, null),
     h(ToolField, { label: t("trips.spacing"), value: spacing, numeric: false, onWrite: setSpacing }),
     swept && h("p", { class: "hint" }, t("trips.swept", { trips: many("many.trips", swept.targets.length), metres: number(swept.metres) })),

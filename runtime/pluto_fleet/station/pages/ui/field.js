@@ -4,7 +4,7 @@
 import { h } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
 import { capital, inWords, t, TIME, typedNumber, typedQuantity, usualUnit } from "../core/i18n.js";
-import { Icon, Said } from "./parts.js";
+import { Check, Problem, Select } from "./parts.js";
 
 const NUMERIC = ["int", "float"];
 
@@ -83,8 +83,7 @@ export function Field(props) {
 /** A control with its label, and what is wrong with it. @param {ControlProps} props @param {ComponentChildren} control */
 const framed = ({ field, id, text, isOwn }, control) => h("div", { class: "field", "data-field": field.name },
   h("label", { for: id }, field.label ?? capital(field.name)), control,
-  h("p", { class: "problem", id: `${id}-problem`, hidden: !text, "aria-live": "polite" },
-    h(Icon, { name: "warning" }), h(Said, { text, isOwn })));
+  h(Problem, { id: `${id}-problem`, hidden: !text, "aria-live": "polite", text, isOwn }));
 
 /** What all controls have. @param {ControlProps} props */
 const shared = ({ id, text, isWrong, field, locked }) => ({
@@ -149,21 +148,16 @@ function Rounds(props) {
       onChange: (/** @type {Event} */ event) => change(event, false),
     }),
     h("span", { class: "hint" }, t("field.more-rounds")),
-    h("label", { class: "check" }, h("input", {
-      type: "checkbox", disabled: locked, checked: isEndless,
-      onChange: () => onChange(isEndless ? undefined : true, false, null),
-    }), t("field.until-stopped")));
+    h(Check, { disabled: locked, checked: isEndless, onTick: (yes) => onChange(yes || undefined, false, null) }, t("field.until-stopped")));
 }
 
 /** @param {ControlProps} props */
 function YesOrNo(props) {
   const now = props.value === undefined ? "" : props.value ? "yes" : "no";
-  return h("select", {
-    ...shared(props), value: now, onChange: (/** @type {Event} */ event) => {
-      const { value } = /** @type {HTMLSelectElement} */ (event.currentTarget);
-      props.onChange(value ? value === "yes" : undefined, false, null);
-    },
-  }, h("option", { value: "" }, t("choose")), h("option", { value: "yes" }, t("yes")), h("option", { value: "no" }, t("no")));
+  return h(Select, {
+    ...shared(props), class: "", value: now, options: [["", t("choose")], ["yes", t("yes")], ["no", t("no")]],
+    onPick: (picked) => props.onChange(picked ? picked === "yes" : undefined, false, null),
+  });
 }
 
 /** @param {ControlProps} props */
@@ -177,10 +171,9 @@ function Tick(props) {
 
 /** @param {ControlProps} props */
 function Evaluator(props) {
-  return h("select", {
-    ...shared(props), value: String(props.value ?? ""), onChange: (/** @type {Event} */ event) => {
-      props.onChange(/** @type {HTMLSelectElement} */ (event.currentTarget).value || undefined, false, null);
-    },
-  }, h("option", { value: "" }, t("field.own-evaluator")),
-  (props.evaluators ?? []).map((name) => h("option", { key: name, value: name }, capital(name))));
+  const own = (props.evaluators ?? []).map((name) => [name, capital(name)]);
+  return h(Select, {
+    ...shared(props), class: "", value: String(props.value ?? ""), options: [["", t("field.own-evaluator")], ...own],
+    onPick: (picked) => props.onChange(picked || undefined, false, null),
+  });
 }

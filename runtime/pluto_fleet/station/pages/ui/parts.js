@@ -98,13 +98,9 @@ export function Button({
   }, icon && h(Icon, { name: icon }), children && h("span", null, children));
 }
 
-/** A button with a sign alone; its name is read out, and shown under the pointer. @param {Omit<ButtonProps, "children"> & { label: string }} props */
-export function IconButton({ label, icon, kind = "quiet", class: more = "", pressed, expanded, disabled, onClick }) {
-  return h("button", {
-    type: "button", class: `button icon-only ${kind} ${more}`, title: label, "aria-label": label,
-    "aria-pressed": pressed, "aria-expanded": expanded, disabled, onClick,
-  }, icon && h(Icon, { name: icon }));
-}
+/** A button with a sign alone; its name is read out, and shown under the pointer. @param {ButtonProps & { label: string }} props */
+export const IconButton = ({ kind = "quiet", class: more = "", ...props }) =>
+  h(Button, { ...props, kind, title: props.label, class: `icon-only ${more}` });
 
 const HOLD = 800; // ms
 
@@ -243,6 +239,26 @@ export const Said = ({ text, isOwn = false, class: more }) =>
 
 /** What the station says by a key, in the reader's language where it can. @param {{ words: Words }} props */
 export const SaidWords = ({ words }) => h(Said, { text: say(words), isOwn: isTranslated(words) });
+
+/** What is wrong, with its sign. @param {{ text: string, isOwn?: boolean, [more: string]: unknown }} props */
+export const Problem = ({ text, isOwn, ...more }) =>
+  h("p", { class: "problem", ...more }, h(Icon, { name: "warning" }), h(Said, { text, isOwn }));
+
+/** @param {Event} event */
+const inputOf = ({ currentTarget }) => /** @type {HTMLInputElement} */ (currentTarget);
+
+/** A field that tells each letter. @param {{ onText: (text: string) => void, [more: string]: unknown }} props */
+export const Input = ({ onText, ...more }) =>
+  h("input", { class: "input", ...more, onInput: (/** @type {Event} */ event) => onText(inputOf(event).value) });
+
+/** A box to tick before its words. @param {{ onTick: (yes: boolean) => void, children?: ComponentChildren, [more: string]: unknown }} props */
+export const Check = ({ onTick, children, ...more }) => h("label", { class: "check" },
+  h("input", { type: "checkbox", ...more, onChange: (/** @type {Event} */ event) => onTick(inputOf(event).checked) }), children);
+
+/** Choices, each a value and its words. @param {{ options: readonly (readonly (string | number)[])[], onPick?: (value: any) => void, [more: string]: unknown }} props */
+export const Select = ({ options, onPick, ...more }) => h("select", {
+  class: "input", ...more, onChange: (/** @type {Event} */ event) => onPick?.(inputOf(event).value),
+}, options.map(([value, words]) => h("option", { key: value, value }, words)));
 
 /** Facts in one line. @param {ComponentChildren[]} facts */
 export const joined = (facts) => facts.flatMap((fact, at) => (at ? [" · ", fact] : [fact]));

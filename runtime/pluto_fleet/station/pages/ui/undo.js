@@ -9,7 +9,6 @@ import { plan, selectKey, undo } from "../core/station.js";
 import { between, reverting, touched } from "../core/undo.js";
 import { IconButton } from "./parts.js";
 
-/** @import { Change } from "../core/changes.js" */
 /** @import { Difference } from "../core/undo.js" */
 
 /** Select what a difference is about, as far as it is still there. @param {Difference} difference */
