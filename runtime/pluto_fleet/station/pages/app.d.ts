@@ -187,4 +187,55 @@ declare global {
   type View = { left: number, bottom: number, scale: number };
   /** In pixels. */
   type Box = { width: number, height: number };
+
+  interface FieldProps {
+    field: FieldShape;
+    /** as the plan has it, or as it was typed in vain */
+    value: unknown;
+    problem?: string;
+    /** the problem is said by this page, and not by the station */
+    isOwn?: boolean;
+    /** it is marked, though its problem is told elsewhere */
+    isWrong?: boolean;
+    locked?: boolean;
+    /** what is typed counts only when the field is left */
+    isLazy?: boolean;
+    /** what stands in an empty field */
+    hint?: string;
+    evaluators?: readonly string[];
+    /** why a value cannot be in the plan; empty: it can */
+    wrong?: (value: unknown) => string;
+    onKeyDown?: (event: KeyboardEvent) => void;
+    onChange: Changed;
+  }
+
+  interface ButtonProps {
+    kind?: "" | "primary" | "danger" | "quiet";
+    icon?: IconName;
+    small?: boolean;
+    title?: string;
+    /** its name, where that is longer than what it shows */
+    label?: string;
+    disabled?: boolean;
+    /** why it cannot be pressed: it can be reached, and says so */
+    why?: string | null;
+    onClick?: (event: MouseEvent) => void;
+    type?: "button" | "submit";
+    class?: string;
+    pressed?: boolean;
+    expanded?: boolean;
+    children?: ComponentChildren;
+  }
+
+  interface Ears {
+    /** another server answers */
+    restarted: () => void;
+    /** the station wants its token */
+    denied: () => void;
+    /** who looks */
+    me: () => Me;
+  }
+
+  /** Of a field: no value, it is empty; typing, more of the same is likely to come at once; wrong, what was typed cannot be in the plan. */
+  type Changed = (value: Scalar | undefined, typing: boolean, wrong: { typed: string; why: string } | null) => void;
 }

@@ -105,7 +105,7 @@ def test_what_is_exported_can_be_checked_by_the_app_and_imported_elsewhere(
 
     second = visit(other)
     with second.expect_file_chooser() as chooser:
-        second.get_by_role("button", name="Import a missions file").click()
+        second.get_by_role("button", name="Import file").click()
     chooser.value.set_files(file)
     expect(missions_listed(second)).to_have_text(list(PLAN))
     drawn, read = (one.get("/api/plan")["missions"] for one in (station, other))

@@ -54,7 +54,7 @@ function Item({ alert }) {
     h(Icon, { name: alert.urgent ? "warning" : "info" }),
     h("div", null, h("p", null, h(SaidWords, { words: alert.said })),
       h("p", { class: "hint" }, moment(alert.since_at),
-        alert.by !== null && ` · ${t("attention.by", { who: alert.by || t("attention.unnamed") })}`)),
+        alert.by !== null && ` · ${t("attention.by", { who: alert.by || t("people.unnamed") })}`)),
     h("div", { class: "row" },
       (alert.drone || alert.mission) && h(Button, { small: true, kind: "quiet", onClick: show }, t("attention.show")),
       alert.by === null && mayFly.value && h(Button, {

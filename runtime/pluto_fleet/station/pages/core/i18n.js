@@ -15,13 +15,6 @@ import { batch, signal } from "@preact/signals";
 export const LANGUAGES = { en: "English", it: "Italiano", de: "Deutsch" };
 /** @typedef {keyof typeof LANGUAGES} Language */
 
-/** @type {Record<Language, () => Promise<{ default: Partial<Translated> }>>} */
-const LOADERS = {
-  en: () => import("../texts/en.js"),
-  it: () => import("../texts/it.js"),
-  de: () => import("../texts/de.js"),
-};
-
 export const language = signal(/** @type {Language} */ ("en"));
 /** The place whose decimals and dates are written: that of the browser, where it speaks our language. */
 export const locale = signal("en-GB");
@@ -39,7 +32,7 @@ let wanted = null;
 /** Speak a language from now on; where it cannot be loaded the old one stays. @param {Language} next */
 export async function speak(next) {
   wanted = next;
-  const { default: loaded } = await LOADERS[next]();
+  const { default: loaded } = await import(`../texts/${next}.js`);
   if (wanted !== next) return; // another one was chosen meanwhile
   batch(() => {
     texts.value = loaded;

@@ -11,13 +11,6 @@ const POLL_EVERY = 80; // ms
 const HIDDEN_EVERY = 1000; // ms; between requests of a page that is not seen
 const NO_TOKEN = 4401;
 
-/**
- * @typedef {object} Ears
- * @property {() => void} restarted another server answers
- * @property {() => void} denied the station wants its token
- * @property {() => Me} me who looks
- */
-
 /** The line between the station and what is known here. */
 export class LiveLine {
   /** @param {World} world @param {Ears} ears */

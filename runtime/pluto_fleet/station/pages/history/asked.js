@@ -12,7 +12,7 @@ export const useAsked = (path, anew) => useAnswer([path], () => get(path, 30000)
 /** What stands where something is still on its way, or could not be had. @param {{ trouble: string }} props */
 export const Waiting = ({ trouble }) => (trouble
   ? h(Problem, { class: "problem replay-trouble", role: "alert", text: trouble })
-  : h("p", { class: "muted replay-trouble", role: "status" }, t("history.loading")));
+  : h("p", { class: "muted replay-trouble", role: "status" }, t("loading")));
 
 /** @type {Record<FlightSummary["end"], ["" | "good" | "warn" | "bad" | "info", IconName]>} */
 export const ENDS = {

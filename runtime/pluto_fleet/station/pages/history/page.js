@@ -51,7 +51,7 @@ function Flight({ flight }) {
   const [kind, icon] = ENDS[end];
   return h("tr", { class: "flight" },
     h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, beginWords(flight)),
-      simulated && h(Chip, null, t("simulated")),
+      simulated && h(Chip, null, t("simulated.at")),
       said && h(Problem, { text: said })),
     h("td", { "data-label": t("column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),
     h("td", { "data-label": t("column.missions"), class: failed ? "failed" : "" }, outcomeWords(flight),

@@ -105,18 +105,11 @@ export function ReplayView({ flight, from = 0, onTime }) {
     return h("div", { class: "replay-trouble stack" }, h(Problem, { role: "alert", text: trouble.value }),
       h("div", null, h(Button, { onClick: () => again(tries + 1) }, t("history.again"))));
   }
-  if (!replay) return h("p", { class: "replay-trouble muted", role: "status" }, t("history.loading"));
+  if (!replay) return h("p", { class: "replay-trouble muted", role: "status" }, t("loading"));
   return h(Player, { key: flight, replayer, replay, from, onTime, isRehearsal: flight.startsWith("rehearsal-") });
 }
 
-/**
- * @param {object} props
- * @param {Replayer} props.replayer
- * @param {Replay} props.replay
- * @param {number} props.from
- * @param {boolean} props.isRehearsal
- * @param {(time: number) => void} [props.onTime]
- */
+/** @param {{ replayer: Replayer, replay: Replay, from: number, isRehearsal: boolean, onTime?: (time: number) => void }} props */
 function Player({ replayer, replay, from, onTime, isRehearsal }) {
   const playback = useMemo(() => new Playback(replay.seconds), [replay]);
   const marks = useMemo(() => marksOf(replay), [replay]);
@@ -170,7 +163,7 @@ function Player({ replayer, replay, from, onTime, isRehearsal }) {
   return h("div", { class: "replay", ref: element, tabIndex: -1, onKeyDown, "data-flight": replay.flight },
     h(Banner, { isRehearsal, begunAt: replay.begun_at, seconds: replay.seconds, said: replay.said }),
     h("div", { class: "replay-watch" }, h(Watch, {
-      world: replayer.world, isLive: false, foot: waiting.value && h("p", { key: "wait", class: "replay-waits card", role: "status" }, t("history.loading")),
+      world: replayer.world, isLive: false, foot: waiting.value && h("p", { key: "wait", class: "replay-waits card", role: "status" }, t("loading")),
     })),
     h(Transport, { playback, replay, marks, chosen: selection.value.drone }));
 }

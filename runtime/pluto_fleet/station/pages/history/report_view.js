@@ -50,7 +50,7 @@ function Report({ report, replay, model }) {
       h(Fact, { name: t("column.by"), words: flight.by ?? t("unknown") }),
       h(Fact, { name: t("report.kind"), words: flight.simulated === null ? t("unknown") : t(flight.simulated ? "report.simulated" : "report.real") }),
       h(Fact, { name: t("column.trips"), words: number(flight.trips) }),
-      h(Fact, { name: t("report.lost"), words: flight.lost.join(", ") || t("none") })),
+      h(Fact, { name: t("column.lost"), words: flight.lost.join(", ") || t("none") })),
     h(Part, { title: t("page.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
     h(Part, { title: t("page.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {

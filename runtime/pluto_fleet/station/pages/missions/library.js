@@ -63,7 +63,7 @@ function Opened() {
     kept.value && !plans.length && h(Empty, null, t("library.empty")),
     h("ul", { class: "saved-plans", "aria-label": t("library.title") }, plans.map((one) => h(Item, { key: one.name, one }))),
     trash.length > 0 && h("details", null, h("summary", null, t("library.trash", { n: trash.length })),
-      h("ul", { class: "saved-plans", "aria-label": t("library.trash-list") }, trash.map((gone) => h("li", { key: gone.id, class: "row" },
+      h("ul", { class: "saved-plans" }, trash.map((gone) => h("li", { key: gone.id, class: "row" },
         h("span", { class: "called" }, gone.name), h("span", { class: "hint" }, moment(gone.deleted_at)),
         mayFly.value && h("span", { class: "spread" }, h(Button, { small: true, onClick: () => { restore(gone); } }, t("library.restore"))))))));
 }

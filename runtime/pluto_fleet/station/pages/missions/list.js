@@ -55,15 +55,7 @@ export function MissionList({ onRename }) {
   })));
 }
 
-/**
- * @param {object} props
- * @param {string} props.id
- * @param {PlanMission} props.mission
- * @param {number} props.at
- * @param {boolean} props.isDragged
- * @param {boolean} props.isShown in the panel
- * @param {(event: MouseEvent, key: string) => void} props.onPress
- */
+/** @param {{ id: string, mission: PlanMission, at: number, isDragged: boolean, isShown: boolean, onPress: (event: MouseEvent, key: string) => void }} props */
 function Item({ id, mission, at, isDragged, isShown, onPress }) {
   const { fields } = /** @type {AppShape} */ (app.value);
   const element = useRef(/** @type {HTMLLIElement | null} */ (null));

@@ -61,5 +61,5 @@ export const Welcome = ({ onAdd, children }) => h("section", { class: "card welc
   mayFly.value && h("div", { class: "row" },
     h(Button, { kind: "primary", icon: "plus", onClick: onAdd }, t("missions.add-first")),
     h(Button, { onClick: () => { example(); } }, t("missions.example")),
-    h(Button, { onClick: importFile }, t("missions.import-file")), children),
+    h(Button, { onClick: importFile }, t("missions.import")), children),
   h("p", { class: "hint" }, h("a", { href: "#help" }, t("missions.more-help"))));

@@ -96,7 +96,7 @@ function One({ mission, wanted }) {
         t(launched ? "missions.see-trips" : "missions.set-trips")))),
     h("p", { class: "hint" }, trips.length ? actionsOf(trips) : t("missions.no-trips-yet")),
     mayFly.value && h("div", { class: "row" },
-      h(StartOnly, { keys: [key], label: t("missions.start-only") }),
+      h(StartOnly, { keys: [key], label: t("missions.start-these", { n: 1 }) }),
       h(Button, { onClick: () => copy([key]) }, t("copy")),
       h(Button, { disabled: launched, onClick: () => remove([key]) }, t("delete"))));
 }

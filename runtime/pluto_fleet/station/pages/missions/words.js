@@ -50,7 +50,7 @@ export function standing({ key, trips, launched, ended, ...mission }, problems, 
   if (own.some((one) => !isEmpty(one) && (trips.length || one.field))) {
     return { text: t("missions.to-mend"), kind: "warn", icon: "warning" };
   }
-  if (own.length) return { text: t("missions.to-do"), kind: "" };
+  if (own.length) return { text: t("status.WAITING"), kind: "" };
   const end = ended === null ? undefined : ENDED[ended];
   return end ? { text: t(/** @type {any} */ (`status.${ended}`)), kind: end[1], icon: end[0] } : null;
 }

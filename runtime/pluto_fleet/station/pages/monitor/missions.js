@@ -176,15 +176,7 @@ function Details({ world, row, live }) {
         t("monitor.start-again"))));
 }
 
-/**
- * @param {object} props
- * @param {TripRow} props.trip
- * @param {number} props.index
- * @param {boolean} props.isCurrent
- * @param {boolean} props.can
- * @param {boolean} props.hasPriority
- * @param {(name: string, more?: object) => void} props.send
- */
+/** @param {{ trip: TripRow, index: number, isCurrent: boolean, can: boolean, hasPriority: boolean, send: (name: string, more?: object) => void }} props */
 function Trip({ trip, index, isCurrent, can, hasPriority, send }) {
   const name = calledTrip(trip, index);
   const isOpen = can && trip.status !== "COMPLETED" && trip.status !== "SKIPPED";

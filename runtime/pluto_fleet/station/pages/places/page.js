@@ -73,7 +73,7 @@ export default function MapPage() {
     rail: h("div", { class: "rail-body stack" },
       drawn && !drawn.writable && h("p", { class: "problem" }, h(Said, { text: drawn.said })),
       can && h(Tools, null),
-      drawn ? h(Lists, { drawn, can, onShow: (at) => camera.reveal(at.x, at.y) }) : h(Empty, null, t("map.loading"))),
+      drawn ? h(Lists, { drawn, can, onShow: (at) => camera.reveal(at.x, at.y) }) : h(Empty, null, t("loading"))),
   });
 }
 
@@ -115,7 +115,7 @@ function ByHand({ onDone }) {
     ["x", "y"].map((name) => h("input", {
       key: name, name, class: "input", inputmode: "decimal", required: true, placeholder: `${name} (m)`, "aria-label": t("map.coordinate", { name }),
     })),
-    h(Button, { type: "submit", small: true }, t("map.set-point")));
+    h(Button, { type: "submit", small: true }, t("map.apply")));
 }
 
 function PlanTools() {

@@ -70,7 +70,7 @@ export function Viewer({ model }) {
     h("div", { class: "viewer-body", ref: stage, tabIndex: -1, onKeyDown },
       h("div", { class: "viewer-stage" },
         picture === null ? h("p", { class: "no-picture muted" }, h(Icon, { name: "photo", size: 40 }), t("results.no-picture"))
-          : address ? h("img", { src: address, alt: t("results.photo-alt", { place: where }) }) : h("p", { class: "muted" }, t("results.loading")),
+          : address ? h("img", { src: address, alt: t("results.photo-alt", { place: where }) }) : h("p", { class: "muted" }, t("loading")),
         h(IconButton, { icon: "back", class: "before", label: t("results.photo-before"), onClick: () => open(at - 1) }),
         h(IconButton, { icon: "fold", class: "after", label: t("results.photo-after"), onClick: () => open(at + 1) })),
       h("p", { class: "muted" }, sharpnessWords(sharpness)),

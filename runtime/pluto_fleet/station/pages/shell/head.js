@@ -60,7 +60,7 @@ function Liveness() {
   return h("div", { class: "liveness" },
     sim && h(Chip, null,
       h("span", { class: "wide-only" }, t("simulated.at", faster)),
-      h("span", { class: "narrow-only", title: t("simulated") }, t("simulated.short", faster))),
+      h("span", { class: "narrow-only", title: t("simulated.at") }, t("simulated.short", faster))),
     plan.trouble.value && h(Chip, { kind: "warn" }, t("plan.unsaved")),
     h(Age, null));
 }

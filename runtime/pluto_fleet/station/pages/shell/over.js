@@ -42,7 +42,7 @@ function Shown({ notice }) {
   return h("div", { class: `notice ${now.bad ? "bad" : ""}` },
     h(Icon, { name: now.bad ? "bad" : "info" }), h("p", null, h(Said, { text: now.text, isOwn: !now.isSaid })),
     now.undo && h(Button, { small: true, onClick: () => { away(); now.undo?.(); } }, t("undo")),
-    h(IconButton, { icon: "close", label: t("notice.close"), onClick: away }));
+    h(IconButton, { icon: "close", label: t("close"), onClick: away }));
 }
 
 export const Notices = () => h("div", { class: "notices" },

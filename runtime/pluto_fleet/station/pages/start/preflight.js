@@ -76,7 +76,7 @@ const Expected = ({ forecast }) => h("div", { class: "stack" },
     .map((drone) => h(Drone, { key: drone.id, drone }))),
   h("h3", null, t("page.missions")),
   h("ul", { class: "ready-list" }, forecast.missions.slice(0, SHOWN).map((mission) => h(Mission, { key: mission.key, mission }))),
-  forecast.missions.length > SHOWN && h("p", { class: "hint" }, t("preflight.more", { n: forecast.missions.length - SHOWN })),
+  forecast.missions.length > SHOWN && h("p", { class: "hint" }, t("many.others", { n: forecast.missions.length - SHOWN })),
   h("p", { class: "hint" }, t(forecast.world === "traffic" ? "preflight.runs-traffic" : "preflight.runs-alone", { n: forecast.runs })));
 
 /** @param {{ name: string, value: string }} props */

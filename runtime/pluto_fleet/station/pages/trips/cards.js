@@ -14,8 +14,6 @@ import { RELEASE } from "./carried.js";
 import { copy, meant, move, remove, setAxis, setDraft, setField, setIn, shift, where } from "./commands.js";
 import { abouts, extendTo, isLocked, marked, markOne, toggle } from "./state.js";
 
-/** @import { Changed } from "../ui/field.js" */
-
 /** @typedef {{ field: FieldShape, value: (trip: PlanTrip, about: About) => unknown, onChange: Changed, wrong?: (value: unknown) => string }} Slot */
 
 /** @type {FieldShape} */

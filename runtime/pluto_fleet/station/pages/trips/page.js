@@ -165,11 +165,11 @@ function toPalette(event) {
 function First() {
   const missions = plan.missions.value;
   if (!missions.length) {
-    return h("section", { class: "stack", "aria-label": t("trips.first") },
+    return h("section", { class: "stack" },
       h("h2", null, t("trips.first-make")), h("p", null, t("trips.first-make-more")),
       h("div", null, h(NewMission, { kind: "primary" })));
   }
-  return h("section", { class: "stack", "aria-label": t("trips.first") },
+  return h("section", { class: "stack" },
     h("h2", null, t("trips.first-choose")), h("p", null, t("trips.first-choose-more")),
     h("div", { class: "row" }, missions.slice(0, MOST_OFFERED).map((one) =>
       h(Button, { key: one.key, onClick: () => selectKey(one.key) }, called(one)))));

@@ -97,7 +97,7 @@ export function Palette({ camera, onAdded, onNew }) {
     h("span", { class: "hint" }, t("trips.press-or-write", { action: capital(now.name) })),
     ["x", "y"].map((axis) => h("label", { key: axis, class: "row" }, axis, h("input", {
       ref: axis === "x" ? x : undefined, name: axis, class: "input", inputMode: "decimal", required: true, pattern: METRES,
-      title: t("trips.metres-such-as"), "aria-label": axis, autocomplete: "off",
+      title: t("trips.write-metres"), "aria-label": axis, autocomplete: "off",
     }))), h("span", null, "m"),
     places.value.length > 0 && h("span", { class: "hint called", "aria-live": "polite" }, said || t("trips.places-by-arrows")),
     h(Button, { kind: "primary", small: true, type: "submit" }, t("trips.add")),

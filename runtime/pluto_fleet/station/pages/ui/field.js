@@ -44,29 +44,6 @@ export function read(field, text) {
 /** @param {FieldShape} field */
 export const isNumeric = ({ type }) => NUMERIC.includes(type);
 
-/** What was typed and cannot be in the plan. @typedef {{ typed: string, why: string }} Wrong */
-/**
- * @callback Changed
- * @param {Scalar | undefined} value undefined: the field is empty
- * @param {boolean} typing more of the same is likely to come at once
- * @param {Wrong | null} wrong then there is no value
- * @returns {void}
- */
-/**
- * @typedef {object} FieldProps
- * @property {FieldShape} field
- * @property {unknown} value as the plan has it, or as it was typed in vain
- * @property {string} [problem]
- * @property {boolean} [isOwn] the problem is said by this page, and not by the station
- * @property {boolean} [isWrong] it is marked, though its problem is told elsewhere
- * @property {boolean} [locked]
- * @property {boolean} [isLazy] what is typed counts only when the field is left
- * @property {string} [hint] what stands in an empty field
- * @property {readonly string[]} [evaluators]
- * @property {(value: unknown) => string} [wrong] why a value cannot be in the plan; empty: it can
- * @property {(event: KeyboardEvent) => void} [onKeyDown]
- * @property {Changed} onChange
- */
 /** @typedef {FieldProps & { id: string, text: string }} ControlProps text: what is wrong */
 
 /** @param {FieldProps} props */

@@ -69,23 +69,6 @@ const STAR = "M12 4l2.3 5.2 5.7.6-4.2 3.9 1.2 5.6-5-2.9-5 2.9 1.2-5.6L4 9.8l5.7-
 /** @param {{ action: string }} props */
 export const ActionIcon = ({ action }) => h(Sign, { path: ACTIONS[action] ?? STAR });
 
-/**
- * @typedef {object} ButtonProps
- * @property {"" | "primary" | "danger" | "quiet"} [kind]
- * @property {IconName} [icon]
- * @property {boolean} [small]
- * @property {string} [title]
- * @property {string} [label] its name, where that is longer than what it shows
- * @property {boolean} [disabled]
- * @property {string | null} [why] why it cannot be pressed: it can be reached, and says so
- * @property {(event: MouseEvent) => void} [onClick]
- * @property {"button" | "submit"} [type]
- * @property {string} [class]
- * @property {boolean} [pressed]
- * @property {boolean} [expanded]
- * @property {ComponentChildren} [children]
- */
-
 /** @param {ButtonProps} props */
 export function Button({
   kind = "", icon, small, title, label, disabled, why, onClick, type = "button", class: more = "", pressed,
