@@ -8,26 +8,14 @@ import { alarm } from "./attention/attention.js";
 import { takeTokenFromAddress } from "./core/api.js";
 import { bestLanguage, speak, t } from "./core/i18n.js";
 import { followMap } from "./core/landmarks.js";
-import { tell } from "./core/notices.js";
 import { applyLook, prefs } from "./core/prefs.js";
 import { page, PAGES } from "./core/route.js";
-import { app, connect, refusal } from "./core/station.js";
+import { app, connect, refusal, tell } from "./core/station.js";
 import { Head, LostLine } from "./shell/head.js";
 import { Gate, Notices, Over } from "./shell/over.js";
 
 /** @import { ComponentType } from "preact" */
 /** @import { PageName } from "./core/route.js" */
-
-/** @type {Record<PageName, () => Promise<{ default: ComponentType }>>} */
-const LOADERS = {
-  missions: () => import("./missions/page.js"),
-  trips: () => import("./trips/page.js"),
-  monitor: () => import("./monitor/page.js"),
-  results: () => import("./results/page.js"),
-  history: () => import("./history/page.js"),
-  map: () => import("./places/page.js"),
-  help: () => import("./help/page.js"),
-};
 
 /** @type {Signal<Partial<Record<PageName, ComponentType>>>} */
 const loaded = signal({});
@@ -37,7 +25,7 @@ const Broken = () => h("p", { class: "card" }, t("page-broken"));
 async function load(name) {
   let component = /** @type {ComponentType} */ (Broken);
   try {
-    component = (await LOADERS[name]()).default;
+    component = (await import(`./${name === "map" ? "places" : name}/page.js`)).default;
   } catch (error) {
     console.error(error);
   }

@@ -1,7 +1,7 @@
 // Requests to the station. What does not go well is a StationError with a sentence for the user.
 
 import { signal } from "@preact/signals";
-import { newKey } from "./keys.js";
+import { newKey } from "./changes.js";
 import { t } from "./i18n.js";
 
 const TOKEN = "pluto-token";

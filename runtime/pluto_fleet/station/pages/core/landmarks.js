@@ -4,8 +4,7 @@
 import { effect, signal } from "@preact/signals";
 import { get, ofStation, send } from "./api.js";
 import { t } from "./i18n.js";
-import { tell } from "./notices.js";
-import { tellError, world } from "./station.js";
+import { tell, tellError, world } from "./station.js";
 
 const AGAIN = 3000; // ms
 

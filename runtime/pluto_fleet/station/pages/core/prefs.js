@@ -8,20 +8,15 @@ const stored = (/** @type {string} */ name) => `pluto-${name}`;
 
 /** A value that this browser remembers. @template Value @param {string} name @param {Value} usual @returns {Signal<Value>} */
 function remembered(name, usual) {
-  const value = signal(read(name, usual));
+  const value = signal(usual);
+  try {
+    value.value = JSON.parse(localStorage.getItem(stored(name)) ?? "");
+  } catch {
+    // nothing is kept, or another program has written it
+  }
   kept.set(stored(name), value);
   effect(() => localStorage.setItem(stored(name), JSON.stringify(value.value)));
   return value;
-}
-
-/** @template Value @param {string} name @param {Value} usual @returns {Value} */
-function read(name, usual) {
-  const text = localStorage.getItem(stored(name));
-  try {
-    return text === null ? usual : JSON.parse(text);
-  } catch { // written by another program
-    return usual;
-  }
 }
 
 window.addEventListener("storage", ({ key, newValue }) => {

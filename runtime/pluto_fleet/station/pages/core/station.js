@@ -1,16 +1,44 @@
-// The station as this page knows it: its app, the flight, the plan, and what is selected. Made once.
+// The station as this page knows it: its app, the flight, the plan, and what is selected, made once; and what the page
+// tells its user in passing: at most one good and one bad message, and what is only read out.
 
 import { computed, effect, signal } from "@preact/signals";
 import { command, download, get, ofStation, pause, StationError, who } from "./api.js";
+import { newKey } from "./changes.js";
 import { t } from "./i18n.js";
-import { newKey } from "./keys.js";
 import { LiveLine } from "./live.js";
-import { tell } from "./notices.js";
 import { PlanStore } from "./plan.js";
 import { prefs } from "./prefs.js";
 import { page } from "./route.js";
 import { Undo } from "./undo.js";
 import { World } from "./world.js";
+
+const SHOWN_FOR = 6000; // ms
+const UNDO_FOR = 20000; // ms
+
+/** @type {Signal<Notice | null>} stays until it is put away */
+export const badNotice = signal(null);
+/** @type {Signal<Notice | null>} */
+export const goodNotice = signal(null);
+/** Only read out, by screen readers. */
+export const spoken = signal("");
+
+let timer = 0;
+
+/**
+ * Tell the user something.
+ * @param {string} text
+ * @param {{ bad?: boolean, isSaid?: boolean, undo?: (() => void) | null, settles?: boolean }} [how] settles: the bad one is over
+ */
+export function tell(text, { bad = false, isSaid = false, undo = null, settles = false } = {}) {
+  if (settles) badNotice.value = null;
+  (bad ? badNotice : goodNotice).value = { text, bad, isSaid, undo };
+  if (bad) return;
+  clearTimeout(timer);
+  timer = setTimeout(() => { goodNotice.value = null; }, undo ? UNDO_FOR : SHOWN_FOR);
+}
+
+/** Read something out, and show nothing. @param {string} text */
+export const speakOut = (text) => { spoken.value = text; };
 
 const UNDO = "pluto-undo";
 const LONGEST_UNDO = 1_000_000; // letters: browsers keep few more
@@ -135,10 +163,7 @@ export async function connect() {
   });
 }
 
-/**
- * Command the station, and tell what it says; returns whether it was done.
- * @param {string} name @param {Record<string, unknown>} [given]
- */
+/** Command the station, and tell what it says; returns whether it was done. @param {string} name @param {Record<string, unknown>} [given] */
 export async function perform(name, given = {}) {
   try {
     tell(await command(name, given), { isSaid: true });

@@ -6,10 +6,7 @@ import { batch, signal } from "@preact/signals";
 import { leaves } from "./changes.js";
 
 /** @typedef {{ key: string, [field: string]: unknown }} Keyed */
-/**
- * What a plan was and has become; of missions in which nothing differs only the keys.
- * @typedef {{ before: Keyed[], after: Keyed[] }} Difference
- */
+/** What a plan was and has become; of missions in which nothing differs only the keys. @typedef {{ before: Keyed[], after: Keyed[] }} Difference */
 
 const STATIONS_OWN = ["launched", "ended"]; // pages do not set them
 

@@ -2,7 +2,7 @@
 
 import { h } from "preact";
 import { get } from "../core/api.js";
-import { duration, moment, t } from "../core/i18n.js";
+import { t } from "../core/i18n.js";
 import { useAnswer } from "../ui/hooks.js";
 import { Problem } from "../ui/parts.js";
 
@@ -20,9 +20,6 @@ export const ENDS = {
   unknown: ["warn", "warning"],
 };
 
-/** @param {FlightSummary} flight */
-export const beginWords = ({ begun_at: at, id }) => (at === null ? id : moment(at));
-
 /** "5 completed, 1 failed": only what there is. @param {FlightSummary} flight */
 export function outcomeWords({ missions, completed, failed, cancelled }) {
   const open = missions - completed - failed - cancelled;
@@ -31,6 +28,3 @@ export function outcomeWords({ missions, completed, failed, cancelled }) {
     cancelled > 0 && t("history.cancelled", { n: cancelled }), open > 0 && t("history.open", { n: open }),
   ].filter(Boolean).join(", ") || t("history.no-missions");
 }
-
-/** @param {number | null} from @param {number | null} to seconds */
-export const tookWords = (from, to) => (from === null || to === null ? "" : duration(to - from));

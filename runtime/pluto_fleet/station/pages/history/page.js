@@ -3,11 +3,11 @@
 
 import { useSignal } from "@preact/signals";
 import { h } from "preact";
-import { duration, number, t } from "../core/i18n.js";
+import { duration, moment, number, t } from "../core/i18n.js";
 import { go, part } from "../core/route.js";
 import { world } from "../core/station.js";
 import { Chip, Empty, Problem, Tabs } from "../ui/parts.js";
-import { beginWords, ENDS, outcomeWords, useAsked, Waiting } from "./asked.js";
+import { ENDS, outcomeWords, useAsked, Waiting } from "./asked.js";
 import { FlightView } from "./flight_view.js";
 
 const TABS = /** @type {const} */ (["flights", "hours"]);
@@ -47,10 +47,10 @@ export function FlightsList({ flights }) {
 
 /** @param {{ flight: FlightSummary }} props */
 function Flight({ flight }) {
-  const { id, end, trips, results, seconds, by, simulated, failed, lost, said } = flight;
+  const { id, begun_at: begun, end, trips, results, seconds, by, simulated, failed, lost, said } = flight;
   const [kind, icon] = ENDS[end];
   return h("tr", { class: "flight" },
-    h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, beginWords(flight)),
+    h("td", null, h("button", { type: "button", class: "link flight-name", onClick: () => go("history", id) }, begun === null ? id : moment(begun)),
       simulated && h(Chip, null, t("simulated.at")),
       said && h(Problem, { text: said })),
     h("td", { "data-label": t("column.end") }, h(Chip, { kind, icon }, t(`history.end.${end}`))),

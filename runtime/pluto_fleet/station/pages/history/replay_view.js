@@ -6,11 +6,12 @@ import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { get, ofStation } from "../core/api.js";
 import { clock, duration, moment, number, t } from "../core/i18n.js";
-import { tell } from "../core/notices.js";
-import { selection } from "../core/station.js";
+import { selection, tell } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Watch } from "../monitor/page.js";
+import { useAnswer } from "../ui/hooks.js";
 import { Button, Icon, IconButton, Input, Problem, Said, Select } from "../ui/parts.js";
+import { Waiting } from "./asked.js";
 import { BatteryChart } from "./battery_chart.js";
 import { marksOf, nextMark, Playback, SPEEDS } from "./playback.js";
 import { Replayer } from "./replayer.js";
@@ -84,28 +85,16 @@ const Banner = ({ isRehearsal, begunAt, seconds, said }) => h("div", { class: "r
 const partsOf = (flight) => (/** @type {number} */ from) =>
   get(`/api/flights/replay?flight=${encodeURIComponent(flight)}&start=${from}`, PATIENCE);
 
-/**
- * The replay of a flight by its id, or of a rehearsal: `rehearsal-…`.
- * @param {{ flight: string, from?: number, onTime?: (time: number) => void }} props
- */
+/** The replay of a flight by its id, or of a rehearsal: `rehearsal-…`. @param {{ flight: string, from?: number, onTime?: (time: number) => void }} props */
 export function ReplayView({ flight, from = 0, onTime }) {
   const replayer = useMemo(() => new Replayer(new World(), partsOf(flight)), [flight]);
-  const [replay, setReplay] = useState(/** @type {Replay | null} */ (null));
   const [tries, again] = useState(0);
-  const trouble = useSignal("");
-  useEffect(() => {
-    let isHere = true;
-    trouble.value = "";
-    replayer.open().then((whole) => { if (isHere) setReplay(whole); }, (error) => {
-      trouble.value = ofStation(error).message;
-    });
-    return () => { isHere = false; };
-  }, [replayer, tries, trouble]);
-  if (trouble.value) {
-    return h("div", { class: "replay-trouble stack" }, h(Problem, { role: "alert", text: trouble.value }),
+  const { data: replay, trouble } = useAnswer([replayer, tries], () => replayer.open());
+  if (trouble) {
+    return h("div", { class: "replay-trouble stack" }, h(Problem, { role: "alert", text: trouble }),
       h("div", null, h(Button, { onClick: () => again(tries + 1) }, t("history.again"))));
   }
-  if (!replay) return h("p", { class: "replay-trouble muted", role: "status" }, t("loading"));
+  if (!replay) return h(Waiting, { trouble });
   return h(Player, { key: flight, replayer, replay, from, onTime, isRehearsal: flight.startsWith("rehearsal-") });
 }
 

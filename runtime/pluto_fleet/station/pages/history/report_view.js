@@ -14,7 +14,7 @@ import { HeatLayers, PhotoLayer, PinLayer } from "../results/map_layers.js";
 import { ResultsModel } from "../results/model.js";
 import { withUnit } from "../results/words.js";
 import { Button, Said } from "../ui/parts.js";
-import { outcomeWords, tookWords, useAsked, Waiting } from "./asked.js";
+import { outcomeWords, useAsked, Waiting } from "./asked.js";
 import { BatteryChart, Times } from "./battery_chart.js";
 
 /** @param {{ flight: string }} props */
@@ -83,7 +83,7 @@ const Missions = ({ missions }) => h(Table, {
   rows: missions.map(({ name, status, why, began, ended, late, trips }) => [
     h("strong", null, name),
     [tOr(`status.${status}`, status), late && ` · ${t("monitor.late")}`, why && h("p", { class: "hint" }, h(Said, { text: why }))],
-    began === null ? "" : clock(began), tookWords(began, ended),
+    began === null ? "" : clock(began), began === null || ended === null ? "" : duration(ended - began),
     h("ul", { class: "report-trips" }, trips.map((trip) => h("li", { key: trip.name },
       `${trip.name} (${plain(trip.action)}): ${tOr(`status.${trip.status}`, trip.status)}`,
       trip.drone && ` · ${trip.drone}`, trip.attempts > 1 && ` · ${t("report.attempts", { n: trip.attempts })}`,

@@ -23,12 +23,7 @@ export const Homes = ({ app }) => h("g", { class: "layer homes" },
 const target = (mission) =>
   (mission && mission.current !== null ? mission.trips[mission.current] : undefined);
 
-/**
- * @param {object} props
- * @param {World} props.world
- * @param {string | null} props.chosen the selected drone
- * @param {(id: string) => void} props.onPick
- */
+/** @param {{ world: World, chosen: string | null, onPick: (id: string) => void }} props chosen: the selected drone */
 export function Fleet({ world, chosen, onPick }) {
   return h("g", { class: "layer fleet" },
     world.drones.keys.value.map((id) => h(Drone, { key: id, world, id, isChosen: id === chosen, onPick })));

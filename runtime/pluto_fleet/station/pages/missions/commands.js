@@ -3,13 +3,11 @@
 
 import { signal } from "@preact/signals";
 import { send, StationError } from "../core/api.js";
-import { addMission, copyMission, moved, removeMission } from "../core/changes.js";
+import { addMission, copyMission, moved, newKey, removeMission } from "../core/changes.js";
 import { many, t } from "../core/i18n.js";
-import { newKey } from "../core/keys.js";
 import { marking } from "../core/marking.js";
-import { speakOut } from "../core/notices.js";
 import { go } from "../core/route.js";
-import { app, plan, save, selection, selectKey, tellError, undo } from "../core/station.js";
+import { app, plan, save, selection, selectKey, speakOut, tellError, undo } from "../core/station.js";
 import { drawTelling, tellUndoable } from "../ui/undo.js";
 import { called } from "./words.js";
 
@@ -81,10 +79,7 @@ export function selectedInWords() {
   });
 }
 
-/**
- * Let the station put another plan in place of this one.
- * @param {(revision: number) => Promise<{ status: number, data: any }>} ask @param {string} said
- */
+/** Let the station put another plan in place of this one. @param {(revision: number) => Promise<{ status: number, data: any }>} ask @param {string} said */
 export async function take(ask, said) {
   await plan.saved();
   const before = plan.missions.peek();

@@ -5,9 +5,8 @@ import { h } from "preact";
 import { useEffect, useState } from "preact/hooks";
 import { send, StationError } from "../core/api.js";
 import { many, moment, t } from "../core/i18n.js";
-import { tell } from "../core/notices.js";
 import { prefs } from "../core/prefs.js";
-import { mayFly, plan, tellError } from "../core/station.js";
+import { mayFly, plan, tell, tellError } from "../core/station.js";
 import { Button, Check, Chip, Dialog, Empty, Input, Problem } from "../ui/parts.js";
 import { take } from "./commands.js";
 

@@ -114,7 +114,7 @@ export function Promises({ mission, wanted }) {
   },
   h("summary", null, t("missions.promises")),
   h("div", { class: "fields" },
-    h(MissionField, { mission, field: { name: "opens", type: "time", label: t("missions.opens"), hint: t("missions.opens-hint") } }),
+    h(MissionField, { mission, field: { name: "opens", type: "time", label: t("missions.opens"), hint: t("missions.deadline-hint") } }),
     h(MissionField, { mission, field: { name: "deadline", type: "time", label: t("missions.deadline"), hint: t("missions.deadline-hint") } }),
     h(After, { mission })));
 }

@@ -42,14 +42,6 @@ export const due = ({ late, due: at }, now) => {
 export const done = ({ action, x, y }) =>
   t("monitor.action-at", { action: plain(action), x: number(x), y: number(y) });
 
-/** How many missions stand how: { RUNNING: 3, … }. @param {MissionRow[]} rows */
-export function counted(rows) {
-  /** @type {Record<string, number>} */
-  const counts = {};
-  for (const { status } of rows) counts[status] = (counts[status] ?? 0) + 1;
-  return counts;
-}
-
 /** @type {Record<string, (row: MissionRow) => boolean>} */
 const FILTERS = {
   all: () => true,

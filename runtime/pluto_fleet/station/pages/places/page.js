@@ -3,8 +3,8 @@
 import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { freeName } from "../core/changes.js";
 import { number, t, typedNumber } from "../core/i18n.js";
-import { freeName } from "../core/keys.js";
 import { changeMap, landmarks, uploadPlan } from "../core/landmarks.js";
 import { app, mayFly } from "../core/station.js";
 import { World } from "../core/world.js";

@@ -88,5 +88,5 @@ export function LostLine() {
   const seconds = Math.round(line.age.value / 1000);
   return h("div", { class: "lost-line", role: "alert" }, isLost && [
     h(Icon, { name: "warning" }),
-    h("p", null, h("strong", null, t("live.lost")), " ", t("live.lost-more", { seconds }))]);
+    h("p", null, t("live.lost", { seconds }))]);
 }

@@ -5,7 +5,7 @@ import { h } from "preact";
 import { AttentionList, isOpen } from "../attention/attention.js";
 import { keepToken, token } from "../core/api.js";
 import { t } from "../core/i18n.js";
-import { badNotice, goodNotice, spoken } from "../core/notices.js";
+import { badNotice, goodNotice, spoken } from "../core/station.js";
 import { Tour, touring } from "../help/tour.js";
 import { preflight } from "../start/commands.js";
 import { Preflight } from "../start/preflight.js";

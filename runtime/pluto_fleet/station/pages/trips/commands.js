@@ -1,10 +1,8 @@
 // What is done with trips: added, moved, copied, deleted, written into.
 
-import { inTrips, moved, withField } from "../core/changes.js";
+import { inTrips, moved, newKey, withField } from "../core/changes.js";
 import { capital, number, place as inWords, t } from "../core/i18n.js";
-import { newKey } from "../core/keys.js";
-import { speakOut } from "../core/notices.js";
-import { plan, selection } from "../core/station.js";
+import { plan, selection, speakOut } from "../core/station.js";
 import { drawTelling } from "../ui/undo.js";
 import { linked, PICK } from "./carried.js";
 import { rounded } from "./snapping.js";

@@ -2,9 +2,8 @@
 
 import { h } from "preact";
 import { useEffect, useId, useMemo, useState } from "preact/hooks";
-import { addMission } from "../core/changes.js";
+import { addMission, newKey } from "../core/changes.js";
 import { many, t } from "../core/i18n.js";
-import { newKey } from "../core/keys.js";
 import { wantedField } from "../core/route.js";
 import { app, mayFly, plan, selected, selection, selectKey } from "../core/station.js";
 import { Camera, Mark } from "../map/camera.js";

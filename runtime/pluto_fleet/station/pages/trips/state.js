@@ -34,9 +34,6 @@ export const { marked, markOne, markAll, toggle, extendTo } = marking(
 
 export const places = computed(() => landmarks.value?.places ?? []);
 
-/** Whether what has not flown of missions that are under way can be changed now. */
-const canReplan = computed(() => world.state.value.phase === "flying");
-
 /** The selected mission in the flight, if it is under way. */
 const row = computed(() => (selected.value?.launched ? world.missions.get(selected.value.name) : undefined));
 
@@ -44,7 +41,7 @@ const row = computed(() => (selected.value?.launched ? world.missions.get(select
 export const isLocked = computed(() => {
   const mission = selected.value;
   if (!mission || !mayFly.value) return true;
-  return mission.launched && (!canReplan.value || row.value === undefined);
+  return mission.launched && (world.state.value.phase !== "flying" || row.value === undefined);
 });
 
 /** The names of the trips that fly or have flown, a line each, so that it is the same until one takes off. */

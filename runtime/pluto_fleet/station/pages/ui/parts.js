@@ -213,10 +213,7 @@ export function Tabs({ label, names, now, title, onPick, controls }) {
     }, title(name))));
 }
 
-/**
- * A sentence of the station, which speaks English; isOwn: it is the page's after all.
- * @param {{ text: string, isOwn?: boolean, class?: string }} props
- */
+/** A sentence of the station, which speaks English; isOwn: it is the page's after all. @param {{ text: string, isOwn?: boolean, class?: string }} props */
 export const Said = ({ text, isOwn = false, class: more }) =>
   h("span", { class: more, lang: isOwn || language.value === "en" ? undefined : "en" }, text);
 
@@ -249,10 +246,7 @@ export const joined = (facts) => facts.flatMap((fact, at) => (at ? [" · ", fact
 /** @param {{ children?: ComponentChildren }} props */
 export const Empty = ({ children }) => h("p", { class: "empty muted" }, children);
 
-/**
- * @param {{ label: string, sure: string, onSure: () => void }} props sure: the question on the button
- * A double click, and a key that repeats, are one press.
- */
+/** A double click, and a key that repeats, are one press. @param {{ label: string, sure: string, onSure: () => void }} props sure: the question on the button */
 export function SureButton({ label, sure, onSure }) {
   const [isAsking, ask] = useState(false);
   return h("button", {

@@ -4,8 +4,7 @@
 import { h } from "preact";
 import { useEffect } from "preact/hooks";
 import { t } from "../core/i18n.js";
-import { speakOut, tell } from "../core/notices.js";
-import { plan, selectKey, undo } from "../core/station.js";
+import { plan, selectKey, speakOut, tell, undo } from "../core/station.js";
 import { between, reverting, touched } from "../core/undo.js";
 import { IconButton } from "./parts.js";
 
