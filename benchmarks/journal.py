@@ -102,9 +102,7 @@ def written(path: Path, missions: int) -> int:
     class Sink:
         def add(self, row: str) -> int:
             rows.append(row)
-            kernel.schedule(
-                kernel.now, EventKind.READY, FLEET, partial(life.recorder.durable, len(rows))
-            )
+            kernel.at(kernel.now, EventKind.READY, FLEET, partial(life.recorder.durable, len(rows)))
             return len(rows)
 
     records = Records()

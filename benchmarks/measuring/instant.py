@@ -154,11 +154,11 @@ class Instant(Link):
             when = (
                 kernel.now + SECONDS + self._drones[drone] / 1000
             )  # each at an instant of its own
-            kernel.schedule(when, EventKind.FLIGHT, FLEET, partial(self.take, message))
+            kernel.at(when, EventKind.FLIGHT, FLEET, partial(self.take, message))
 
     def _tell(self, message: Message) -> None:
         now = self._kernel.now
-        self._kernel.schedule(now, EventKind.FLIGHT, FLEET, partial(self.take, message))
+        self._kernel.at(now, EventKind.FLIGHT, FLEET, partial(self.take, message))
 
 
 def _report(drone: str) -> tuple[str, DroneReport]:

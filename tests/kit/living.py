@@ -84,15 +84,6 @@ class Mortal(Kernel):
     def now(self, _: float) -> None:
         raise AttributeError("time is the host's")
 
-    @property
-    def at_the_end(self) -> Callable[[], object] | None:
-        """What is called when all else of this instant is done."""
-        return self._host.at_the_end
-
-    @at_the_end.setter
-    def at_the_end(self, call: Callable[[], object] | None) -> None:
-        self._host.at_the_end = None if call is None else self._while_alive(call)
-
     def time(self) -> float:
         """Return the host's time."""
         return self._host.time()
@@ -100,10 +91,6 @@ class Mortal(Kernel):
     def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Call this at a time, unless it is cancelled, or the kernel killed."""
         return self._host.at(when, kind, key, self._while_alive(call))
-
-    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
-        """Call this at a time, unless the kernel is killed."""
-        self._host.schedule(when, kind, key, self._while_alive(call))
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Set a coroutine on its way."""
@@ -189,7 +176,7 @@ class Living:
 
     def at(self, when: float, call: Callable[[], object]) -> None:
         """Do something at a time."""
-        self.kernel.schedule(when, EventKind.CLOCK, FLEET, call)
+        self.kernel.at(when, EventKind.CLOCK, FLEET, call)
 
     def die(self) -> None:
         """Kill the brain."""

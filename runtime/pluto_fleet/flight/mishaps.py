@@ -77,7 +77,7 @@ class Mishaps:
             self._armed.pop(name).cancel()
         elif name in self._armed and kind == "action.begun":
             kernel = self._run.kernel
-            kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, partial(self._cut_short, name))
+            kernel.at(kernel.now, EventKind.FLIGHT, FLEET, partial(self._cut_short, name))
 
     def _cut_short(self, name: str) -> None:
         armed = self._armed.pop(name, None)

@@ -170,7 +170,7 @@ class Line(Link):
         self._call_off()
         if self._lost is not None:
             kernel = self.gateway.kernel
-            kernel.schedule(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
+            kernel.at(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
 def _take_in_none(drone: SimulatedDrone, _: RealDrone | None) -> NoReturn:
@@ -341,7 +341,7 @@ class Gateway:
             if self.descent is None and self.flies:
                 self.fail_safe(Down.LAND)
         self._lag.due = min(due, now + self.patience / LOOKS)
-        self.kernel.schedule(self._lag.due, EventKind.CLOCK, FLEET, self._watch)
+        self.kernel.at(self._lag.due, EventKind.CLOCK, FLEET, self._watch)
 
     def fail_safe(self, how: Down) -> Task[None]:
         """Bring all drones down without the brain, which is cut off."""

@@ -234,7 +234,7 @@ class Jobs:
             self.write(job)
 
     def _post(self, drone: str, call: Callable[[], object]) -> None:
-        self._kernel.schedule(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
+        self._kernel.at(self._kernel.now, EventKind.FLIGHT, self._keys[drone], call)
 
 
 def _done(id: str, drone: DroneReport) -> Entry:

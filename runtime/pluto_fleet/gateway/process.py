@@ -112,7 +112,7 @@ class Ending:
                 self.goodbye()
         if self._alone > (self._idle if self._told is None else 0.0):
             self._over.set(None)
-        kernel.schedule(kernel.now + self.second, EventKind.CLOCK, FLEET, self.look)
+        kernel.at(kernel.now + self.second, EventKind.CLOCK, FLEET, self.look)
 
 
 NOTE, SETTINGS, LEDGER, LOCK, LOG = "gateway", "settings.json", "ledger", "lock", "log"

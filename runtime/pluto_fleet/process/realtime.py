@@ -10,7 +10,7 @@ from typing import TypeVar
 
 from ..shared.domain.errors import ANY_ERROR
 from ..shared.time.future import Future
-from ..shared.time.kernel import Call, EventKind, Kernel, Key
+from ..shared.time.kernel import Call, EventKind, Kernel, Key, Timer
 from .hook_calls import End, end_at_once, end_of, never_waits
 from .signal_guard import by_a_person, guard_hooks
 
@@ -52,14 +52,14 @@ class RealTime(Kernel):
         if not self._draining:
             self._arm()
 
-    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
+    def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
         """Schedule a call; hooks may do so between the kernel's own events."""
         if self._draining:
-            super().schedule(when, kind, key, call)
-        else:
-            self.now = self.time()
-            super().schedule(when, kind, key, call)
-            self._arm()
+            return super().at(when, kind, key, call)
+        self.now = self.time()
+        timer = super().at(when, kind, key, call)
+        self._arm()
+        return timer
 
     def post(self, call: Callable[..., object], *args: object) -> None:
         """Deliver something from outside, as an instant of its own."""

@@ -179,7 +179,7 @@ class UnreliableLink(Link):
             self._fired["slow line"] += 1
             world = self._world
             arrives = partial(self._go, message)
-            world.schedule(world.now + self._slow, EventKind.FLIGHT, FLEET, arrives)
+            world.at(world.now + self._slow, EventKind.FLIGHT, FLEET, arrives)
         else:
             self._go(message)
 

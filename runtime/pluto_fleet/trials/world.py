@@ -78,7 +78,7 @@ class TrialWorld:
 
     def later(self, seconds: float, call: Callable[[], object]) -> None:
         """Schedule a call after seconds of the world's time."""
-        self.world.schedule(self.world.now + seconds, When.FLIGHT, FLEET, call)
+        self.world.at(self.world.now + seconds, When.FLIGHT, FLEET, call)
 
     def seen(self, done: WorldAction) -> None:
         """Called with an action of a drone on the world."""

@@ -41,10 +41,13 @@ class Action:
 
     def lasts(self, parameters: Mapping[str, Plain]) -> float:
         """Return how many seconds plans reckon with on a trip with these parameters."""
-        if not isinstance(self.takes, str):
-            return self.seconds
-        default = next((one.default for one in self.parameters if one.name == self.takes), None)
-        given = parameters.get(self.takes, default)
+        takes = self.takes
+        if takes is None:
+            return RECKONED
+        if not isinstance(takes, str):
+            return takes
+        default = next((one.default for one in self.parameters if one.name == takes), None)
+        given = parameters.get(takes, default)
         return max(0.0, given) if isinstance(given, (int, float)) else RECKONED
 
     def act(self, state: Any, flight: Any) -> Coroutine[Any, Any, None]:

@@ -41,7 +41,10 @@ class Batch:
             fit = [] if one.is_set else [drone for drone in queue.ready if one.ever(drone)]
             if fit and all(wanted for _, wanted in queue.low.values()):
                 drone = max(fit, key=lambda drone: drone.battery_level)
-                queue.low[drone] = queue.charged(drone, one.level(drone)), 0.0  # for no other
+                queue.low[drone] = (
+                    queue.charged(drone, one.level(drone, drone.location)),
+                    0.0,
+                )  # for no other
                 queue.ready.remove(drone)
             return place
 

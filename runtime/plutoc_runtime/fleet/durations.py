@@ -24,12 +24,12 @@ def ends(request: Request) -> Point:
 
 def pace(category: Category, request: Request) -> float:
     """Return about how many seconds a metre takes."""
-    return category.endurance * request.bounds[category][1]
+    return category.endurance * request.takes(category)[1]
 
 
 def upright(category: Category, request: Request) -> float:
     """Return about how many seconds take-off, action and landing take."""
-    return category.endurance * (request.bounds[category][0] - category.reserve)
+    return category.endurance * (request.takes(category)[0] - category.reserve)
 
 
 def busy(category: Category, request: Request) -> float:

@@ -8,7 +8,7 @@ lacks for a route makes it longer by the time to charge that.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from math import hypot, inf
 from typing import TYPE_CHECKING
 
@@ -56,10 +56,10 @@ def _metres(here: Point, there: Point) -> float:
 class _Stop:
     """A request on a route."""
 
-    def __init__(self, one: Request) -> None:
+    def __init__(self, one: Request, kinds: Collection[Category]) -> None:
         self.one, self.goal, self.last = one, one.goal, ends(one)
-        self.busy = {kind: busy(kind, one) for kind in one.bounds}
-        self.pace = {kind: pace(kind, one) for kind in one.bounds}
+        self.busy = {kind: busy(kind, one) for kind in kinds}
+        self.pace = {kind: pace(kind, one) for kind in kinds}
 
     def seconds(self, kind: Category, here: Point) -> float:
         """Return about how long a drone takes from a place to the end of it."""
@@ -119,7 +119,8 @@ class _Plan:
                 route.stops = [stop for stop in route.stops if stop.one in new]
                 new.difference_update(stop.one for stop in route.stops)
                 route.begin(0.0 if drone in ready else waits, place)
-        fresh = [_Stop(one) for one in requests if one in new]
+        kinds = {drone.category for drone in queue.drones}
+        fresh = [_Stop(one, kinds) for one in requests if one in new]
         places = [route.place for route in self.routes.values()]
         fresh.sort(key=lambda stop: -min(_metres(place, stop.goal) for place in places))
         changed = dict.fromkeys(filter(None, map(self._insert, fresh)))

@@ -72,7 +72,7 @@ class Orders:
         """Called when an order was `done` or has `failed`; an unknown or earlier one is ignored."""
         failed = "failed" in message
         order = message["failed"] if failed else message["done"]
-        answer = self._answers.pop(order, None) if type(order) is int else None
+        answer = self._answers.pop(order, None)
         if answer is not None:
             answer(failure_of(message) if failed else value_of(message.get("value")))
 

@@ -25,9 +25,12 @@ if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
     from .policies import Choice, Policy
 
-_FREE, _BUSY, _LOST = DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.LOST
-
-_in_the_file, _by_rank = attrgetter("index"), attrgetter("rank")
+_FREE = DroneStatus.FREE
+_BUSY = DroneStatus.BUSY
+_LOST = DroneStatus.LOST
+_SERVE = EventKind.SERVE
+_MANY = 30  # for more requests it is not worth while to find out for which a drone suffices
+_by_rank = attrgetter("rank")
 
 
 class Queue:
@@ -37,8 +40,10 @@ class Queue:
         self, kernel: Kernel, reach: Reach, drones: list[Drone], max_airborne: int | None
     ) -> None:
         """`drones`: the fleet's very list, which grows as drones join."""
-        self.kernel, self._reach, reach.drones = kernel, reach, drones
-        self.drones, self._max_airborne = drones, max_airborne
+        self.kernel = kernel
+        self.drones = drones
+        self._reach = reach
+        self._max_airborne = max_airborne
         self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
         self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
@@ -51,23 +56,23 @@ class Queue:
         self.homeward: set[Drone] = set()  # those that were sent home since they flew a trip
         self.stay_out = True  # whether drones stay where a trip ends, but for those that are low
         self._one_is_lost = False  # since the requests were last checked
-        self._recheck, self._recheck_at = Timer(int), inf
+        self._is_due = False  # whether it is served at the end of this instant
+        self._recheck = Timer(int)
+        self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
 
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
-        self._arrivals = number = self._arrivals - 1
-        rank = (priority, number)
-        waiting = self.requests
-        request = Request(self._reach, mission, policy, rank)
-        if waiting and waiting[0].rank > rank:  # most that enter
-            waiting.insert(0, request)
+        self._arrivals -= 1
+        rank = (priority, self._arrivals)
+        request = Request(self._reach, mission, policy, rank, self.kernel.now)
+        if self.requests and rank < self.requests[0].rank:  # as most that enter
+            self.requests.insert(0, request)
         else:
-            insort(waiting, request, key=_by_rank)
-        request.since = self.kernel.now
+            insort(self.requests, request, key=_by_rank)
         self._fresh.append(request)
-        self.kernel.at_the_end = self._serve
+        self.changed()
         return request
 
     def leave(self, request: Request) -> None:
@@ -84,14 +89,15 @@ class Queue:
 
     def changed(self) -> None:
         """Serve the queue at the end of this instant."""
-        if self.requests:
-            self.kernel.at_the_end = self._serve
+        if self.requests and not self._is_due:
+            self._is_due = True
+            self.kernel.at(self.kernel.now, _SERVE, FLEET, self._serve)
 
     def prioritise(self, trip: Trip, priority: int) -> None:
         """Change the priority of the request for this trip."""
         for request in self.requests:
             if request.trip is trip:
-                request.rank = priority, request.rank[1]
+                request.rank = (priority, request.rank[1])
                 self.requests.sort(key=_by_rank)
                 self.changed()
                 return
@@ -114,8 +120,8 @@ class Queue:
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
-        for drone in sorted(self.low, key=_in_the_file):
-            if any(request.never(drone) is None for request in self.waiters()):
+        for drone in self.drones:
+            if drone in self.low and any(one.never(drone) is None for one in self.waiters()):
                 yield drone
 
     def ready_at(self, drone: Drone) -> float | None:
@@ -130,57 +136,64 @@ class Queue:
     # Serving
 
     def _serve(self) -> None:
+        self._is_due = False
         self._arrived += self._fresh
         if not self._needs or len(self._arrived) > 1_000 + 8 * len(self.requests):
-            self._arrived, self._needs = self.requests[:], {}
+            self._arrived = self.requests[:]
+            self._needs = {}
         if self.low and (self._fresh or self.kernel.now >= self._recheck_at):
             self._put_back_the_charged()
-        low = self.low
-        self.ready = [one for one in self.drones if one.status is _FREE and one not in low]
+        self.ready = [one for one in self.drones if one.status is _FREE and one not in self.low]
         if self.ready:
             self._share_out()
         if self.requests:
             self._refuse_what_cannot_be()
             if self.ready and self.room:
                 self._put_aside_the_low()
-            if low:
-                untils = [until for until, _ in low.values()]
+            if self.low:
+                untils = [until for until, _ in self.low.values()]
                 self._look_again_when_charged(min(untils))
                 if max(untils) == inf:
                     self.served()
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        below, ready = len(self.requests), self.ready
-        for place in self._places():
-            if not ready or (self._max_airborne is not None and not self.room):
-                break
-            if place >= below:
-                continue  # it was served with others of its policy
-            request = self.requests[place]
-            if share := getattr(request.policy, "share", None):
-                below = share(self, place)
-                continue
-            try:
-                choice = request.policy(request.trip, ready, request.able)
-            except HookFault as fault:
-                self.refuse(request, fault)
-            else:
-                self.give(place, choice)
+        """Ask for each request which drone it gets; after one in vain, for those that a ready drone could fly."""
+        place = len(self.requests)
+        before = inf
+        while place and len(self.ready) < before:
+            before = len(self.ready)
+            place = self._ask(place - 1)
+        if place and self.ready:
+            below: tuple[float, int] = self.requests[place - 1].rank
+            for request in self._suited():
+                if request.rank <= below:
+                    place = self._ask(self._place(request))
+                    below = self.requests[place - 1].rank if place else (-inf, 0)
 
-    def _places(self) -> Iterator[int]:
-        """Yield the places of requests in turn; after one in vain, of those for which a ready drone suffices."""
-        place, ready, before = len(self.requests), self.ready, inf
-        while place and (now := len(ready)) < before:
-            place, before = place - 1, now
-            yield place
+    def _ask(self, place: int) -> int:
+        """Ask which drone the request at this place gets; return the least place that this was asked for."""
+        if not self.ready or (self._max_airborne is not None and not self.room):
+            return place
+        request = self.requests[place]
+        share = getattr(request.policy, "share", None)
+        if share is not None:
+            return int(share(self, place))
+        try:
+            choice = request.policy(request.trip, self.ready, request.able)
+        except HookFault as fault:
+            self.refuse(request, fault)
+        else:
+            self.give(place, choice)
+        return place
+
+    def _suited(self) -> list[Request]:
+        """Return the requests that a ready drone could fly, in their order; where many could, all."""
         suited = set[Request]()
-        for drone in ready if place else ():
+        for drone in self.ready:
             some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
             suited.update(some if len(some) <= _MANY else self.requests)
-        for other in sorted(map(self._place, suited), reverse=True):
-            if other < place:
-                yield other
+        return sorted(suited, key=_by_rank, reverse=True)
 
     def give(self, place: int, choice: Choice | None) -> None:
         """Give the request at this place a drone, if one was chosen."""
@@ -232,22 +245,24 @@ class Queue:
     def _needs_of(self, drone: Drone) -> Needs:
         needs = self._needs.get(drone)
         if needs is None or needs.place != drone.location:
-            needs = self._needs[drone] = Needs(drone, self._arrived)
+            needs = Needs(drone, self._arrived)
+            self._needs[drone] = needs
         return needs
 
     def _put_back_the_charged(self) -> None:
         """Make drones ready again that have charged, or that suffice for a new request."""
-        now, usual = self.kernel.now, self.requests[0].rank[0] if self.requests else 0
+        now = self.kernel.now
+        usual = self.requests[0].rank[0] if self.requests else 0
         urgent = [one for one in self._fresh if one.hurries or one.rank[0] > usual]
         for drone, (until, wanted) in list(self.low.items()):
             if until <= now or any(request.able(drone) for request in urgent):
                 del self.low[drone]
             elif self._fresh:
-                needs = self._needs.get(drone) or self._needs_of(drone)  # it stands where it stood
-                if (least := needs.least(wanted)) < wanted and drone.battery_level >= least:
+                least = self._needs_of(drone).least(wanted)
+                if least < wanted and drone.battery_level >= least:
                     del self.low[drone]
                 elif least < wanted:
-                    self.low[drone] = min(until, self.charged(drone, least)), least
+                    self.low[drone] = (min(until, self.charged(drone, least)), least)
 
     def _put_aside_the_low(self) -> None:
         """Put drones aside that are too low for every request; a docked one until it has charged for its share.
@@ -256,10 +271,11 @@ class Queue:
         """
         share = -(-len(self.requests) // len(self.drones))  # trips for each drone
         for drone in self.ready:
-            least, reserve = self._needs_of(drone).least(), drone.category.reserve
+            least = self._needs_of(drone).least()
+            reserve = drone.category.reserve
             if drone.battery_level < least:
                 level = max(least, min(1.0, reserve + share * (least - reserve)))
-                self.low[drone] = self.charged(drone, level), least
+                self.low[drone] = (self.charged(drone, level), least)
 
     def charged(self, drone: Drone, level: float) -> float:
         """Return when a drone has this level where it stands; infinite: it never will."""
@@ -273,6 +289,3 @@ class Queue:
             self._recheck_at = soonest
             if soonest < inf:
                 self._recheck = self.kernel.at(soonest, EventKind.CLOCK, FLEET, self.changed)
-
-
-_MANY = 30  # for more requests it is not worth while to find out for which a drone suffices

@@ -6,10 +6,10 @@ its battery evenly, moving or not.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from enum import IntEnum
-from functools import cached_property, lru_cache
-from math import dist, hypot, inf
+from functools import lru_cache
+from math import dist, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
+    from ..domain.model import Category, Item, Mission, Point, Trip
 
 Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
@@ -68,8 +68,12 @@ def needed(
 
     None: no route leads there, or none home. The reserve is not in it.
     """
-    points = [*(point for point, _ in stops), (home[0], home[1], 0.0)]
-    actions = sum(seconds for _, seconds in stops)
+    points: list[Point] = []
+    actions = 0.0
+    for point, seconds in stops:
+        points.append(point)
+        actions += seconds
+    points.append((home[0], home[1], 0.0))
     seconds = flight_seconds(category, airspace, start, points, actions)
     return None if seconds == inf else seconds / category.endurance
 
@@ -226,51 +230,56 @@ def reckoned(app: App, missions: Sequence[Mission[Any]]) -> list[str]:
 
 
 class Reach:
-    """The battery for a trip, and cheap bounds of it: the exact one takes a route search."""
+    """The battery that trips take of drones: exactly, by a search for a route, and at least."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        self.drones: Sequence[Drone] = ()  # those whose docks count
-        self.bounds = lru_cache(1_000)(self._bounds)  # plans repeat their targets
+        # plans repeat their targets, and drones their docks
+        self._single = lru_cache(10_000)(self._level_of_one)
+        self.takes = lru_cache(1_000)(self._takes)
 
-    def level(self, category: Category, home: Point, here: Point, chain: Sequence[Trip]) -> float:
-        """Return the battery level that the chain needs from here; infinite: it cannot be flown."""
+    def level(self, category: Category, home: Point, here: Point, trips: Sequence[Trip]) -> float:
+        """Return the battery level that the first chain of trips needs from here; infinite: it cannot be flown."""
+        trip = trips[0]
+        if trip.item is None and trip.action != PICK:
+            seconds = self.app.actions[trip.action].lasts(trip.parameters)
+            return self._single(
+                category, home, here, trip.action, trip.source, trip.target, seconds
+            )
+        chain = chain_of(trips)
         if _unfit(category, chain):
             return inf
         stops = stops_of(self.app, category, self.airspace.cruise_height, chain)
+        return self._level_for(category, home, here, stops)
+
+    def _level_of_one(
+        self,
+        category: Category,
+        home: Point,
+        here: Point,
+        action: str,
+        source: Point | None,
+        target: Point,
+        seconds: float,
+    ) -> float:
+        if not category.can(action):
+            return inf
+        stops = [(target, seconds)] if source is None else [(source, 0.0), (target, seconds)]
+        return self._level_for(category, home, here, stops)
+
+    def _level_for(self, category: Category, home: Point, here: Point, stops: Stops) -> float:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    @cached_property
-    def _open(self) -> bool:
-        """Whether nothing is in the way from any dock on the ground to any place on the map."""
-        space = self.airspace
-        ends = (0.0, 0.0, space.cruise_height), *(
-            (x, y, -z) for x, y, z in (one.home for one in self.drones)
-        )
-        return not (space.no_fly or any(map(space.problem, ends)))
-
-    def _bounds(
-        self, action: str, seconds: float, target: Point, straight: bool
-    ) -> Mapping[Category, Bounds]:
-        """Return bounds of what a trip takes of each category's battery; `straight`: to its target alone."""
-        space, height, found = self.airspace, target[2], dict["Category", Bounds]()
-        cruise, across = space.cruise_height, hypot(*space.size) + _BEYOND
-        straight &= self._open and action != PICK and not space.problem(target)
-        for one in self.app.categories:
-            motion, speed, share = one.motion, one.speed, 1.0 / one.endurance
-            upright = motion.rises(cruise, speed) + motion.lands(height, speed)
-            upright += 2 * motion.settles + seconds
-            a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
-            slack = a_metre * abs(height - cruise) + 2 * motion.shortness(speed)
-            least, way = one.reserve + share * upright * _LESS, share * a_metre * _LESS
-            slack = share * slack if straight and one.can(action) else inf
-            found[one] = least, way, slack, (least + 2 * across * way) * MORE + slack
-        return found
+    def _takes(self, category: Category, seconds: float, height: float) -> tuple[float, float]:
+        """Return what a trip takes of a battery at least, with its reserve, but for the way, and a metre of that."""
+        motion, speed = category.motion, category.speed
+        upright = motion.rises(self.airspace.cruise_height, speed) + motion.lands(height, speed)
+        upright += 2 * motion.settles + seconds
+        a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
+        share = _LESS / category.endurance
+        return category.reserve + share * upright, share * a_metre
 
 
-Bounds = tuple[float, float, float, float]
-"""The least level beside the way and for each metre of it, how much more than `MORE` times both may be
-needed, and what suffices for any way on the map: the last two from home, where the drone stands."""
-_FAR, _BEYOND = 1e6, 0.01  # metres of a long leg, and beyond an edge of the map that do not count
-_LESS, MORE = 1 - 1e-9, 1 + 1e-8  # sums of floats are not exact, and bounds must be true
+_FAR = 1e6  # metres of a long leg
+_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be true

@@ -8,7 +8,6 @@ from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.motion import charged, smoothly
-from ..hooks.plain_data import point_of
 
 if TYPE_CHECKING:
     from ..domain.model import Point
@@ -94,13 +93,15 @@ class KnownState:
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
         self._clock = clock
         self._motion = motion
-        self._legs, self._charge = [resting(home, 0.0)], Charge(0.0, 0.0)
+        self._legs = [resting(home, 0.0)]
+        self._charge = Charge(0.0, 0.0)
         self._landed = True
 
     @property
     def location(self) -> Point:
         """Where it is."""
-        last, now = self._legs[-1], self._clock.now
+        last = self._legs[-1]
+        now = self._clock.now
         return last.end if now >= last.arrives else place_on(self._legs, now)
 
     @property
@@ -125,10 +126,12 @@ class KnownState:
         if legs := told.get("legs"):
             smooth = self._motion.smooth
             self._legs = [
-                Leg(point_of(a), point_of(b), leaves, at, smooth) for a, b, leaves, at in legs
+                Leg((ax, ay, az), (bx, by, bz), leaves, arrives, smooth)
+                for (ax, ay, az), (bx, by, bz), leaves, arrives in legs
             ]
         elif "at" in told:
-            self._legs = [resting(point_of(told["at"]), now)]
+            x, y, z = told["at"]
+            self._legs = [resting((x, y, z), now)]
         match told.get("battery"):
             case [level, since, rate]:
                 self._charge = Charge(level, since, rate, self._motion.taper)

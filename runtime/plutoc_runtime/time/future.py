@@ -3,43 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Generator
-from typing import Any, Generic, Protocol, TypeVar, cast
+from typing import Any, Generic, TypeVar, cast
 
 T = TypeVar("T")
 
 Watcher = Callable[[Any], object]  # called with the future when it is set
 
 
-class Waiter(Protocol):
-    """Something that awaits a future: a task."""
-
-    def wake(self, _: object = None) -> None:
-        """Resume: the future is set."""
-
-
 class Future(Generic[T]):
     """A value that is set once; any number of coroutines may await it."""
 
-    __slots__ = ("_value", "_watchers", "error", "is_set", "waiter")
+    __slots__ = ("_value", "_watchers", "error", "is_set")
 
     def __init__(self) -> None:
         self.is_set = False
         self.error: BaseException | None = None
-        self.waiter: Waiter | None = None
-        """The first task that awaits it, usually the only one; further ones watch."""
         self._value: Any = None
         self._watchers: list[Watcher] | None = None
+        """Those that wait, in their order; most futures never have any."""
 
     def set(self, value: T) -> None:
         """Set the value; only the first call counts."""
-        if not self.is_set:
-            self.is_set, self._value = True, value
-            if self.waiter is not None:
-                self.waiter.wake()
-            if self._watchers is not None:
-                watchers, self._watchers = self._watchers, None
-                for watcher in watchers:
-                    watcher(self)
+        if self.is_set:
+            return
+        self.is_set = True
+        self._value = value
+        watchers = self._watchers
+        if watchers is not None:
+            self._watchers = None
+            for watcher in watchers:
+                watcher(self)
 
     def fail(self, error: BaseException) -> None:
         """Set an error, which is raised wherever it is awaited; only the first call counts."""

@@ -3,9 +3,6 @@
 Everything that happens is an event, ordered by (time, kind, key), so simultaneous events are
 processed in a declared order, whichever task ran first. A brain and the library process events with
 the same `drain`, in virtual time and in real time.
-
-Resumed coroutines and the queue for drones are by far the most frequent events, and they belong to
-the current instant: they bypass the heap of future events.
 """
 
 from __future__ import annotations
@@ -14,9 +11,11 @@ from collections.abc import Callable, Coroutine, Sequence
 from enum import IntEnum
 from gc import unfreeze
 from heapq import heappop, heappush
+from itertools import count
+from math import inf
 from typing import Any, TypeVar
 
-from ..domain.errors import ANY_ERROR, Cancelled
+from ..domain.errors import Cancelled
 from .future import Future
 
 T = TypeVar("T")
@@ -47,11 +46,12 @@ def branch_key(key: Key, number: int, depth: int) -> Key:
 class EventKind(IntEnum):
     """The order in which simultaneous events are processed."""
 
-    READY = 0  # a coroutine resumes: what has begun is finished first; see `Kernel.ready`
+    READY = 0  # a coroutine resumes: what has begun is finished first
     FLIGHT = 1  # what drones do: a trip that ends at its time-out has ended first
     TIMER = 2  # limits on flights
     CLOCK = 3  # delays and other waits
-    ALLOCATE = 4  # all requests and all free drones are known; before these, `Kernel.at_the_end`
+    SERVE = 4  # the queue for drones: all requests and all free drones are known
+    ALLOCATE = 5  # what must come after that
 
 
 class ForeignAwait(RuntimeError):
@@ -69,10 +69,6 @@ class Timer:
     def __init__(self, call: Call) -> None:
         self._call: Call | None = call
 
-    def __call__(self) -> None:
-        if self._call is not None:
-            self._call()
-
     @property
     def cancelled(self) -> bool:
         """Whether it was cancelled."""
@@ -82,33 +78,43 @@ class Timer:
         """Cancel the call; after it was made this does nothing."""
         self._call = None
 
+    def happen(self, _: int) -> None:
+        """Make the call."""
+        if self._call is not None:
+            self._call()
+
 
 class Task(Future[T]):
     """A running coroutine; as a future it is set when the coroutine ends."""
 
-    __slots__ = ("_kernel", "_waits_for", "coroutine", "key", "name", "over", "turn")
+    __slots__ = ("_kernel", "_turn", "_waits_for", "coroutine", "key", "name", "over")
 
     def __init__(
         self, kernel: Kernel, coroutine: Coroutine[Any, Any, T], key: Key, name: str
     ) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
-        self._kernel, self.coroutine, self.key, self.name = kernel, coroutine, key, name
+        super().__init__()
+        self._kernel = kernel
+        self.coroutine = coroutine
+        self.key = key
+        self.name = name
         self._waits_for: Future[Any] | None = None
-        self.turn = 0
-        """The number of the wake-up that may resume it; older ones are ignored. 0: none is pending."""
+        self._turn = 0
+        """The number of the event that resumes it; any other is of a wait that was cancelled."""
         self.over: Callable[[Task[T]], None] | None = None
         """Called when it has ended, in any way; without it, an unobserved error stops the run."""
         kernel.tasks[self] = None
+        self.wake()
 
     def wake(self, _: object = None) -> None:
         """Resume at the current instant, in order of key."""
         kernel = self._kernel
-        kernel.count = self.turn = turn = kernel.count + 1
-        heappush(kernel.ready, (self.key, turn, self))
+        self._turn = turn = next(kernel.numbers)
+        heappush(kernel.heap, (_BEFORE_ALL, _READY, self.key, turn, self))
 
-    def step(self, error: BaseException | None = None) -> None:
-        """Run the coroutine up to its next `await`; an error is raised where it waits."""
+    def happen(self, turn: int, error: BaseException | None = None) -> None:
+        """Run the coroutine up to its next `await`, if it is its turn; an error is raised where it waits."""
+        if turn != self._turn:
+            return
         coroutine = self.coroutine
         try:
             waits_for = coroutine.send(None) if error is None else coroutine.throw(error)
@@ -116,46 +122,27 @@ class Task(Future[T]):
                 foreign = ForeignAwait(f"it awaited {type(waits_for).__name__}")
                 waits_for = coroutine.throw(foreign)
         except StopIteration as end:
-            returned: T = end.value
+            self._leave()
+            self.set(end.value)
         except KeyboardInterrupt:
             raise
-        except ANY_ERROR as raised:
+        except BaseException as raised:  # noqa: BLE001 - it is raised in whatever awaits this
             self._leave()
-            if not (isinstance(raised, Cancelled) or self.waiter or self._watchers or self.over):
+            if not (isinstance(raised, Cancelled) or self._watchers or self.over):
                 self._kernel.crash(raised)
             self.fail(raised)
-            if self.over is not None:
-                self.over(self)
-            return
         else:
             self._waits_for = waits_for
-            if waits_for.waiter is None:
-                waits_for.waiter = self
-            else:
-                waits_for.watch(self.wake)
+            waits_for.watch(self.wake)
             return
-        self._leave()
-        self.set(returned)
         if self.over is not None:
             self.over(self)
-
-    def _leave(self) -> None:
-        self.turn, self._waits_for = 0, None
-        self._kernel.tasks.pop(self, None)
 
     def cancel(self) -> None:
         """Raise `Cancelled` where it waits, at once."""
         if not self.is_set:
             self._wait_no_longer()
-            self.step(Cancelled())
-
-    def _wait_no_longer(self) -> None:
-        waits_for, self._waits_for = self._waits_for, None
-        if waits_for is not None:
-            waits_for.unwatch(self.wake)
-            if waits_for.waiter is self:
-                waits_for.waiter = None
-        self.turn = 0  # while cleaning up it may wait again, for something else
+            self.happen(self._turn, Cancelled())
 
     async def ended(self) -> None:
         """Wait until it has ended; a cancellation is no error here."""
@@ -168,8 +155,18 @@ class Task(Future[T]):
     def drop(self) -> None:
         """Close the coroutine where it waits, without waking anything: the run is over."""
         self._wait_no_longer()
-        self._kernel.tasks.pop(self, None)
+        self._leave()
         self.coroutine.close()
+
+    def _wait_no_longer(self) -> None:
+        if self._waits_for is not None:
+            self._waits_for.unwatch(self.wake)
+            self._waits_for = None
+        self._turn = 0  # while cleaning up it may wait again, for something else
+
+    def _leave(self) -> None:
+        self._waits_for = None
+        self._kernel.tasks.pop(self, None)
 
 
 class Kernel:
@@ -182,38 +179,28 @@ class Kernel:
         self.crashed: BaseException | None = None
         self.over = False
         """The run's goal is reached, or something crashed: no further event is processed."""
-        self.count = 0
-        """How many events were scheduled; it breaks ties: first scheduled, first processed."""
-        self.ready: list[tuple[Key, int, Task[Any]]] = []
-        """The coroutines to resume at this instant, with the number of their wake-up."""
-        self.at_the_end: Callable[[], object] | None = None
-        """Called when all else of this instant is done: serves the fleet's queue."""
         self.settled: Callable[[], object] | None = None
         """Called when an instant has been processed: writes its events to the journal."""
-        self._heap: list[tuple[float, int, Key, int, Call]] = []
+        self.numbers = count(1)
+        """Of the events, as they are scheduled: they break ties, first scheduled, first processed."""
+        self.heap: list[tuple[float, int, Key, int, Timer | Task[Any]]] = []
+        """Time, kind, key and number of each event, and what happens. What is ready comes before
+        all that has a time, even if that is overdue."""
 
     def time(self) -> float:
         """Return the seconds since the start; between events it is later than `now`."""
         return self.now
 
     def at(self, when: float, kind: EventKind, key: Key, call: Call) -> Timer:
-        """Schedule a call that can be cancelled; a time in the past means now."""
-        timer = Timer(call)
-        self.schedule(when, kind, key, timer)
-        return timer
-
-    def schedule(self, when: float, kind: EventKind, key: Key, call: Call) -> None:
         """Schedule a call; a time in the past, or not a number, means now."""
-        self.count = count = self.count + 1
-        if not when > self.now:
-            when = self.now
-        heappush(self._heap, (when, kind, key, count, call))
+        timer = Timer(call)
+        due = max(self.now, when)
+        heappush(self.heap, (due, kind, key, next(self.numbers), timer))
+        return timer
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Start a coroutine; it runs for the first time at this instant, in order of key."""
-        task = Task(self, coroutine, key, name)
-        task.wake()
-        return task
+        return Task(self, coroutine, key, name)
 
     async def sleep(
         self, seconds: float, kind: EventKind = EventKind.CLOCK, key: Key = FLEET
@@ -255,35 +242,22 @@ class Kernel:
 
     def next_time(self) -> float | None:
         """Return the time of the next event; None: there will be none."""
-        if self.ready or self.at_the_end is not None:
-            return self.now
-        heap = self._heap
-        while heap and isinstance(heap[0][4], Timer) and heap[0][4].cancelled:
+        heap = self.heap
+        while heap and isinstance(timer := heap[0][4], Timer) and timer.cancelled:
             heappop(heap)
-        return heap[0][0] if heap else None
+        return max(heap[0][0], self.now) if heap else None
 
     def drain(self, until_any: Sequence[object] = ()) -> None:
         """Process all events of this instant in order, also those that they cause.
 
-        First the coroutines that are ready; then, unless `until_any` has got an element meanwhile, what
-        the heap has due; then `at_the_end`, and last what is of the kind ALLOCATE.
+        Once `until_any` has got an element, only coroutines that are ready.
         """
-        heap, ready, now = self._heap, self.ready, self.now
-        while not self.over:
-            if ready:
-                _, turn, task = heappop(ready)
-                if turn == task.turn:
-                    task.turn = 0
-                    task.step()
-            elif until_any:
-                return
-            elif heap and heap[0][0] <= now and (heap[0][1] < _LAST or self.at_the_end is None):
-                heappop(heap)[4]()
-            elif self.at_the_end is not None:
-                serve, self.at_the_end = self.at_the_end, None
-                serve()
-            else:
-                return
+        heap = self.heap
+        now = self.now
+        while heap and heap[0][0] <= (_BEFORE_ALL if until_any else now) and not self.over:
+            _, _, _, number, event = heappop(heap)
+            event.happen(number)
 
 
-_LAST = int(EventKind.ALLOCATE)
+_READY = int(EventKind.READY)
+_BEFORE_ALL = -inf

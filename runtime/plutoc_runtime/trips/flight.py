@@ -35,8 +35,7 @@ class Flight(Future[Status]):
         launched_at: float,
         retry: bool,
     ) -> None:
-        self.is_set = False
-        self.error = self.waiter = self._value = self._watchers = None
+        super().__init__()
         self.mission, self.trip, self.flier, self.action = mission, trip, flier, action
         self.launched_at = launched_at
         self.retry = retry  # the mission's previous flight was of the same trip, and failed
@@ -149,7 +148,7 @@ class Limits:
                 del self._set[branch, number]
                 # after a hook of the mission at that instant, as if it were in a branch of its own
                 key, expire = branch.key + number, partial(limit.expire, branch)
-                self._kernel.schedule(now, EventKind.TIMER, key, expire)
+                self._kernel.at(now, EventKind.TIMER, key, expire)
             else:
                 self._due_at = min(self._due_at, limit.until)
         if self._due_at < inf:

@@ -61,7 +61,7 @@ def test_those_that_a_level_suffices_for_are_found_without_all(
     """Whatever has been asked before, and whichever have got a drone since."""
     kind, asked = requests(motion, space, places)
     one = drone(kind, home, here)
-    assert all(request.at_least(one, here) <= request.level(one) for request in asked)
+    assert all(request.at_least(one, here) <= request.level(one, here) for request in asked)
     arrived = asked[: len(asked) // 2]
     needs = Needs(one, arrived)
     needs.least(level)
@@ -70,6 +70,8 @@ def test_those_that_a_level_suffices_for_are_found_without_all(
         asked[number].is_set = True
     left = [request for request in asked if not request.is_set]
     assert set(needs.up_to(level, 100)) == {
-        request for request in left if request.level(one) <= level
+        request for request in left if request.level(one, here) <= level
     }
-    assert needs.least() == min((request.level(one) for request in left), default=float("inf"))
+    assert needs.least() == min(
+        (request.level(one, here) for request in left), default=float("inf")
+    )

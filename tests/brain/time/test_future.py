@@ -8,7 +8,7 @@ import pytest
 
 from pluto_fleet.shared.domain.errors import Cancelled
 from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET, EventKind, Timer, branch_key, mission_key
+from pluto_fleet.shared.time.kernel import FLEET, EventKind, branch_key, mission_key
 from pluto_fleet.shared.time.told import ToldTime
 from pluto_fleet.shared.time.virtual import VirtualTime
 
@@ -63,9 +63,6 @@ def test_a_cancelled_timer_is_not_called_and_is_no_event() -> None:
     assert kernel.next_time() == 2
     kernel.call(2.0, (), lambda _: None)
     assert (called, kernel.next_time()) == ([2.0], None)
-    timer = Timer(partial(called.append, 9.0))
-    timer()
-    assert called == [2.0, 9.0]
 
 
 @pytest.mark.parametrize("when", [-5.0, float("nan"), 3.0])
@@ -92,7 +89,7 @@ def test_the_queue_is_served_when_all_else_of_an_instant_is_done() -> None:
         kernel.at(kernel.now, EventKind.FLIGHT, 0, partial(seen.append, "flight"))
 
     def begin() -> None:
-        kernel.at_the_end = serve
+        kernel.at(kernel.now, EventKind.SERVE, 0, serve)
         kernel.at(kernel.now, EventKind.ALLOCATE, 0, partial(seen.append, "last"))
         kernel.at(kernel.now, EventKind.CLOCK, 0, partial(seen.append, "clock"))
 

@@ -141,3 +141,15 @@ def test_in_virtual_time_a_hook_that_awaits_asyncio_is_told_what_it_may_await() 
         kernel.run(task)
         with pytest.raises(RuntimeError, match=r"only what its context offers"):
             task.result()
+
+
+def test_a_coroutine_that_is_cancelled_before_its_first_turn_never_runs() -> None:
+    """Even the very first event of a kernel."""
+    kernel = VirtualTime()
+
+    async def runs() -> None:
+        raise ZeroDivisionError
+
+    kernel.spawn(runs(), 0, "first").cancel()
+    kernel.run(kernel.spawn(kernel.sleep(1.0), 1, "clock"))
+    assert kernel.now == 1.0

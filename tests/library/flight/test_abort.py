@@ -20,7 +20,7 @@ def delayed(living: Living, seconds: float) -> None:
 
     def late(message: Message) -> None:
         arrives = partial(hear, message)
-        kernel.schedule(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
+        kernel.at(kernel.now + seconds, EventKind.FLIGHT, FLEET, arrives)
 
     line.hear = late
 

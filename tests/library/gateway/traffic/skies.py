@@ -146,7 +146,7 @@ class Restless:
             stops = chance.choices(self.targets, k=chance.choice([1, 1, 2]))
             happens = chance.random() < self.mishaps
             if happens:
-                self.sky.kernel.schedule(
+                self.sky.kernel.at(
                     self.sky.kernel.now + chance.uniform(0.5, 30),
                     EventKind.CLOCK,
                     FLEET,
