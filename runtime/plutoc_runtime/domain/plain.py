@@ -9,8 +9,6 @@ from math import isfinite, log10
 from operator import index
 from typing import Any, TypeVar
 
-from .errors import ANY_ERROR
-from .guard import unless_by_a_person
 from .text import MOST_DIGITS
 
 T = TypeVar("T")
@@ -22,30 +20,21 @@ _FLOAT_BITS = 1_000
 _LARGEST = 1e12  # of a field, a coordinate, a time
 
 
-def plain_of(value: object) -> Any:
+def plain_of(value: Any) -> Any:
     """Return a truth, a number or a text as one of Python's own, NaN and infinity too; None: it is none."""
     try:
-        return _plain(value)
-    except ANY_ERROR as error:  # an error of its own class
-        unless_by_a_person(error)
+        if hasattr(value, "item") and not isinstance(value, (int, float, str)):
+            # a scalar, or an array of no dimension
+            value = value.item() if getattr(value, "shape", ()) == () else None
+        if isinstance(value, bool):
+            return value
+        if isinstance(value, str):
+            return str.__str__(value)
+        if not isinstance(value, float) and hasattr(value, "__index__"):
+            return int(index(value))
+        return float(value) if hasattr(value, "__float__") else None
+    except Exception:  # noqa: BLE001 - it is of a class of a hook's own
         return None
-
-
-def _plain(value: Any) -> Any:
-    kind = type(value)
-    if not issubclass(kind, (int, float, str)) and callable(item := getattr(kind, "item", None)):
-        # a scalar, or an array of no dimension
-        value = item(value) if getattr(value, "shape", ()) == () else None
-        kind = type(value)
-    if kind is bool:
-        return value
-    if issubclass(kind, str):
-        return str.__str__(value)
-    if issubclass(kind, float):
-        return float.__pos__(value)
-    if hasattr(kind, "__index__"):
-        return int.__pos__(index(value))
-    return float.__pos__(float(value)) if hasattr(kind, "__float__") else None
 
 
 def as_a(kind: type[T], value: object) -> T | None:

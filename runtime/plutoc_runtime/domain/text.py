@@ -4,12 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from math import log10
 from reprlib import Repr
-from typing import Any, cast
-
-from .errors import ANY_ERROR
-from .guard import unless_by_a_person
+from typing import Any
 
 LONGEST = 60
 
@@ -76,25 +72,15 @@ def bounded(text: str, longest: int) -> str:
 
 
 def text_of(value: object, otherwise: str = "") -> str:
-    """Return `str(value)`, or a default if that raises."""
-    kind = type(value)
-    if kind is str:
-        return cast("str", value)
+    """Return `str(value)`, or a default if that raises; what has no text of its own is shown."""
+    write = type(value).__str__
     try:
-        if issubclass(kind, BaseException) and kind.__str__ in (_AN_ERRORS, KeyError.__str__):
-            given = cast("BaseException", value).args  # which may be anything
-            if len(given) != 1:
-                return shown(given) if given else ""
-            return text_of(given[0], otherwise) if kind.__str__ is _AN_ERRORS else shown(given[0])
-        if kind.__str__ is object.__str__:  # a list, and all that has no text of its own
-            return shown(value)
-        return str.__str__(str(value))  # which may be of a class of its own
-    except ANY_ERROR as error:  # an error of its own class
-        unless_by_a_person(error)
+        if isinstance(value, BaseException) and write is BaseException.__str__ and value.args:
+            only, *more = value.args
+            return shown(value.args) if more else text_of(only, otherwise)
+        return shown(value) if write is object.__str__ else str(value)
+    except Exception:  # noqa: BLE001 - it is of a class of a hook's own
         return otherwise
-
-
-_AN_ERRORS = BaseException.__str__
 
 
 def shown(value: object) -> str:
@@ -103,8 +89,7 @@ def shown(value: object) -> str:
         if value is None or type(value) in (bool, float):
             return repr(value)
         return bounded(_ADDRESS.sub("", _Everything().repr(value)), LONGEST_VALUE)
-    except ANY_ERROR as error:  # an error of its own class
-        unless_by_a_person(error)
+    except Exception:  # noqa: BLE001 - it is of a class of a hook's own
         return f"<{class_of(value)} that cannot be shown>"
 
 
@@ -115,22 +100,19 @@ def said(error: BaseException) -> str:
 
 
 def class_of(value: object) -> str:
-    """Return the name of a value's class, even if its metaclass hides it."""
-    name: str = type.__dict__["__name__"].__get__(type(value))
-    return bounded(str.__str__(name), LONGEST)
+    """Return the name of a value's class."""
+    return bounded(type(value).__name__, LONGEST)
 
 
-LONGEST_REASON, LONGEST_LOG = 2_000, 20_000
-"""Characters of what a hook says of a failure, and of a line that it has logged."""
-
+LONGEST_REASON = 2_000  # characters of what a hook says of a failure
+LONGEST_LOG = 20_000  # characters of a line that it has logged
 LONGEST_VALUE = 10_000  # characters of a value that is kept as text
-
 _PARTS = 10_000
 """Elements of it that are looked at: each may hold many others, and these the same ones."""
 
 
 class _Everything(Repr):
-    """Like `repr`, but sorted, bounded, and safe against objects that raise."""
+    """Like `repr`, but sorted and bounded."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -143,16 +125,7 @@ class _Everything(Repr):
     def repr1(self, x: Any, level: int) -> str:
         """Write a part of it."""
         self._left -= 1
-        kinds: tuple[Any, ...] = (list, tuple, dict)
-        for kind in kinds:  # a class that is made of one of these is written as that
-            if type(x) is not kind and type(x).__repr__ is kind.__repr__:
-                x = kind(kind.__iter__(x)) if kind is not dict else dict(dict.items(x))
         return super().repr1(x, level) if self._left >= 0 else "…"
-
-    def repr_int(self, x: int, level: int) -> str:
-        """Format an integer, which may have more digits than Python allows."""
-        digits = int(x.bit_length() * log10(2)) + 1
-        return super().repr_int(x, level) if digits < MOST_DIGITS else f"<int of {digits:,} digits>"
 
 
 MOST_DIGITS = 600  # a number with more is kept as text: not every reader of JSON takes it

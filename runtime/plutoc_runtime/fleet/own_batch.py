@@ -8,14 +8,11 @@ from itertools import islice
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
-from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
-from ..domain.guard import unless_by_a_person
-from ..domain.keeper import reading
 from ..domain.model import Drone, Mission, Trip
 from ..domain.plain import number_of
-from ..domain.text import class_of, quoted, said
-from ..hooks.calls import hook_name, trace_of
+from ..domain.text import class_of, quoted
+from ..hooks.calls import ask_policy, hook_name
 from ..time.kernel import FLEET, EventKind
 from .batch import Batch
 
@@ -127,13 +124,7 @@ class _Asked:
         """Ask, and return the drones by the places of the trips; raise `HookFault`."""
         queue = self._queue
         question = partial(hook, tuple(self.waiting), self._free, queue.kernel.now)
-        try:
-            after, pairs = reading().run(all_awaited, partial(self._answer, question))
-        except HookFault:
-            raise
-        except BaseException as error:
-            unless_by_a_person(error)
-            raise HookFault(f"policy {self.name} raised {said(error)}", trace_of(error)) from error
+        after, pairs = ask_policy(self.name, partial(self._answer, question))
         chosen = dict[int, Drone]()
         for pair in pairs:
             place, drone = self._checked(pair, chosen)
@@ -157,9 +148,9 @@ class _Asked:
 
     def _checked(self, pair: Any, chosen: Mapping[int, Drone]) -> tuple[int, Drone]:
         """Return the place of a trip, and its drone, if one may have the other."""
-        if not (issubclass(type(pair), (tuple, list)) and len(pair) == 2):
+        if not (isinstance(pair, (tuple, list)) and len(pair) == 2):
             raise self._fault(f"must return pairs of a waiting trip and a drone, not {_what(pair)}")
-        one, drone = pair[0], pair[1]
+        one, drone = pair
         places = (n for n, waits in enumerate(self.waiting) if waits is one)
         if (place := next(places, None)) is None:
             raise self._fault(f"gives a drone to {_what(one)}, which is none of those that wait")

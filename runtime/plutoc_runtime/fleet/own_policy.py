@@ -6,13 +6,10 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..domain.awaited import all_awaited
 from ..domain.errors import HookFault
-from ..domain.guard import unless_by_a_person
-from ..domain.keeper import reading
 from ..domain.model import Drone
-from ..domain.text import class_of, said
-from ..hooks.calls import hook_name, trace_of
+from ..domain.text import class_of
+from ..hooks.calls import ask_policy, hook_name
 from .own_batch import chooses_for_all, own_batch
 
 if TYPE_CHECKING:
@@ -27,17 +24,13 @@ def own_policy(hook: Callable[..., Any]) -> Policy:
 
 def _trip_by_trip(hook: Callable[[Any, Sequence[Drone]], Drone | None]) -> OneByOne:
     """Make a policy of a hook for one trip; it raises `HookFault` for what that may not answer."""
+    name = hook_name(hook)
 
     def choose(trip: Trip, free: Sequence[Drone], able: Able) -> Choice | None:
         candidates = tuple(filter(able, free))
         if not candidates:
             return None
-        name = hook_name(hook)
-        try:
-            drone = reading().run(all_awaited, partial(hook, trip, candidates))
-        except BaseException as error:
-            unless_by_a_person(error)
-            raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
+        drone = ask_policy(name, partial(hook, trip, candidates))
         if drone is None:
             return None
         if not any(drone is candidate for candidate in candidates):

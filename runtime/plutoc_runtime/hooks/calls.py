@@ -6,11 +6,12 @@ from collections.abc import Callable, Coroutine, Generator
 from contextvars import Context
 from functools import partial
 from types import CoroutineType, coroutine
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..domain.awaited import all_awaited
-from ..domain.errors import ANY_ERROR, ActionFailed, Cancelled, HookFault
-from ..domain.guard import by_a_person, guarded, unless_by_a_person
+from ..domain.errors import ActionFailed, Cancelled, HookFault
+from ..domain.guard import guarded, unless_by_a_person
+from ..domain.keeper import reading
 from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
 from ..time.future import Future
 from ..time.kernel import ForeignAwait
@@ -54,11 +55,10 @@ async def offer(kernel: ToldTime, future: Future[T]) -> T:
 
 async def _finished(context: Context, result: object) -> object:
     """Return what a hook has returned; a coroutine is run to its end."""
-    if not issubclass(type(result), CoroutineType):  # a hook's result may lie about its class
+    if not isinstance(result, CoroutineType):
         return result
-    waiting = cast("Coroutine[Any, Any, object]", result)
     try:
-        return await _run_cancellable(context, waiting)
+        return await _run_cancellable(context, result)
     except RuntimeError as error:
         if isinstance(error, ForeignAwait) or "no running event loop" in str(error):
             raise RuntimeError(
@@ -90,10 +90,9 @@ def _run_cancellable(context: Context, hook: Coroutine[Any, Any, T]) -> Generato
             for call in (partial(hook.throw, error), hook.close):
                 try:
                     context.run(call)
-                except ANY_ERROR as its_own:  # its result is not wanted any more
-                    if by_a_person(its_own):
-                        raise
-                    if type(its_own) is StopIteration and type(error) is Cancelled:
+                except BaseException as its_own:  # noqa: BLE001 - its result is not wanted any more
+                    unless_by_a_person(its_own)
+                    if isinstance(its_own, StopIteration) and isinstance(error, Cancelled):
                         error.returned = its_own.value
             raise
 
@@ -103,12 +102,23 @@ def fault_of(hook: Hook, error: BaseException) -> HookFault:
 
     Even `SystemExit` is a fault: it would end all flights. A `KeyboardInterrupt` is the user's.
     """
-    if issubclass(type(error), ActionFailed):
+    if isinstance(error, ActionFailed):
         text = bounded(text_of(error), LONGEST_REASON)
         reason = f"hook {hook_name(hook)} raised ActionFailed, which only an action may: {text}"
     else:
         reason = f"hook {hook_name(hook)} raised {said(error)}"
     return HookFault(reason, trace_of(error))
+
+
+def ask_policy(name: str, question: Callable[[], T]) -> T:
+    """Ask a policy, which may write nothing and cannot wait; what it raises is its fault."""
+    try:
+        return reading().run(all_awaited, question)
+    except HookFault:
+        raise
+    except BaseException as error:
+        unless_by_a_person(error)
+        raise HookFault(f"policy {name} raised {said(error)}", trace_of(error)) from error
 
 
 def hook_name(hook: Hook) -> str:
@@ -119,14 +129,6 @@ def hook_name(hook: Hook) -> str:
 
 def trace_of(error: BaseException) -> str:
     """Return the traceback of a hook's error, for the log."""
-    import traceback  # only where something has gone wrong
+    from traceback import format_exception  # only where something has gone wrong
 
-    try:
-        if all(type(given) in (str, int, float) for given in error.args):
-            return bounded("".join(traceback.format_exception(error)).rstrip(), LONGEST_LOG)
-    except ANY_ERROR as its_own:
-        unless_by_a_person(its_own)
-    # Python would ask what it was given how it is written, which may take for ever
-    through = BaseException.__dict__["__traceback__"].__get__(error)
-    lines = ["Traceback (most recent call last):\n", *traceback.format_tb(through)]
-    return bounded("".join(lines), LONGEST_LOG) + said(error)
+    return bounded("".join(format_exception(error)).rstrip(), LONGEST_LOG)

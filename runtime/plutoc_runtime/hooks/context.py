@@ -47,8 +47,12 @@ class Context:
         latest: Callable[[], LatestFlight | None],
         live: LiveDrone | None = None,
     ) -> None:
-        self._kernel, self._results, self._log = kernel, results, log
-        self._mission, self._latest, self._live = mission, latest, live
+        self._kernel = kernel
+        self._results = results
+        self._log = log
+        self._mission = mission
+        self._latest = latest
+        self._live = live
 
     @property
     def now(self) -> float:
@@ -83,7 +87,8 @@ class Context:
         With `within`, wait no longer than so many seconds from the trip's start: False means that
         it is still flying. At the very same instant the trip's own end wins.
         """
-        flight, over = self._latest(), Future[object]()
+        flight = self._latest()
+        over = Future[object]()
         if trip.ended or flight is None or flight.trip is not trip:
             return trip.ended
         until = None if within is None else (trip.start_time or 0.0) + _finite(within)
@@ -130,7 +135,10 @@ class LiveDrone:
     __slots__ = ("_drone", "_is_over", "_kernel", "_key", "_orders")
 
     def __init__(self, kernel: ToldTime, orders: Instruments, drone: Drone, key: Key) -> None:
-        self._kernel, self._orders, self._drone, self._key = kernel, orders, drone, key
+        self._kernel = kernel
+        self._orders = orders
+        self._drone = drone
+        self._key = key
         self._is_over = False
 
     @property
@@ -172,7 +180,8 @@ class LiveDrone:
 
     async def _asked(self, do: str, name: str, **more: float) -> Any:
         """Give the order within the kernel, and wait for the answer in a hook."""
-        kernel, drone = self._kernel, self._now.id
+        kernel = self._kernel
+        drone = self._now.id
 
         def begin() -> Task[Any]:
             asks = self._orders.ask(do, drone, name=name, **more)
@@ -209,7 +218,8 @@ class View(Sequence[Result[Any, Any]]):
     """The results so far, read-only: nothing is copied for each evaluation."""
 
     def __init__(self, results: Sequence[Result[Any, Any]]) -> None:
-        self._results, self._count = results, len(results)
+        self._results = results
+        self._count = len(results)
 
     def __len__(self) -> int:
         return self._count

@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, cast
 
 from ..domain.actions import PICK, RELEASE
-from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
 from ..domain.keeper import keep, keeper_of, put, read_only
@@ -43,7 +42,7 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
             or _wrong_item(trip)
             or wrong_field(app.fields, Entity.TRIP, trip, app.evaluators)
         )
-    except ANY_ERROR as error:  # what a hook has put there may be of any class
+    except BaseException as error:  # noqa: BLE001 - what a hook has put there may be of any class
         unless_by_a_person(error)
         wrong = f"it cannot be read: {said(error)}"
     return wrong and f"trip {trip.name if type(trip.name) is str else shown(trip.name)}: {wrong}"
@@ -61,8 +60,16 @@ def taken_in(mission: Mission[Any], trip: Trip, *, added: bool) -> str | None:
     while trip.name in keeper.names:
         keeper.names[name] += 1
         put(trip, name=f"{name} {keeper.names[name]}")
-    first: dict[str, object] = dict.fromkeys(("drone", "start_time", "end_time"))
-    put(trip, status=TripStatus.WAITING, attempt=1, reason="", added=added, **first)
+    put(
+        trip,
+        status=TripStatus.WAITING,
+        attempt=1,
+        reason="",
+        added=added,
+        drone=None,
+        start_time=None,
+        end_time=None,
+    )
     keep(keeper, mission, (trip,))
     return None
 

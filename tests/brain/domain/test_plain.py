@@ -40,7 +40,7 @@ class Colour(StrEnum):
 
 
 def refuses(*_: object) -> Any:
-    raise SystemExit
+    raise ValueError
 
 
 @pytest.mark.parametrize(

@@ -49,7 +49,6 @@ from pluto_fleet.shared.domain.quantities import (
         (lambda long: text.bounded(long, 3), "abc", "abc"),
         (lambda long: text.bounded(long, 3), "abcd" * 300, "abc… (1,200 characters in all)"),
         (text.shown, [2.5, None, {"b": 1, "a": (1,)}], "[2.5, None, {'a': (1,), 'b': 1}]"),
-        (text.shown, 10**700, "<int of 701 digits>"),
         (text.said, ValueError("no"), "ValueError: no"),
         (text.said, ValueError(), "ValueError"),
         (text.said, KeyError("no"), "KeyError: 'no'"),
