@@ -27,7 +27,7 @@ from pluto_fleet.journal.store import Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 
 HEADER = {"event": "journal.begun", "app": APP.name}
 GROUPS = (1, 10, 100, 1_000)

@@ -24,7 +24,7 @@ from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.motion import Motion
 from pluto_fleet.shared.time.kernel import Kernel
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps

@@ -17,9 +17,8 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Kernel, Key, Task, Timer
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Future, Kernel, Key, Task, Timer
+from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
 from tests.kit import apps

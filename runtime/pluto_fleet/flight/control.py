@@ -16,8 +16,7 @@ from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, Task
+from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
 from .mission_status import aside, in_order

@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..shared.hooks.plain_data import mission_data
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, EventKind
+from ..shared.time.kernel import FLEET, EventKind, Future
 
 if TYPE_CHECKING:
     from ..app import App

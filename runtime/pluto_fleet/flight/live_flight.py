@@ -22,8 +22,7 @@ from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
 from ..process.wall_clock import WallClock
 from ..shared.domain.errors import BadInput, Cancelled
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET
+from ..shared.time.kernel import FLEET, Future
 from .commands import hear_commands, joining_in, perform, stop_in
 from .config import End, FlightResult
 from .recorded_flight import RecordedFlight

@@ -15,8 +15,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import place, quoted
 from ..shared.domain.values import shortened
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, Task
+from ..shared.time.kernel import FLEET, Future, Task
 from .control import Control
 from .driver import begun
 from .recorded_brain import RecordedBrain

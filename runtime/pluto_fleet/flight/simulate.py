@@ -12,7 +12,7 @@ from ..app import App
 from ..shared.alone.simulate import Alone, Bound, Outcome, Run, see_through
 from ..shared.alone.simulate import simulate as without_traffic
 from ..shared.fleet.telemetry import KnownState
-from ..shared.time.virtual import VirtualTime
+from ..shared.time.told import VirtualTime
 from .driver import take_up
 from .outcome import SimulationResult, result_of
 

@@ -26,8 +26,7 @@ if TYPE_CHECKING:
     from ..shared.alone.faults import Faults
     from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
-    from ..shared.time.future import Future
-    from ..shared.time.kernel import Kernel
+    from ..shared.time.kernel import Future, Kernel
     from ..simulation.body import SimulatedBody
 
 Listener = Callable[["Event"], object]

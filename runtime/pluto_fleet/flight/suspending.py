@@ -11,8 +11,7 @@ from ..jobs.reports import reported_result
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import quoted
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, Task
+from ..shared.time.kernel import FLEET, Future, Task
 from .mission_status import aside
 from .reconcile import (
     PROBED,

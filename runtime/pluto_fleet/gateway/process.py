@@ -24,8 +24,7 @@ from ..shared.alone.world import World
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CRAZYFLIE
 from ..shared.domain.text import printable
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, EventKind
+from ..shared.time.kernel import FLEET, EventKind, Future
 from ..simulation.drones import SimulatedDrone, SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..shared.fleet.orders import failure_of
-from ..shared.time.future import Future
+from ..shared.time.kernel import Future
 from .reports import Down, DroneReport, FleetReport, drone_report_of, fleet_report_of
 
 if TYPE_CHECKING:

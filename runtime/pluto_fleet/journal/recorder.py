@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol
 
-from ..shared.time.future import Future
+from ..shared.time.kernel import Future
 from .event_line import exact
 from .fold import Records
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Callable
 
-from ..shared.time.future import Watcher
+from ..shared.time.kernel import Watcher
 from .hook_calls import End, end_at_once, end_of, never_waits
 from .realtime import RealTime
 

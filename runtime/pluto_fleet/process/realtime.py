@@ -9,8 +9,7 @@ from math import inf
 from typing import TypeVar
 
 from ..shared.domain.errors import ANY_ERROR
-from ..shared.time.future import Future
-from ..shared.time.kernel import Call, EventKind, Kernel, Key, Timer
+from ..shared.time.kernel import Call, EventKind, Future, Kernel, Key, Timer
 from .hook_calls import End, end_at_once, end_of, never_waits
 from .signal_guard import by_a_person, guard_hooks
 

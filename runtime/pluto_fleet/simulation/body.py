@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..shared.alone.world import World
     from ..shared.domain.fleet_data import FleetData
     from ..shared.domain.trace import Clock
-    from ..shared.time.future import Future
+    from ..shared.time.kernel import Future
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,8 +14,7 @@ from ..shared.alone.faults import CARRYING_HOME, Faults, draw
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import place
-from ..shared.time.future import Future
-from ..shared.time.kernel import EventKind, Kernel
+from ..shared.time.kernel import EventKind, Future, Kernel
 from .body import SimulatedBody, SimulatedDrone
 
 if TYPE_CHECKING:

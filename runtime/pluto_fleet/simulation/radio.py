@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..jobs.controls import Cut, ForwardingControls, Read, Write
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.time.future import Future
-from ..shared.time.kernel import FLEET, EventKind, Kernel
+from ..shared.time.kernel import FLEET, EventKind, Future, Kernel
 
 if TYPE_CHECKING:
     from ..jobs.controls import Command, Controls

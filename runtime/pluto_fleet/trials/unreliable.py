@@ -13,7 +13,7 @@ from ..jobs.link import Link
 from ..shared.domain.guard import guarded
 from ..shared.fleet.orders import failure_of
 from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
-from ..shared.time.virtual import VirtualTime
+from ..shared.time.told import VirtualTime
 from .case import BrokenHook
 
 if TYPE_CHECKING:

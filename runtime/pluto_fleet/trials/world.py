@@ -11,7 +11,7 @@ from ..shared.alone.faults import Faults
 from ..shared.alone.world import World
 from ..shared.time.kernel import FLEET
 from ..shared.time.kernel import EventKind as When
-from ..shared.time.virtual import VirtualTime
+from ..shared.time.told import VirtualTime
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio

@@ -20,10 +20,8 @@ from ..domain.status import RUNNING, Status, TripStatus
 from ..domain.trace import Trace
 from ..hooks.calls import call_hook, hook_name
 from ..hooks.context import Context, LiveDrone, can_wait, results_for
-from ..time.future import Future
-from ..time.kernel import FLEET, EventKind, Task
-from ..time.told import Stuck
-from ..time.virtual import VirtualTime
+from ..time.kernel import FLEET, EventKind, Future, Task
+from ..time.told import Stuck, VirtualTime
 from ..trips.transitions import Transitions
 
 P = ParamSpec("P")

@@ -15,8 +15,7 @@ from ..domain.keeper import put
 from ..domain.model import AfterTrip
 from ..domain.status import DroneStatus
 from ..domain.text import cut_off, printable
-from ..time.future import Future
-from ..time.kernel import FLEET, EventKind, Kernel, Key, Task
+from ..time.kernel import FLEET, EventKind, Future, Kernel, Key, Task
 from .reach import LOW, docked
 
 if TYPE_CHECKING:

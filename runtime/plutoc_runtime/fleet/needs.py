@@ -8,7 +8,7 @@ from math import hypot, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.keeper import trips_of
-from ..time.future import Future
+from ..time.kernel import Future
 from .reach import Reach, chain_of, docked, miss_of
 
 if TYPE_CHECKING:
@@ -20,19 +20,6 @@ UNCHARGED = "what is left in its battery is too little, and nothing charges it a
 
 class Request(Future["Drone"]):
     """A mission's request for a drone; as a future it is set to the drone that it gets."""
-
-    __slots__ = (
-        "_levels",
-        "_reach",
-        "hurries",
-        "mission",
-        "policy",
-        "rank",
-        "since",
-        "trip",
-        "trips",
-        "why",
-    )
 
     def __init__(
         self,

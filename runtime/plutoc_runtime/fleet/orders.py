@@ -16,7 +16,7 @@ from ..domain.errors import BadInput, Failure, FlightFailed
 from ..domain.keeper import Keeper, hand_to
 from ..domain.model import Drone
 from ..hooks.plain_data import value_of
-from ..time.future import Future
+from ..time.kernel import Future
 from .telemetry import KnownState
 
 if TYPE_CHECKING:

@@ -13,8 +13,7 @@ from ..domain.keeper import Keeper, keep, keeper_of, trips_of
 from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..domain.text import said
-from ..time.future import Future
-from ..time.kernel import Task, mission_key
+from ..time.kernel import Future, Task, mission_key
 from .mission import Core, MissionState
 from .promises import Promises
 from .run import Run

@@ -16,8 +16,7 @@ from ..fleet.reach import needed
 from ..hooks.calls import Hook, call_hook, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
-from ..time.future import Future
-from ..time.kernel import EventKind, mission_key
+from ..time.kernel import EventKind, Future, mission_key
 from .asking import kept_by, take_over
 
 if TYPE_CHECKING:

@@ -18,8 +18,7 @@ from ..domain.fields import time_of_day
 from ..domain.keeper import plain_again, put, read_only
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
-from ..time.future import Future
-from ..time.kernel import EventKind, mission_key
+from ..time.kernel import EventKind, Future, mission_key
 
 if TYPE_CHECKING:
     from ..domain.model import Mission

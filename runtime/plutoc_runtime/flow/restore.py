@@ -22,7 +22,7 @@ from ..hooks.plain_data import (
     value_data,
     value_of,
 )
-from ..time.future import Future
+from ..time.kernel import Future
 from ..trips.flight import Flight
 from .standing import update
 

@@ -13,8 +13,7 @@ from ..domain.errors import ActionFailed, Cancelled, HookFault
 from ..domain.guard import guarded, unless_by_a_person
 from ..domain.keeper import reading
 from ..domain.text import LONGEST_LOG, LONGEST_REASON, bounded, said, text_of
-from ..time.future import Future
-from ..time.kernel import ForeignAwait
+from ..time.kernel import ForeignAwait, Future
 
 if TYPE_CHECKING:
     from ..time.told import ToldTime

@@ -13,8 +13,7 @@ from ..domain.keeper import put
 from ..domain.model import NO_RESULT, Result, Results
 from ..domain.plain import number_of
 from ..domain.text import class_of, text_of
-from ..time.future import Future
-from ..time.kernel import EventKind, mission_key
+from ..time.kernel import EventKind, Future, mission_key
 from .calls import offer
 
 if TYPE_CHECKING:

@@ -1,13 +1,15 @@
-"""The time of a brain: its caller tells it what time it is, and which hooks have ended."""
+"""The time of a brain: its caller tells it what time it is, and which hooks have ended.
+
+In virtual time it jumps to the next event by itself, so a day is simulated in a moment.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
 from typing import Any, Protocol, TypeVar
 
-from .future import Future, Watcher
 from .hours import Hours
-from .kernel import EventKind, Kernel, Key
+from .kernel import EventKind, Future, Kernel, Key, Watcher
 
 T = TypeVar("T")
 
@@ -119,3 +121,30 @@ class ToldTime(Kernel):
         """Called when a hook that took its time has ended."""
         if message["hook"] in self.hooks:
             self.hooks[message["hook"]].set(None)
+
+
+class VirtualTime(ToldTime):
+    """A kernel that runs by itself."""
+
+    def run(self, done: Future[T], until: float | None = None) -> bool:
+        """Run until this future is set, or until a time; return whether it was set."""
+        done.watch(self._stop)
+        while not done.is_set and self.crashed is None:
+            self.over = False
+            when = self.next_time()
+            if when is None:
+                waiting = ", ".join(sorted(task.name for task in self.tasks))
+                raise Stuck(f"nothing will ever happen again; waiting: {waiting}")
+            if until is not None and when > until:
+                self.now = until
+                return False
+            self.now = when
+            self.drain()
+            if self.settled is not None:
+                self.settled()
+        if self.crashed is not None:
+            raise self.crashed
+        return True
+
+    def _stop(self, _: object) -> None:
+        self.over = True

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.status import FAILED, Status
 from ..hooks.plain_data import item_data
-from ..time.future import Future
-from ..time.kernel import EventKind, Kernel, Timer
+from ..time.kernel import EventKind, Future, Kernel, Timer
 
 if TYPE_CHECKING:
     from ..domain.actions import Action

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.time.future import Future
 from plutoc_runtime.time.hours import DAY
-from plutoc_runtime.time.kernel import EventKind
+from plutoc_runtime.time.kernel import EventKind, Future
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import Future
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status

@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import WORST_FIRST, Status
-from plutoc_runtime.time.future import Future
+from plutoc_runtime.time.kernel import Future
 
 if TYPE_CHECKING:
     from plutoc_runtime.flow.run import Branch, Run

@@ -15,7 +15,7 @@ from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, LiveDrone, can_wait
-from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import Future
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps, in_real_time
 

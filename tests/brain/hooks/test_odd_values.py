@@ -29,7 +29,7 @@ class Odd:
     def __repr__(self) -> str:
         raise ValueError
 
-    __str__ = __len__ = __bool__ = __repr__  # type: ignore[assignment]
+    __str__ = __len__ = __bool__ = __repr__
 
 
 class Level(IntEnum):

@@ -7,10 +7,8 @@ from functools import partial
 import pytest
 
 from pluto_fleet.shared.domain.errors import Cancelled
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET, EventKind, branch_key, mission_key
-from pluto_fleet.shared.time.told import ToldTime
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.kernel import FLEET, EventKind, Future, branch_key, mission_key
+from pluto_fleet.shared.time.told import ToldTime, VirtualTime
 
 
 def test_only_the_first_value_or_error_counts() -> None:

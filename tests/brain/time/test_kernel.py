@@ -10,10 +10,8 @@ import pytest
 from pluto_fleet.shared.domain.errors import Cancelled
 from pluto_fleet.shared.domain.keeper import reading
 from pluto_fleet.shared.hooks.calls import call_hook
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import EventKind
-from pluto_fleet.shared.time.told import Stuck
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.kernel import EventKind, Future
+from pluto_fleet.shared.time.told import Stuck, VirtualTime
 
 
 def test_events_of_one_instant_come_by_kind_then_key_in_any_order_of_entry() -> None:

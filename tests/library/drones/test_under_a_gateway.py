@@ -17,7 +17,7 @@ from pluto_fleet.gateway.server import Server
 from pluto_fleet.jobs.controls import TakeOff
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
-from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import Future
 from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from pluto_fleet.flight.driver import Driver
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 
 
 def test_a_driver_forgets_a_call_that_is_not_due_any_more() -> None:

@@ -7,7 +7,7 @@ import pytest
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.domain.status import DroneStatus
-from pluto_fleet.shared.time.future import Future
+from pluto_fleet.shared.time.kernel import Future
 from pluto_fleet.shared.time.told import Stuck
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names

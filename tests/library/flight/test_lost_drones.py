@@ -15,8 +15,7 @@ from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.shared.domain.model import Drone
 from pluto_fleet.shared.domain.status import DroneStatus
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.kernel import FLEET, Future
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
 from tests.library.journal.memory import Memory

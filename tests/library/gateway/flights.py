@@ -18,9 +18,8 @@ from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.fleet.orders import failure_of
 from pluto_fleet.shared.hooks.plain_data import item_data, value_of
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.kernel import FLEET, Future
+from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 

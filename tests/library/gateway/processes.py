@@ -26,8 +26,7 @@ from pluto_fleet.process import ipc
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.kernel import FLEET, Future
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.world_store import DEEDS
 from tests.kit import drones

@@ -26,8 +26,7 @@ from pluto_fleet.jobs.reports import Down, FleetReport, JobState
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Photo
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.shared.time.kernel import FLEET, Future
 from tests.library.gateway.flights import SCOUT, THERE, Commander, Field, Task
 from tests.library.gateway.processes import (
     SPEED,

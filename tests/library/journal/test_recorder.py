@@ -8,7 +8,7 @@ from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.recorder import Recorder
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 
 
 class Rows:

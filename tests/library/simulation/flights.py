@@ -13,7 +13,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.time.kernel import FLEET, Kernel
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 

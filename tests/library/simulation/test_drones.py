@@ -8,7 +8,7 @@ from pluto_fleet.jobs.controls import Act, GoTo, Hold
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Item
 from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 from tests.library.simulation.flights import (
     at_home,
     failure,

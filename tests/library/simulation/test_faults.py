@@ -12,7 +12,7 @@ from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.time.kernel import FLEET
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 from tests.library.simulation.flights import (
     CLIMB,
     HOME,

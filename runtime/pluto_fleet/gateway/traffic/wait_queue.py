@@ -9,7 +9,7 @@ from math import dist, inf
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...shared.domain.motion import CLIMB_SPEED, smoothly
-from ...shared.time.future import Future
+from ...shared.time.kernel import Future
 from .legs import leaves
 from .reservations import NEARLY, Reservation, are_near, legs_of, meets
 from .ways import Section

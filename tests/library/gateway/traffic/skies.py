@@ -14,8 +14,7 @@ from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
 from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.fleet.telemetry import resting
-from pluto_fleet.shared.time.future import Future
-from pluto_fleet.shared.time.kernel import FLEET, EventKind
+from pluto_fleet.shared.time.kernel import FLEET, EventKind, Future
 from pluto_fleet.shared.time.kernel import Task as Coroutine
 from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import Commander, Field, Task

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.time.virtual import VirtualTime
+from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.station.rows import blocks_of, living_row, recorded_row
 from pluto_fleet.station.wire import MissionRow, Words
 from pluto_fleet.station.words import words
