@@ -28,11 +28,7 @@ WELL = 10
 _SERIAL = re.compile(r"[0-9A-Fa-f]{10,}")
 _HEX = re.compile(r"[0-9A-Fa-f]+")
 _WHOLE = re.compile(r"[0-9]{1,9}")
-_HOST = re.compile(r"[A-Za-z0-9_-]{1,63}(\.[A-Za-z0-9_-]{1,63})*")
-_NUMBERS = re.compile(r"[0-9.]+")
-_DEVICE = re.compile(r"[-a-zA-Z0-9/.]+")
 _MOST_DEVICES = 999
-_LOCAL = {"localhost": "127.0.0.1"}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,14 +51,16 @@ class Address:
 def address_of(uri: str) -> Address:
     """Read an address; raise `ValueError` with what is wrong with it, to be said after the address."""
     scheme, marked, rest = uri.partition("://")
-    read = _READERS.get(scheme)
-    if not marked or read is None:
-        small = _READERS.get(scheme.lower())
-        hint = f"write {scheme.lower()}:// in small letters" if marked and small else _SCHEMES
+    if not marked or scheme not in _SCHEMES:
+        hint = f"it begins with {', '.join(f'{one}://' for one in _SCHEMES)}; such as {SUCH_AS}"
+        if marked and scheme.lower() in _SCHEMES:
+            hint = f"write {scheme.lower()}:// in small letters"
         raise ValueError(f"is no address of a Crazyflie: {hint}")
     if not rest.isascii() or not rest.isprintable() or set(rest) & set(" #@"):
         raise ValueError(f"has a character that no address has; write it like {SUCH_AS}")
-    return read(scheme, rest)
+    return (
+        _radio(rest) if scheme == "radio" else Address(uri=f"{scheme}://{_by_wire(scheme, rest)}")
+    )
 
 
 def radio_bytes(text: str) -> bytes:
@@ -78,7 +76,7 @@ def radio_bytes(text: str) -> bytes:
 _TEN = f"it has five bytes, ten hexadecimal digits, such as {USUAL}"
 
 
-def _radio(_: str, rest: str) -> Address:
+def _radio(rest: str) -> Address:
     path, _, query = rest.partition("?")
     dongle, _, path = path.partition("/")
     parts = path.strip("/").split("/")
@@ -142,56 +140,41 @@ def _check_query(query: str) -> None:
         )
 
 
-def _usb(_: str, rest: str) -> Address:
-    if not _WHOLE.fullmatch(rest) or int(rest) > _MOST_DEVICES:
-        raise ValueError("names no drone at a cable: write its number, usb://0 for the first")
-    return Address(uri=f"usb://{int(rest)}")
+_NETWORK = r"(?P<host>[A-Za-z0-9_.-]{1,255}):(?P<port>[0-9]{1,9})"
+_BY_WIRE = {
+    "usb": (r"[0-9]{1,3}", "usb://0, by the number of its cable"),
+    "udp": (f"{_NETWORK}/?", "udp://192.168.4.1:5000"),
+    "tcp": (f"{_NETWORK}/?", "tcp://192.168.4.1:5000"),
+    "prrt": (f"{_NETWORK}(/[0-9]{{1,6}})?", "prrt://10.8.0.208:5000/100"),
+    "serial": (r"[-a-zA-Z0-9/.]+", "serial://ttyACM0"),
+}
+"""How addresses are written that name no radio, and an example of each."""
+_SCHEMES = ("radio", *_BY_WIRE)
 
 
-def _network(scheme: str, rest: str) -> Address:
-    host, _, port = rest.removesuffix("/").partition(":")
-    if scheme == "prrt":
-        port = port.partition("/")[0]  # behind it is how long a packet may take
-    such = f"write it like {scheme}://192.168.4.1:5000"
-    if not _HOST.fullmatch(host):
-        raise ValueError(f"names no host; {such}")
-    if _NUMBERS.fullmatch(host) or scheme == "prrt":
+def _by_wire(scheme: str, rest: str) -> str:
+    """Return the canonical form of an address, without its scheme."""
+    pattern, such = _BY_WIRE[scheme]
+    match = re.fullmatch(pattern, rest)
+    if match is None:
+        raise ValueError(f"names no drone: write it like {such}")
+    if scheme == "usb":
+        return str(int(rest))
+    if scheme == "serial":
+        return rest
+    host, port = match["host"].lower(), int(match["port"])
+    if not 0 < port < 65536:
+        raise ValueError(f"names no port, a number from 1 to 65535; write it like {such}")
+    if scheme == "prrt" or not set(host) - set("0123456789."):
         from ipaddress import AddressValueError, IPv4Address  # rarely needed
 
         try:
             IPv4Address(host)
         except AddressValueError:
-            raise ValueError(f"names no host: it has four numbers up to 255; {such}") from None
-    if not _WHOLE.fullmatch(port) or not 0 < int(port) < 65536:
-        raise ValueError(f"names no port, a number from 1 to 65535; {such}")
-    host = host.lower()
-    return Address(uri=f"{scheme}://{_LOCAL.get(host, host)}:{int(port)}")
-
-
-def _prrt(scheme: str, rest: str) -> Address:
-    delay = rest.partition("/")[2]
-    if "/" in rest and not re.fullmatch(r"[0-9]{1,6}", delay):
-        raise ValueError("has no time behind its port: write it like prrt://10.8.0.208:5000/100")
-    if len(rest.partition("/")[0].partition(":")[2]) > 5:
-        raise ValueError("names no port, a number from 1 to 65535")
-    return _network(scheme, rest)
-
-
-def _serial(_: str, rest: str) -> Address:
-    if not _DEVICE.fullmatch(rest):
-        raise ValueError("names no serial device: write it like serial://ttyACM0")
-    return Address(uri=f"serial://{rest}")
-
-
-_READERS = {
-    "radio": _radio,
-    "usb": _usb,
-    "udp": _network,
-    "tcp": _network,
-    "prrt": _prrt,
-    "serial": _serial,
-}
-_SCHEMES = f"it begins with {', '.join(f'{scheme}://' for scheme in _READERS)}; such as {SUCH_AS}"
+            raise ValueError(
+                f"names no host, four numbers up to 255; write it like {such}"
+            ) from None
+    return f"{'127.0.0.1' if host == 'localhost' else host}:{port}"
 
 
 # What several on the air do to each other

@@ -1,4 +1,4 @@
-"""`[motion]` in a fleet file: how its drones move, read alike by both readers and written again."""
+"""`[motion]` in a fleet file: how its drones move, read with and without the library, and written again."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DRONE = '[[drone]]\nid = "cf1"\ncategory = "scout"\nhome = [1, 1]\n'
 
 
 def read(text: str) -> Motion:
-    """Return what a fleet file says; both readers take it for the same."""
+    """Return what a fleet file says, with and without the library."""
     with TemporaryDirectory() as folder:
         path = Path(folder, "fleet.toml")
         path.write_text(text, "utf-8")
