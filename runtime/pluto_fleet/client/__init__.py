@@ -3,7 +3,6 @@
 `docs/http.md` has an example.
 """
 
-from .connection import Outdated, Refused
-from .station import Station
+from .station import Outdated, Refused, Station
 
 __all__ = ["Outdated", "Refused", "Station"]

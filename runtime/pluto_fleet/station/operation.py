@@ -161,7 +161,8 @@ def in_words(error: str, fields: Mapping[str, Any]) -> str:
     """Return what msgspec finds wrong with data as a sentence for people, which names the place."""
     found = _SAID.fullmatch(error)
     assert found is not None
-    what, where = found["what"], found["where"] or "what was sent"
+    what = found["what"]
+    where = found["where"] or "what was sent"
     if match := re.fullmatch(r"Expected (.*?)(?:, got .*)?", what):
         return f"{where} must be {_named(match[1])}"
     if match := re.fullmatch(r"Object missing required field `(.*)`", what):

@@ -12,7 +12,7 @@ from itertools import repeat
 
 import pytest
 
-from pluto_fleet.client import Refused, Station, connection
+from pluto_fleet.client import Refused, Station, station
 from pluto_fleet.shared.domain.errors import BadInput
 
 PIECE = 0.02
@@ -93,8 +93,8 @@ def test_what_was_done_is_a_sentence(given: bytes) -> None:
 
 
 def test_an_answer_without_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(connection, "LARGEST_JSON", 2**20)
-    monkeypatch.setattr(connection, "LARGEST", 2**21)
+    monkeypatch.setattr(station, "LARGEST_JSON", 2**20)
+    monkeypatch.setattr(station, "LARGEST", 2**21)
     head = b"HTTP/1.1 200 OK\r\n\r\n"
     with serving(lambda: iter([head, *repeat(b"x" * 2**16, 1_000)])) as url:
         with pytest.raises(BadInput, match="is larger than 1 MiB"):

@@ -9,8 +9,6 @@ import asyncio
 import time
 from collections.abc import Awaitable, Callable, Iterator, Mapping
 from contextlib import aclosing, contextmanager
-from itertools import groupby
-from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from starlette.applications import Starlette
@@ -93,14 +91,13 @@ class Api(Starlette):
         self._static = dict(pages())
         if logo is not None:
             self._static["/logo"] = logo_file(logo)
-        path = attrgetter("path")
+        by_path: dict[str, dict[str, Operation]] = {}
+        for one in OPERATIONS.values():
+            by_path.setdefault(one.path, {})[one.method] = one
         routes = [
             WebSocketRoute(LIVE, self._live.talk),
-            *(
-                self._route(address, {one.method: one for one in operations})
-                for address, operations in groupby(sorted(OPERATIONS.values(), key=path), key=path)
-            ),
             Route("/map", self._floor_plan),
+            *(self._route(path, methods) for path, methods in by_path.items()),
         ]
         door = Middleware(_Door, guard=guard, audit=audit, pause=pause)
         refused = {Refused: self._refused, HTTPException: self._not_there}
@@ -142,9 +139,9 @@ class Api(Starlette):
             raise Refused(refusals.NO_SUCH_PAGE)
         return _file_reply(self._picture[1], request)
 
-    def _route(self, path: str, operations: Mapping[str, Operation]) -> Route:
+    def _route(self, path: str, methods: Mapping[str, Operation]) -> Route:
         async def answer(request: Request) -> Response:
-            operation = operations["GET" if request.method == "HEAD" else request.method]
+            operation = methods["GET" if request.method == "HEAD" else request.method]
             role = role_of(self.guard, request)
             if role is None or (operation.role == "fly" and role != "fly"):
                 raise Refused(refusals.WATCHES)
@@ -153,7 +150,7 @@ class Api(Starlette):
             with self._places.taken(operation, f"{role} {client_of(request)}"):
                 return await self._done(operation, request, role)
 
-        return Route(path, answer, methods=list(operations))
+        return Route(path, answer, methods=list(methods))
 
     async def _done(self, operation: Operation, request: Request, role: Role) -> Response:
         """Read what was sent, do what is asked, and note that in the audit."""
@@ -216,7 +213,8 @@ def refusal_reply(why: Refusal) -> Response:
 
 async def _body(operation: Operation, request: Request) -> bytes:
     """Read a body to its end; raise `Refused` if it is of another type, too long or too slow."""
-    types, most = operation.takes or (JSON,), operation.most_bytes
+    types = operation.takes or (JSON,)
+    most = operation.most_bytes
     if header(request, "content-type").partition(";")[0].strip().lower() not in types:
         raise Refused(refusals.wrong_type(" or ".join(types)))
     length = header(request, "content-length") or "0"
@@ -256,7 +254,8 @@ class _Places:
         rate = self._edits if operation.path.startswith("/api/plan") else self._commands
         if not (self._reads if operation.method == "GET" else rate).allows(client):
             raise Refused(refusals.TOO_MANY)
-        reads, is_large = operation.reads_flights, operation.most_bytes > SMALL_BODY
+        reads = operation.reads_flights
+        is_large = operation.most_bytes > SMALL_BODY
         if (
             self._under_way >= _MOST_UNDER_WAY
             or (reads and self._reading >= _MOST_READING)

@@ -49,7 +49,8 @@ class Audit:
         now: Callable[[], float] = time.time,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._file, self._now = file, now
+        self._file = file
+        self._now = now
         self._refusals = Rate(_REFUSALS_A_SECOND, clock, _REFUSALS_AT_ONCE)
         self._left_out = 0
 

@@ -34,7 +34,8 @@ class Rate:
     def __init__(
         self, a_second: float, clock: Callable[[], float], at_once: float | None = None
     ) -> None:
-        self._a_second, self._clock = a_second, clock
+        self._a_second = a_second
+        self._clock = clock
         self._at_once = a_second if at_once is None else at_once
         self._left: dict[str, tuple[float, float]] = {}
 
@@ -179,7 +180,8 @@ def _is_ours(guard: Guard, host: str, local: str) -> bool:
     found = _HOST.fullmatch(host)
     if found is None:
         return False
-    name, port = found.group(1), int(found.group(2) or _PLAIN_PORT)
+    name = found.group(1)
+    port = int(found.group(2) or _PLAIN_PORT)
     for other in guard.names:
         if host == other or (name == other and port in (guard.port, _PLAIN_PORT)):
             return True
@@ -190,7 +192,8 @@ def _is_own(bound: str, name: str, local: str) -> bool:
     """Whether a name needs no --name: an address of this machine at which it listens."""
     if is_loopback(bound) and name in _LOOPBACK:
         return True
-    here, meant = _address(local), _address(name)
+    here = _address(local)
+    meant = _address(name)
     if meant is None:
         return name == bound.lower() or (
             name == "localhost" and here is not None and here.is_loopback

@@ -84,7 +84,7 @@ def _description() -> bytes:
 
 async def command(asked: Asked, id: str, **given: Any) -> str:
     """Carry out the command that the address names."""
-    name = asked.request.url.path.removeprefix("/api/")
+    name = asked.request.scope["path"].removeprefix("/api/")
     return await asked.station.command(name, id, given, who(asked.request))
 
 

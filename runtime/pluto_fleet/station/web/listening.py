@@ -23,18 +23,14 @@ def listening(host: str, port: int) -> socket.socket:
     if not 0 <= port < _PORTS:
         raise BadInput(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:
-        family, kind, protocol, _, address = socket.getaddrinfo(
+        family, _, _, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
-        listener = socket.socket(family, kind, protocol)
     except (OSError, ValueError):  # ValueError: an invalid host name
         raise BadInput(f"--host {quoted(host)}: there is no such address") from None
     try:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind(address)
-        listener.listen(_BACKLOG)
+        listener = socket.create_server(address, family=family, backlog=_BACKLOG)
     except OSError as error:
-        listener.close()
         raise BadInput(_why(error, host, port)) from None
     listener.setblocking(False)
     not_for_children(listener.fileno())
@@ -75,15 +71,10 @@ def _own() -> str:
 
 
 def _why(error: OSError, host: str, port: int) -> str:
-    match error.errno:
-        case code if code == EADDRINUSE:
-            return (
-                f"port {port} is taken, perhaps by another station:"
-                " end that, or choose another port with --port (0 takes any that is free)"
-            )
-        case code if code == EACCES:
-            return f"port {port} needs special rights: choose one above 1023 with --port"
-        case code if code == EADDRNOTAVAIL:
-            return f"--host {quoted(host)}: this machine has no such address"
-        case _:
-            return f"cannot listen at {quoted(host)}, port {port}: {error}"
+    known = {
+        EADDRINUSE: f"port {port} is taken, perhaps by another station:"
+        " end that, or choose another port with --port (0 takes any that is free)",
+        EACCES: f"port {port} needs special rights: choose one above 1023 with --port",
+        EADDRNOTAVAIL: f"--host {quoted(host)}: this machine has no such address",
+    }
+    return known.get(error.errno or 0, f"cannot listen at {quoted(host)}, port {port}: {error}")
