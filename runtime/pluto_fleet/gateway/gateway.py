@@ -74,11 +74,11 @@ class Line(Link):
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return a drone's telemetry, which is always current."""
-        return self.gateway.navigation.telemetry[drone]
+        return self.gateway.executor.telemetry[drone]
 
     def moves(self, drone: str) -> bool:
         """Return whether a drone is carrying out a command now."""
-        return self.gateway.navigation.moves(drone)
+        return self.gateway.executor.moves(drone)
 
     def send(self, order: Order) -> None:
         """Obey an order, unless another brain is obeyed; raise `Busy` if its drone does something else."""
@@ -166,7 +166,7 @@ class Line(Link):
         """Obey it no more, and notify its brain."""
         self._is_heard = False
         for drone in list(self._busy):
-            self.gateway.navigation.break_off(drone)
+            self.gateway.executor.break_off(drone)
         self._call_off()
         if self._lost is not None:
             kernel = self.gateway.kernel
@@ -217,7 +217,7 @@ class Gateway:
                 slack=slack,
                 max_airborne=max_airborne,
             )
-        self.navigation = Executor(
+        self.executor = Executor(
             kernel,
             controls,
             drones,
@@ -231,7 +231,7 @@ class Gateway:
         self.drones, self._airspace = tuple(drones), airspace
         self.keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         """The keys of their events in the kernel."""
-        self.jobs = Jobs(kernel, self.navigation.fly, self.keys, airspace, ledger)
+        self.jobs = Jobs(kernel, self.executor.fly, self.keys, airspace, ledger)
         self.commander: Line | None = None
         """The line of the brain in command."""
         self._epoch = 0
@@ -297,7 +297,7 @@ class Gateway:
         self.drones = (*self.drones, drone)
         self.keys[drone.id] = FLEET + 1 + drone.index  # its jobs have the same mapping
         self.jobs.boots[drone.id] = 0
-        self.navigation.join(drone)
+        self.executor.join(drone)
         if self.traffic is not None:
             self.traffic.join(drone)
         return ""
@@ -320,14 +320,14 @@ class Gateway:
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover."""
         self.jobs.break_off(drone)
-        self.navigation.break_off(drone)
+        self.executor.break_off(drone)
 
     # Without a brain
 
     @property
     def flies(self) -> bool:
         """Whether any drone is in the air."""
-        return any(not known.landed for known in self.navigation.telemetry.values())
+        return any(not known.landed for known in self.executor.telemetry.values())
 
     def _watch(self) -> None:
         """Land everything when the brain was silent for too long while it could be heard; look again."""
@@ -356,12 +356,12 @@ class Gateway:
             self.descent.cancel()
         self.cut()
         for drone in self.drones:
-            self.navigation.break_off(drone.id)
+            self.executor.break_off(drone.id)
 
     async def cut_motors(self, drone: str) -> str:
         """Switch a drone's motors off now, with or without a brain; return why if it cannot be reached."""
         try:
-            await self.navigation.cut_motors(drone)
+            await self.executor.cut_motors(drone)
         except FlightFailed as error:
             return str(error)
         return ""
@@ -379,14 +379,14 @@ class Gateway:
 
     async def ask(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; its next jobs are known by its boot."""
-        report = await self.navigation.drone_report(drone)
+        report = await self.executor.drone_report(drone)
         if report.reached:
             self.jobs.boots[drone] = report.boot
         return report
 
     async def recover(self, drone: str) -> bool:
         """Bring a drone home after a failed flight; it may have been restarted meanwhile."""
-        found = await self.navigation.recover(drone)
+        found = await self.executor.recover(drone)
         if found:
             await self.ask(drone)
         return found
@@ -400,7 +400,7 @@ class Gateway:
             descent.cancel()
         for drone in self.drones:
             self.break_off(drone.id)
-        ways = Descent(self.kernel, self.navigation, self.drones, self._airspace, self.traffic)
+        ways = Descent(self.kernel, self.executor, self.drones, self._airspace, self.traffic)
         self._how = how
         self.descent = task = self.kernel.spawn(ways.down(how), FLEET, "all drones come down")
         task.over = self._is_down
@@ -458,13 +458,13 @@ _AT_ONCE: Mapping[str, Callable[[Line, Order], object]] = {
     "cancel": Line.cancel,
     "heartbeat": lambda line, order: None,
     "break_off": lambda line, order: line.gateway.break_off(order["drone"]),
-    "mended": lambda line, order: line.gateway.navigation.mended(order["drone"]),
+    "mended": lambda line, order: line.gateway.executor.mended(order["drone"]),
     "forget": lambda line, order: line.gateway.jobs.forget(order["flight"]),
 }
 _ANSWERED: Mapping[str, Answered] = {
-    "hold": lambda gateway, order: gateway.navigation.hold(order["drone"]),
-    "home": lambda gateway, order: gateway.navigation.home(order["drone"]),
-    "land": lambda gateway, order: gateway.navigation.land(order["drone"]),
+    "hold": lambda gateway, order: gateway.executor.hold(order["drone"]),
+    "home": lambda gateway, order: gateway.executor.home(order["drone"]),
+    "land": lambda gateway, order: gateway.executor.land(order["drone"]),
     "recover": _recover,
     "read": _read,
     "write": _write,

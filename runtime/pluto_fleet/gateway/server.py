@@ -121,7 +121,7 @@ class Connection:
             self._tell({"seen": changed})
 
     def _seen(self, drone: str, telemetry: Telemetry) -> tuple[object, ...]:
-        return seen(telemetry, self._gateway.navigation.moves(drone))
+        return seen(telemetry, self._gateway.executor.moves(drone))
 
     def _tell_no_telemetry(self) -> None:
         if self._telemetry is not None:
@@ -201,7 +201,7 @@ class Connection:
         self.line.hear = self._told
         self._tell_no_telemetry()  # this connection may have been in command before
         self._telemetry = Subscription(
-            self._gateway.navigation.telemetry,
+            self._gateway.executor.telemetry,
             self._tell_seen,
             every=_EACH,
             view=self._seen,
@@ -228,7 +228,7 @@ class Connection:
             self.leaves = True
             self._server.on_goodbye()
             return
-        order = order_of(message, self._gateway.navigation.telemetry)
+        order = order_of(message, self._gateway.executor.telemetry)
         if order.get("id") in line.under_way or len(line.under_way) >= _PENDING:
             raise BadInput("too much is under way")
         try:

@@ -75,7 +75,7 @@ def settings_for(
 
 def data_of(settings: Settings) -> dict[str, Any]:
     """Return settings as plain data."""
-    data: dict[str, Any] = msgspec.to_builtins(settings, enc_hook=dict)
+    data: dict[str, Any] = msgspec.to_builtins(settings, enc_hook=dict, order="deterministic")
     return data
 
 

@@ -6,23 +6,23 @@ to know, so it stores that, also while there is no brain.
 
 from __future__ import annotations
 
-import json
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+import msgspec
 
 from ..jobs.telemetry import Subscription
 from ..shared.domain.errors import Failure
-from ..shared.hooks.plain_data import point_of
+from ..shared.domain.model import Point
 
 if TYPE_CHECKING:
     from ..jobs.telemetry import Telemetry
     from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Point
 
 SEEN = "seen.json"
 """The file, in the gateway's folder."""
@@ -39,7 +39,7 @@ class Sighting:
     at: Point
     battery: float
     landed: bool
-    when: float
+    when: float = 0.0
     """Seconds since 1970."""
     why: str = ""
     """Why it took no commands; empty: it did."""
@@ -68,7 +68,7 @@ class Sightings:
     ) -> None:
         """`down` returns why a drone takes no commands, if it takes none."""
         self._path, self._drones, self._down, self._clock = path, drones, down, clock
-        self._before = _told(path)
+        self._before = _kept(path)
         self._leaving: set[str] = set()
         """The drones that are taking off: their earlier telemetry is outdated."""
 
@@ -99,53 +99,47 @@ class Sightings:
         for drone, known in self._drones.items():
             state = self._state(drone, known)
             if state is not None:
-                *how, down = state
-                drones[drone] = [*how, round(clock - known.silence, 1), *down]
-        part = self._path.with_name(f".{self._path.name}.part")
+                drones[drone] = replace(state, when=round(clock - known.silence, 1))
         with suppress(OSError):  # on a full disk drones fly on; retried at the next update
-            part.write_text(json.dumps(drones), encoding="utf-8")
-            part.replace(self._path)
+            _keep(self._path, drones)
 
-    def _state(self, drone: str, known: Telemetry) -> list[Any] | None:
+    def _state(self, drone: str, known: Telemetry) -> Sighting | None:
         """Return a drone's state without its time; None: it has no telemetry yet."""
         if not isfinite(known.silence):
             return None
-        place = [round(metres, 3) for metres in known.location]
-        landed = known.landed and drone not in self._leaving
+        x, y, z = known.location
         down = self._down(drone)
-        why = [] if down is None else [down.failure.value, str(down)]
-        return [place, round(known.battery_level, 3), landed, why]
+        return Sighting(
+            at=(round(x, 3), round(y, 3), round(z, 3)),
+            battery=round(known.battery_level, 3),
+            landed=known.landed and drone not in self._leaving,
+            why="" if down is None else str(down),
+            crashed=down is not None and down.failure is Failure.CRASH,
+        )
 
 
 def sightings_in(folder: Path) -> dict[str, Sighting]:
     """Return the last known states of the drones of a gateway's folder."""
-    with suppress(ValueError, TypeError):  # not one of our files: nothing is known
-        return {drone: _sighting(*told) for drone, told in _told(folder / SEEN).items()}
-    return {}
-
-
-def _sighting(
-    at: Any, battery: Any, landed: Any, when: Any, failure: str = "", why: str = ""
-) -> Sighting:
-    return Sighting(
-        at=point_of(at),
-        battery=float(battery),
-        landed=bool(landed),
-        when=float(when),
-        why=why,
-        crashed=failure == Failure.CRASH.value,
-    )
+    return _kept(folder / SEEN)
 
 
 def at_home(folder: Path, homes: Mapping[str, Point]) -> None:
     """Store the initial places of simulated drones that have no state yet."""
-    known = {drone: [home, 1.0, True, time.time()] for drone, home in homes.items()}
-    (folder / SEEN).write_text(json.dumps(known | _told(folder / SEEN)), encoding="utf-8")
+    now = time.time()
+    known = {
+        drone: Sighting(at=home, battery=1.0, landed=True, when=now)
+        for drone, home in homes.items()
+    }
+    _keep(folder / SEEN, known | sightings_in(folder))
 
 
-def _told(path: Path) -> dict[str, list[Any]]:
-    with suppress(OSError, ValueError):
-        told = json.loads(path.read_text(encoding="utf-8"))
-        if isinstance(told, dict):
-            return told
+def _keep(path: Path, drones: Mapping[str, Sighting]) -> None:
+    part = path.with_name(f".{path.name}.part")
+    part.write_bytes(msgspec.json.encode(drones))
+    part.replace(path)
+
+
+def _kept(path: Path) -> dict[str, Sighting]:
+    with suppress(OSError, ValueError):  # not one of our files: nothing is known
+        return msgspec.json.decode(path.read_bytes(), type=dict[str, Sighting])
     return {}

@@ -118,7 +118,7 @@ def test_who_is_not_ready_is_named_and_in_the_end_not_waited_for(
 
     monkeypatch.setattr(Executor, "drone_report", drone_report)
     fleet = living(*"ab")
-    vars(fleet.gateway.navigation).update(recover=fetched)
+    vars(fleet.gateway.executor).update(recover=fetched)
     fleet.life.carried_home = False
     assert fleet.run() == ["COMPLETED"] * 2
     assert names(fleet.named("trip.launched"), "drone") == ["cf2", "cf2"]

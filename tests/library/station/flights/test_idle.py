@@ -24,8 +24,15 @@ def shown(folder: Path, seen: list[Any] | None, **known: Any) -> DroneRow:
     """Return the row of a drone; what was seen is whether it has landed, how long ago, and what failed."""
     journal, records = folder / "a.journal", Records()
     if seen is not None:
-        landed, ago, *failure = seen
-        told = [[5.0, 6.0, 0.0], 0.4, landed, time.time() - ago, *failure]
+        landed, ago, failure, why = (*seen, "", "")[:4]
+        told = {
+            "at": [5.0, 6.0, 0.0],
+            "battery": 0.4,
+            "landed": landed,
+            "when": time.time() - ago,
+            "why": why,
+            "crashed": failure == "crash",
+        }
         gateway_folder(journal).mkdir(parents=True)
         (gateway_folder(journal) / SEEN).write_text(json.dumps({ENTRY.id: told}))
     records.lost |= known.get("lost", {})
