@@ -11,6 +11,7 @@ from plutoc.emit.project_files import project_file
 from plutoc.graph.model import Graph
 from tests.compiler.emit.apps import PLAIN
 from tests.compiler.emit.plans import plan_of
+from tests.paths import ROOT
 
 
 def graph_with(settings: str) -> Graph:
@@ -41,3 +42,12 @@ def test_a_library_with_an_address_is_allowed() -> None:
     project = written(graph_with('requires "a", "tools @ https://example.org/tools.whl"'))
     assert project["tool"]["hatch"]["metadata"] == {"allow-direct-references": True}
     assert [Requirement(one).name for one in project["project"]["dependencies"]] == ["a", "tools"]
+
+
+def test_a_package_that_carries_the_library_asks_for_what_that_needs() -> None:
+    library = tomllib.loads((ROOT / "runtime" / "pyproject.toml").read_text("utf-8"))["project"]
+    text = project_file(graph_with('version "1.0"'), "app.pluto", carry=True)
+    extras = tomllib.loads(text)["project"]["optional-dependencies"]
+    assert extras.pop("fleet") == library["dependencies"]
+    assert extras.pop("test") == ["pytest"]
+    assert extras == {name: library["optional-dependencies"][name] for name in extras}
