@@ -62,7 +62,7 @@ export class LiveLine {
     this.heardAt = performance.now();
     this.seen = message.version;
     this.world.take(message);
-    if (this.isLost.peek()) this.look();
+    if (this.isLost.peek() || this.age.peek() === Infinity) this.look();
   }
 
   /** Keep the line, for as long as the page is open. */
