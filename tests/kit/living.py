@@ -124,6 +124,7 @@ class Living:
         *missions: Mission[Any],
         on: FleetFile | None = None,
         faults: Faults = apps.NO_FAULTS,
+        seed: int = 0,
     ) -> None:
         for index, mission in enumerate(missions):
             mission.index = index
@@ -131,10 +132,10 @@ class Living:
         self.kernel, self.memory = VirtualTime(), Memory({"event": "journal.begun"})
         drones = simulated(app, self.fleet)
         space = self.fleet.airspace
-        world = World(0, space, self.fleet.world)
+        world = World(seed, space, self.fleet.world)
         self.done_by_drones: list[tuple[str, str]] = []
         """What the drones really did: the action, and the item if there was one."""
-        self.navigation = SimulatedNavigation(self.kernel, drones, world, faults, 0, self._see)
+        self.navigation = SimulatedNavigation(self.kernel, drones, world, faults, seed, self._see)
         self.gateway = Gateway(
             self.kernel, self.navigation, drones, space, ledger=Ledger(), measures=True
         )

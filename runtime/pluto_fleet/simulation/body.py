@@ -61,14 +61,14 @@ HEIGHTS = 0.025
 
 
 class SimulatedBody(Body):
-    """A drone by a kernel's clock. It is its own telemetry."""
+    """A drone by a kernel's clock."""
 
     def __init__(self, drone: SimulatedDrone, world: World, time: Callable[[], float]) -> None:
         self.on_change: Callable[[], object] = _nothing
         """Called when its state has changed other than by time."""
         entry = DroneData(id=drone.id, category=drone.category.name, home=drone.home)
         super().__init__(entry, drone.category, world, cast("Clock", _Clock(time)))
-        self._above = 0.0
+        self.above = 0.0
         """How much higher than it is it says that it is."""
         self.key: Key = FLEET + 1 + drone.index
         self.command = ""
@@ -82,19 +82,11 @@ class SimulatedBody(Body):
         self.done: dict[str, object] = {}
         """The jobs whose action it did, with their results."""
 
-    # Its telemetry
-
     @property
     def place(self) -> Point:
         """Where it is."""
         self.settle()
-        return self.here()
-
-    @property
-    def location(self) -> Point:
-        """Where it says that it is: it does not keep its height to the centimetre."""
-        x, y, z = self.place
-        return x, y, z + min(1.0, z) * self._above
+        return self.location
 
     @property
     def battery_level(self) -> float:
@@ -107,11 +99,6 @@ class SimulatedBody(Body):
         """Whether it is on the ground."""
         self.settle()
         return self._landed
-
-    @property
-    def silence(self) -> float:
-        """Always 0: a simulated drone is never silent."""
-        return 0.0
 
     @property
     def report(self) -> DroneReport:
@@ -134,7 +121,7 @@ class SimulatedBody(Body):
         """Set out on a way; return when the drone will be at rest at its end."""
         if self.motion.spread:
             x, y, _ = way[-1]
-            self._above = varies(HEIGHTS, f"{self._flight}/{x:.2f}/{y:.2f}/height") - 1.0
+            self.above = varies(HEIGHTS, f"{self._flight}/{x:.2f}/{y:.2f}/height") - 1.0
         return super().follow(way, lands=lands)
 
     def turn(self, legs: list[Leg], now: float, *, lands_at: float = inf) -> None:
@@ -209,6 +196,31 @@ class SimulatedBody(Body):
         self._lands_at = data["lands_at"] + shift
         self._landed, self._flown = data["landed"], data["flown"]
         self._look_ahead()
+
+
+class Told:
+    """The telemetry of a simulated drone, which is never silent."""
+
+    silence = 0.0
+
+    def __init__(self, body: SimulatedBody) -> None:
+        self._body = body
+
+    @property
+    def location(self) -> Point:
+        """Where it says that it is: it does not keep its height to the centimetre."""
+        x, y, z = self._body.place
+        return x, y, z + min(1.0, z) * self._body.above
+
+    @property
+    def battery_level(self) -> float:
+        """The charge of its battery, from 0 to 1."""
+        return self._body.battery_level
+
+    @property
+    def landed(self) -> bool:
+        """Whether it is on the ground."""
+        return self._body.landed
 
 
 def _nothing() -> None:

@@ -15,7 +15,7 @@ from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import place
 from ..shared.time.kernel import EventKind, Future, Kernel
-from .body import SimulatedBody, SimulatedDrone
+from .body import SimulatedBody, SimulatedDrone, Told
 
 if TYPE_CHECKING:
     from ..jobs.controls import Command
@@ -60,15 +60,19 @@ class SimulatedNavigation:
         self._faults, self._seed = faults, seed
         self.record = record
         """Called right before each action of a drone on the world."""
-        self.bodies = {drone.id: SimulatedBody(drone, world, kernel.time) for drone in drones}
+        self.bodies: dict[str, SimulatedBody] = {}
+        self.telemetry: dict[str, Telemetry] = {}
+        """The drones' telemetry, always current."""
+        for drone in drones:
+            self.join(drone)
         self._forgotten: dict[str | None, Future[None]] = {}
         """By jobs, what to set when their actions were done and forgotten."""
-        self.telemetry: Mapping[str, Telemetry] = self.bodies
-        """The drones' telemetry, always current."""
 
     def join(self, drone: SimulatedDrone, _: object = None) -> None:
         """Have one more drone, in its dock."""
-        self.bodies[drone.id] = SimulatedBody(drone, self._world, self._kernel.time)
+        body = SimulatedBody(drone, self._world, self._kernel.time)
+        self.bodies[drone.id] = body
+        self.telemetry[drone.id] = Told(body)
 
     def down(self, drone: str) -> FlightFailed | None:
         """Return why a drone takes no commands; None: it takes them."""

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from math import inf
 from typing import TYPE_CHECKING
 
-from ..domain.actions import BUILT_IN, PICK, RELEASE
+from ..domain.actions import BUILT_IN, MEASURE, PHOTO, PICK, USUAL_QUANTITY
 from ..domain.errors import Failure, FlightFailed
 from ..domain.motion import CLIMB_SPEED, varied, varies
 from ..domain.text import place
@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
     from .world import World
-
-_HOMEWARD = "/home"  # what its way home is called, after its flight
 
 
 class Body(KnownState):
@@ -41,10 +39,8 @@ class Body(KnownState):
         self.reachable_at = 0.0  # when its link is back, if it has lost it
         self.carries: Item | None = None
         self.settings = dict[str, float]()  # what an action of the app's own has written
-        self.changed = True  # since its news were asked for
         self.due = inf  # when the next thing happens by itself
         self._what: Failure | None = None  # that thing; None: it has landed
-        self._lands_at = inf
         self._flight = f"{world.seed}/{drone.id}"  # what chance is drawn by, with where a leg ends
         self._drawn: Mapping[Failure, float] = {}
         self._began = 0.0
@@ -56,10 +52,6 @@ class Body(KnownState):
         self._legs = [resting(at, self._clock.now)]
         self._charge = Charge(level, self._clock.now, taper=self.motion.taper)
         self.touch_down(self._clock.now)
-
-    def here(self) -> Point:
-        """Return where it is now, settled or not."""
-        return place_on(self._legs, self._clock.now)
 
     def flown(self, now: float) -> float:
         """Return how many metres it has flown at a time, up and down included."""
@@ -82,7 +74,7 @@ class Body(KnownState):
     def begin(self, flight: str | None, drawn: Mapping[Failure, float] | None = None) -> None:
         """Begin a flight with its faults; None: the way home of its last one."""
         self.check()
-        home = self._flight.removesuffix(_HOMEWARD) + _HOMEWARD
+        home = self._flight.removesuffix("/home") + "/home"
         self._flight = f"{self.world.seed}/{flight}" if flight else home
         self._drawn = drawn or {}
         self._began = self._clock.now
@@ -103,7 +95,7 @@ class Body(KnownState):
             self._look_ahead()
             self.check()  # a fault at take-off leaves it on the ground
         legs = list[Leg]()
-        here = self.here()
+        here = self.location
         for there, before, seconds, after in motion.stages(way, self.category.speed, rises, lands):
             x, y, z = there
             factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
@@ -118,7 +110,7 @@ class Body(KnownState):
         """Hover where it is, if it still takes commands."""
         self.settle()
         if not self._landed and self.down is None:
-            self.turn([resting(self.here(), self._clock.now)], self._clock.now)
+            self.turn([resting(self.location, self._clock.now)], self._clock.now)
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged from its touch-down on."""
@@ -194,9 +186,13 @@ class Body(KnownState):
     def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do it; return what was measured or photographed."""
         self.can_act(action)
-        if action in (PICK, RELEASE):
-            self.carries = item if action == PICK else None
-        return self.world.gives(action, parameters, self.here(), self._clock.now)
+        if action == MEASURE:
+            quantity = str(parameters.get("quantity", USUAL_QUANTITY))
+            return self.world.measure(quantity, self.location, self._clock.now)
+        if action == PHOTO:
+            return self.world.photo(self.location, self._clock.now)
+        self.carries = item if action == PICK else None
+        return None
 
     def can_act(self, action: str) -> None:
         """Raise the fault of its action, if that fails on this flight."""
@@ -204,10 +200,9 @@ class Body(KnownState):
             raise self._not_done(action, f"{self.id} could not do it")
 
     def _not_done(self, action: str, why: str) -> FlightFailed:
-        return FlightFailed(Failure.ACTION, f"{action} failed: {why} at {place(self.here())}")
+        return FlightFailed(Failure.ACTION, f"{action} failed: {why} at {place(self.location)}")
 
     def read(self, name: str) -> float:
         """Return the value that was written under a name, or else what is measured here."""
-        if name in self.settings:
-            return self.settings[name]
-        return self.world.measure(name, self.here(), self._clock.now)
+        measured = self.world.measure(name, self.location, self._clock.now)
+        return self.settings.get(name, measured)

@@ -34,10 +34,7 @@ FAULTS = tuple(fault.name for fault in fields(Faults))  # the faults of `--fail`
 
 
 def draw(faults: Faults, seed: int, flight: str, seconds: float) -> dict[Failure, float]:
-    """Draw the faults of a flight by its id, `mission/trip/round/attempt`: the same in every run.
-
-    They happen so long after its take-off, within these seconds; only that its action fails has no moment.
-    """
+    """Draw the faults of `mission/trip/round/attempt`, so many seconds after its take-off at most."""
     drawn = dict[Failure, float]()
     if faults == Faults():
         return drawn
@@ -49,7 +46,7 @@ def draw(faults: Faults, seed: int, flight: str, seconds: float) -> dict[Failure
         if happens:
             drawn[what] = when
     if chance.random() < faults.action:
-        drawn[Failure.ACTION] = inf
+        drawn[Failure.ACTION] = inf  # at no moment by itself
     return drawn
 
 

@@ -30,7 +30,6 @@ class IdealDrones:
         self._clock = clock
         self._airspace = fleet.airspace
         self._faults = faults
-        self._seed = seed
         self._told: list[dict[str, Any]] = []
         world = World(seed, fleet.airspace, fleet.world)
         kinds = {category.name: category for category in app.categories}
@@ -96,7 +95,7 @@ class IdealDrones:
         if self._faults != Faults():
             start = drone.location
             seconds = flight_seconds(drone.category, self._airspace, start, stops, order["seconds"])
-            drawn = draw(self._faults, self._seed, flight, seconds)
+            drawn = draw(self._faults, drone.world.seed, flight, seconds)
         drone.begin(flight, drawn)
         yield from self._until(drone, drone.follow(way))
         action = order["action"]

@@ -9,12 +9,10 @@ from operator import attrgetter
 from random import Random
 from typing import TYPE_CHECKING
 
-from ..domain.actions import BUILT_IN, MEASURE
 from ..domain.fleet_data import Feature, Source, WorldData
 from ..domain.model import Photo
 
 if TYPE_CHECKING:
-    from ..domain.actions import Plain
     from ..domain.airspace import Airspace, Corner
     from ..domain.model import Point
 
@@ -39,20 +37,10 @@ class World:
 
     def __init__(self, seed: int, airspace: Airspace, data: WorldData | None = None) -> None:
         data = invented(seed, airspace) if data is None else data
-        self.features = data.features
+        self.features = sorted(data.features, key=_at)
         self.sources = data.sources
-        self._by_x = sorted(data.features, key=_at)
         self.background = {**BACKGROUND, **data.background}
         self.seed = seed
-
-    def gives(
-        self, action: str, parameters: Mapping[str, Plain], point: Point, time: float
-    ) -> object:
-        """Return the result of a built-in action at a point."""
-        if action == MEASURE:
-            quantity = parameters.get("quantity", BUILT_IN[MEASURE].parameters[0].default)
-            return self.measure(str(quantity), point, time)
-        return self.photo(point, time) if action == "take_photo" else None
 
     def measure(self, quantity: str, point: Point, time: float) -> float:
         """Return what a sensor reads at a point, its small error included."""
@@ -71,19 +59,14 @@ class World:
         chance = self._random("photo", point, time)
         x, y = (round(along + chance.gauss(0.0, _DRIFT), 3) for along in point[:2])
         z = round(point[2], 3)
-        width, height = round(z * _WIDTH, 3), round(z * _HEIGHT, 3)
-        first = bisect_left(self._by_x, (x - width / 2,), key=_at)
-        end = bisect_left(self._by_x, (x + width / 2, inf), key=_at)
-        south, north = y - height / 2, y + height / 2
-        sees = sorted(one.kind for one in self._by_x[first:end] if south <= one.at[1] <= north)
-        blurred = chance.random() < _BLURRED
-        return Photo(
-            position=(x, y, z),
-            width=width,
-            height=height,
-            sees=tuple(sees),
-            sharpness=round(chance.uniform(0.3, 0.6), 3) if blurred else 1.0,
-        )
+        width = round(z * _WIDTH, 3)
+        height = round(z * _HEIGHT, 3)
+        first = bisect_left(self.features, (x - width / 2,), key=_at)
+        end = bisect_left(self.features, (x + width / 2, inf), key=_at)
+        near = self.features[first:end]
+        sees = tuple(sorted(one.kind for one in near if abs(one.at[1] - y) <= height / 2))
+        sharpness = round(chance.uniform(0.3, 0.6), 3) if chance.random() < _BLURRED else 1.0
+        return Photo(position=(x, y, z), width=width, height=height, sees=sees, sharpness=sharpness)
 
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Randomness that depends on the event, its place and its time, and not on earlier draws."""

@@ -62,7 +62,8 @@ class Action:
 PICK, RELEASE = "pick_item", "release_item"
 MEASURE, PHOTO = "measure", "take_photo"
 
-_QUANTITY = Parameter(name="quantity", type=Type.TEXT, default="temperature")
+USUAL_QUANTITY = "temperature"
+_QUANTITY = Parameter(name="quantity", type=Type.TEXT, default=USUAL_QUANTITY)
 
 BUILT_IN: dict[str, Action] = {
     action.name: action

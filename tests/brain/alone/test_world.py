@@ -104,5 +104,5 @@ def test_a_world_is_made_up_where_none_is_described() -> None:
     assert Counter(source.quantity for source in data.sources) == {"pm10": 2, "temperature": 1}
     places = [feature.at for feature in data.features] + [source.at for source in data.sources]
     assert all(0 <= x <= 20 and 0 <= y <= 10 for x, y in places)
-    assert World(5, MAP).features == data.features
+    assert World(5, MAP).features == sorted(data.features, key=lambda feature: feature.at)
     assert invented(6, MAP) != data

@@ -110,6 +110,10 @@ def test_nothing_falls_with_actions_that_take_long(number: int) -> None:
     assert judged(number) == Judged("kept")
 
 
+SEED = 4
+"""Of a flight on which one of three trips takes more of the battery than its reserve leaves."""
+
+
 def varied() -> tuple[App, FleetFile]:
     """Return an app and its fleet, whose drones are slower or faster than they are reckoned with."""
     on = replace(apps.fleet(), motion=replace(CRAZYFLIE, spread=0.3))
@@ -121,7 +125,7 @@ def until_drained(*crashes: float, retired: float | None = None) -> Living:
     """Fly three such trips; the app may crash, and its drone be retired meanwhile."""
     slow, on = varied()
     trips = [apps.trip(name, 6.0, 3.0, action="look") for name in "ABC"]
-    living = Living(slow, apps.mission("m", *trips), on=on)
+    living = Living(slow, apps.mission("m", *trips), on=on, seed=SEED)
     if retired is not None:
         living.at(retired, lambda: living.life.control.retire("cf1"))
     for when in crashes:
@@ -141,6 +145,6 @@ def test_a_broken_reserve_is_told_once_also_of_a_retired_drone_and_when_the_app_
 def test_a_broken_reserve_stands_in_the_report_and_in_the_data_of_a_simulation() -> None:
     slow, on = varied()
     trips = [apps.trip(name, 6.0, 3.0, action="look") for name in "ABC"]
-    flown = apps.fly(slow, apps.mission("m", *trips), on=on, seed=1)
+    flown = apps.fly(slow, apps.mission("m", *trips), on=on, seed=SEED)
     assert any("less than its reserve" in line for line in report(slow, flown, on))
     assert simulation_data("tested", 0, flown)["drained"] == ["cf1"]
