@@ -129,6 +129,8 @@ def end_if_forked(parent: int, error: BaseException | None = None) -> None:
     """
     if os.getpid() == parent:
         return
+    if isinstance(error, StopIteration):  # a coroutine's end
+        error = None
     code: object = error.code if isinstance(error, SystemExit) else error
     if code is not None and not isinstance(code, int):
         with suppress(OSError):

@@ -28,8 +28,8 @@ async def end_of(hook: Callable[..., object], call: Callable[[], object]) -> End
     """Call a hook, wait for it, and return how it ended."""
     try:
         returned = call() if iscoroutinefunction(hook) else await _in_thread(call)
-        if issubclass(type(returned), CoroutineType):  # it may be anything
-            returned = await _alone(cast("Coroutine[Any, Any, object]", returned))
+        if isinstance(returned, CoroutineType):
+            returned = await _alone(returned)
     except ANY_ERROR as error:
         if by_a_person(error):
             raise

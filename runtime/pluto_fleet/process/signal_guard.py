@@ -49,22 +49,18 @@ class _InAProcess(Guard):
     def call(self, code: Callable[[], T]) -> T:
         parent = os.getpid()
         try:
-            returned = code()
-        except StopIteration:  # a coroutine's end
-            end_if_forked(parent)
-            raise
+            return code()
         except BaseException as error:
             end_if_forked(parent, error)
             raise
-        end_if_forked(parent)
-        return returned
+        finally:
+            end_if_forked(parent)
 
     def by_a_person(self, error: BaseException) -> bool:
-        kind = type(error)  # not `isinstance`: the error's class may lie
-        if not issubclass(kind, KeyboardInterrupt):
+        if not isinstance(error, KeyboardInterrupt):
             return False
         handler = signal.getsignal(signal.SIGINT)
-        return issubclass(kind, Interrupted) or handler is signal.default_int_handler
+        return isinstance(error, Interrupted) or handler is signal.default_int_handler
 
 
 IN_A_PROCESS = _InAProcess()

@@ -66,13 +66,10 @@ def test_what_is_wrong_with_the_hooks_is_told_with_its_place(
 def test_what_hooks_end_with_is_told_in_a_line_of_some_length(
     load_with: Callable[[str], int], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """And nothing in it commands a terminal, even if it cannot be asked what it is."""
+    """And nothing in it commands a terminal."""
     assert load_with("raise ValueError('\\x1b[2J' * 1_000_000)\n") == 2
     told = capsys.readouterr().err
     assert len(told) < 5_000 and "\x1b" not in told
-    refuses = "class Odd(Exception):\n  def __str__(self):\n    raise SystemExit(0)\nraise Odd\n"
-    assert load_with(refuses) == 2
-    assert "the hooks cannot be loaded: Odd" in capsys.readouterr().err
 
 
 @pytest.mark.long
