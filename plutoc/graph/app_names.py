@@ -36,6 +36,7 @@ _NEEDED = frozenset(
     {
         *("cflib", "starlette", "uvicorn", "websockets", "pytest", "matplotlib", "numpy", "scipy"),
         *("msgspec", "tomlkit", "shapely"),  # what flies needs, and areas
+        *("markdown_it", "markdown_it_py", "mdurl", "rich"),  # and its tables
         *("anyio", "click", "h11", "idna", "sniffio", "typing_extensions"),  # a station needs these
         *("lz4", "mcap", "zstandard"),  # and these for its exports
         *("examples", "libusb_package", "lpslib", "packaging", "pyusb", "pyyaml", "sys_test"),
