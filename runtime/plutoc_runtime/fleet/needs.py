@@ -14,6 +14,7 @@ from .reach import Reach, chain_of, docked, miss_of
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Mission, Point, Trip
     from .policies import Policy
+    from .reach import Bounds
 
 UNCHARGED = "what is left in its battery is too little, and nothing charges it at home"
 
@@ -40,6 +41,7 @@ class Request(Future["Drone"]):
         self.trip: Trip = self.trips[0]
         self.why = ""  # why its drone was chosen
         self.hurries = False  # its mission waits for a limited time only
+        self._bounds: dict[Category, Bounds] = {}
         self._levels: dict[tuple[Category, Point, Point], float] = {}
 
     @property
@@ -49,12 +51,15 @@ class Request(Future["Drone"]):
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
-        telemetry = drone.telemetry
-        return telemetry.battery_level >= self.level(drone, telemetry.location)
+        level = drone.telemetry.battery_level
+        here = drone.telemetry.location
+        if here == drone.home and level >= self.takes(drone.category)[2]:
+            return True
+        return level >= self.level(drone, here)
 
     def ever(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip from its home with a full battery."""
-        return self.level(drone, drone.home) < inf
+        return self.takes(drone.category)[2] <= 1.0 or self.level(drone, drone.home) < inf
 
     def level(self, drone: Drone, here: Point) -> float:
         """Return the battery level that a drone needs from here; infinite: none suffices, here or at home."""
@@ -69,21 +74,24 @@ class Request(Future["Drone"]):
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
-        upright, a_metre = self.takes(drone.category)
+        upright, a_metre, _ = self.takes(drone.category)
         x, y, _ = self.goal
         metres = hypot(x - here[0], y - here[1]) + hypot(x - drone.home[0], y - drone.home[1])
         if here[2] > 0.0:
             return max(0.0, a_metre * metres)  # it has taken off already
         return max(0.0, upright + a_metre * metres)  # not below 0 where a number is none
 
-    def takes(self, category: Category) -> tuple[float, float]:
-        """Return what one trip takes of a battery at least, with its reserve, but for the way, and a metre of that."""
-        seconds = self._reach.app.actions[self.trip.action].lasts(self.trip.parameters)
-        return self._reach.takes(category, seconds, self.trip.target[2])
+    def takes(self, category: Category) -> Bounds:
+        """Return bounds of what one trip takes of a battery."""
+        bounds = self._bounds.get(category)
+        if bounds is None:
+            bounds = self._reach.takes(category, self.trip)
+            self._bounds[category] = bounds
+        return bounds
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with all that its battery will have; None: it can."""
-        if self.level(drone, drone.home) == inf:
+        if not self.ever(drone):
             app, airspace = self._reach.app, self._reach.airspace
             miss = miss_of(app, airspace, drone.category, drone.home, chain_of(self.trips))
             return miss and miss.reason

@@ -43,6 +43,7 @@ class Queue:
         self.kernel = kernel
         self.drones = drones
         self._reach = reach
+        reach.drones = drones
         self._max_airborne = max_airborne
         self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet

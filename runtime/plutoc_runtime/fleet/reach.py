@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from functools import lru_cache
-from math import dist, inf
+from functools import cached_property, lru_cache
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Item, Mission, Point, Trip
+    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
 
 Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
@@ -234,52 +234,54 @@ class Reach:
 
     def __init__(self, app: App, airspace: Airspace) -> None:
         self.app, self.airspace = app, airspace
-        # plans repeat their targets, and drones their docks
-        self._single = lru_cache(10_000)(self._level_of_one)
-        self.takes = lru_cache(1_000)(self._takes)
+        self._bounds = lru_cache(1_000)(self._bounds_of)  # plans repeat their targets
+        self.drones: Sequence[Drone] = ()  # those whose docks count
 
     def level(self, category: Category, home: Point, here: Point, trips: Sequence[Trip]) -> float:
         """Return the battery level that the first chain of trips needs from here; infinite: it cannot be flown."""
-        trip = trips[0]
-        if trip.item is None and trip.action != PICK:
-            seconds = self.app.actions[trip.action].lasts(trip.parameters)
-            return self._single(
-                category, home, here, trip.action, trip.source, trip.target, seconds
-            )
         chain = chain_of(trips)
         if _unfit(category, chain):
             return inf
         stops = stops_of(self.app, category, self.airspace.cruise_height, chain)
-        return self._level_for(category, home, here, stops)
-
-    def _level_of_one(
-        self,
-        category: Category,
-        home: Point,
-        here: Point,
-        action: str,
-        source: Point | None,
-        target: Point,
-        seconds: float,
-    ) -> float:
-        if not category.can(action):
-            return inf
-        stops = [(target, seconds)] if source is None else [(source, 0.0), (target, seconds)]
-        return self._level_for(category, home, here, stops)
-
-    def _level_for(self, category: Category, home: Point, here: Point, stops: Stops) -> float:
         share = needed(category, self.airspace, here, stops, home)
         return inf if share is None else share + category.reserve
 
-    def _takes(self, category: Category, seconds: float, height: float) -> tuple[float, float]:
-        """Return what a trip takes of a battery at least, with its reserve, but for the way, and a metre of that."""
-        motion, speed = category.motion, category.speed
-        upright = motion.rises(self.airspace.cruise_height, speed) + motion.lands(height, speed)
+    def takes(self, category: Category, trip: Trip) -> Bounds:
+        """Return bounds of what a trip takes of a battery."""
+        seconds = self.app.actions[trip.action].lasts(trip.parameters)
+        straight = trip.source is None and trip.item is None and trip.action != PICK
+        return self._bounds(category, trip.action, seconds, trip.target, straight)
+
+    def _bounds_of(
+        self, category: Category, action: str, seconds: float, target: Point, straight: bool
+    ) -> Bounds:
+        space = self.airspace
+        motion, speed, height = category.motion, category.speed, target[2]
+        upright = motion.rises(space.cruise_height, speed) + motion.lands(height, speed)
         upright += 2 * motion.settles + seconds
         a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
-        share = _LESS / category.endurance
-        return category.reserve + share * upright, share * a_metre
+        share = 1.0 / category.endurance
+        least = category.reserve + share * upright * _LESS
+        way = share * a_metre * _LESS
+        enough = inf
+        if straight and self._is_open and category.can(action) and not space.problem(target):
+            slack = a_metre * abs(height - space.cruise_height) + 2 * motion.shortness(speed)
+            enough = (least + 2 * (hypot(*space.size) + _BEYOND) * way) * _MORE + share * slack
+        return least, way, enough
+
+    @cached_property
+    def _is_open(self) -> bool:
+        """Whether nothing is in the way from any dock on the ground to any place on the map."""
+        space = self.airspace
+        docks = [(x, y, -z) for x, y, z in (drone.home for drone in self.drones)]
+        ends = [(0.0, 0.0, space.cruise_height), *docks]
+        return not (space.no_fly or any(map(space.problem, ends)))
 
 
+Bounds = tuple[float, float, float]
+"""The least level beside the way, and for each metre of it; and what is enough for a drone that stands
+at home, wherever on the map that is: infinite where a route must be searched to tell."""
 _FAR = 1e6  # metres of a long leg
-_LESS = 1 - 1e-9  # sums of floats are not exact, and a bound must be true
+_BEYOND = 0.01  # metres beyond an edge of the map that do not count
+_LESS = 1 - 1e-9  # sums of floats are not exact, and bounds must be true
+_MORE = 1 + 1e-8

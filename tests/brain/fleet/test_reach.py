@@ -153,6 +153,7 @@ def test_who_is_able_is_found_the_same_without_a_look_at_the_map(
         name="1", action=action, target=on_map(space, target), source=begins, item=item
     )
     drone = Drone(id="cf1", category=kind, home=home, telemetry=known(here, 1.0, kind.motion))
+    reach.drones = [drone]
     request = Request(reach, apps.mission("m", trip), first, (0, -1))
     exact, from_home = (reach.level(kind, home, place, [trip]) for place in (here, home))
     assert request.at_least(drone, here) <= exact
