@@ -3,7 +3,7 @@
 `python benchmarks/journal.py` prints three tables. *Writing*: durable rows a second, one by one and
 in groups. *Flying*: transitions a second of an app in real time whose drones are there at once, with
 as many missions in flight, each of them waiting for the journal. *Going on*: seconds from a journal
-of a large plan, all of which was flown, to its records: by all rows, and from a snapshot.
+of a large plan, all of which was flown, to where everything stands.
 
 The parts run round after round; the best of each counts. With `--json` the numbers come as JSON.
 """
@@ -16,35 +16,39 @@ import json
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 
 from measuring.instant import APP, Instant, ground, plan
 from measuring.options import at_least_one
 from pluto_fleet.flight.recorded_flight import RecordedFlight
-from pluto_fleet.journal.fold import Records, replayed
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.standing import Standing
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.journal.writer import Writer
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.time.kernel import FLEET, EventKind
 from pluto_fleet.shared.time.told import VirtualTime
 
-HEADER = {"event": "journal.begun", "app": APP.name}
+HEADER = {"t": 0.0, "event": "journal.begun", "app": APP.name}
 GROUPS = (1, 10, 100, 1_000)
 MISSIONS, TRIPS = 10_000, 10
 IN_FLIGHT = 100
-ROW = json.dumps(
-    [
-        {
-            "t": 12.345678,
-            "event": "trip.launched",
-            "mission": "North field",
-            "trip": "A",
-            "drone": "cf1",
-            "round": 0,
-            "attempt": 1,
-        }
-    ]
+ENTRY = Entry(
+    json.dumps(
+        [
+            {
+                "t": 12.345678,
+                "event": "trip.launched",
+                "mission": "North field",
+                "trip": "A",
+                "drone": "cf1",
+                "round": 0,
+                "attempt": 1,
+            }
+        ]
+    )
 )
 
 Numbers = dict[str, float]
@@ -54,9 +58,9 @@ def writing(folder: Path, seconds: float) -> Iterator[tuple[int, float]]:
     """Give the size of a group, and durable rows a second."""
     for group in GROUPS:
         store = Store.create(folder / f"{group}.journal", HEADER)
-        rows, count, begun = [ROW] * group, 0, time.perf_counter()
+        entries, count, begun = [ENTRY] * group, 0, time.perf_counter()
         while time.perf_counter() - begun < seconds:
-            store.append(rows)
+            store.append(entries)
             count += group
         yield group, count / (time.perf_counter() - begun)
         store.close()
@@ -70,7 +74,7 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
     async def fly() -> float:
         kernel, loop = RealTime(), asyncio.get_running_loop()
         drones = Instant(kernel, IN_FLIGHT)
-        records = Records()
+        standing = Standing()
 
         def durable(number: int) -> None:
             commits.append(number)
@@ -78,7 +82,7 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
 
         writer = Writer(store, durable, print)
         life = RecordedFlight(
-            APP, ground(IN_FLIGHT), kernel, drones, writer, records, epoch=store.epoch
+            APP, ground(IN_FLIGHT), kernel, drones, writer, standing, epoch=store.epoch
         )
         begun = time.perf_counter()
         await kernel.run(life.start(plan(missions, TRIPS)))
@@ -89,7 +93,8 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
         return took
 
     took = asyncio.run(fly())
-    events = sum(1 for _ in store.read().events)
+    with closing(Reader(store.path)) as reader:
+        events = sum(1 for _ in reader.events())
     rate, rows = events / took, store.seq / len(commits)
     store.close()
     return rate, rows
@@ -97,37 +102,37 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
 
 def written(path: Path, missions: int) -> int:
     """Write the journal of a plan that was flown, and return the number of its events."""
-    store, kernel, rows = Store.create(path, HEADER), VirtualTime(), list[str]()
+    store, kernel, entries = Store.create(path, HEADER), VirtualTime(), list[Entry]()
 
     class Sink:
-        def add(self, row: str) -> int:
-            rows.append(row)
-            kernel.at(kernel.now, EventKind.READY, FLEET, partial(life.recorder.durable, len(rows)))
-            return len(rows)
+        def add(self, entry: Entry) -> int:
+            entries.append(entry)
+            durable = partial(life.recorder.durable, len(entries))
+            kernel.at(kernel.now, EventKind.READY, FLEET, durable)
+            return len(entries)
 
-    records = Records()
+    standing = Standing()
     drones = Instant(kernel, IN_FLIGHT)
-    life = RecordedFlight(APP, ground(IN_FLIGHT), kernel, drones, Sink(), records, epoch=1)
+    life = RecordedFlight(APP, ground(IN_FLIGHT), kernel, drones, Sink(), standing, epoch=1)
     kernel.run(life.start(plan(missions, TRIPS)), None)
     kernel.close()
-    store.append(rows)
+    store.append(entries)
     store.close()
-    return sum(len(json.loads(row)) for row in rows)
+    return sum(len(json.loads(entry.events)) for entry in entries)
 
 
-def going_on(path: Path, rounds: int) -> tuple[float, float, Records]:
-    """Return the least seconds, and of CPU, to open a journal and read it; and its records."""
+def going_on(path: Path, rounds: int) -> tuple[float, float]:
+    """Return the least seconds, and of CPU, to open a journal and read where everything stands."""
     took, used = [], []
     for _ in range(rounds):
-        records = None  # those of the round before are no part of this one
         begun, idle = time.perf_counter(), time.process_time()
         store = Store.open(path)
-        records = replayed(store.read())
+        standing = store.standing()
         took.append(time.perf_counter() - begun)
         used.append(time.process_time() - idle)
         store.close()
-    assert records is not None
-    return min(took), min(used), records
+        del standing
+    return min(took), min(used)
 
 
 def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
@@ -147,19 +152,9 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
         events = written(path, given.missions)
         size = path.stat().st_size / 1e6
         say(f"\n{'going on':30}{'s':>16}{'of CPU':>16}{'events':>16}{'MB':>16}")
-        took, used, records = going_on(path, given.rounds)
-        told["seconds by all rows"], told["of CPU, by all rows"] = took, used
-        say(f"{'by all rows':30}{took:16.2f}{used:16.2f}{events:16,}{size:16.1f}")
-        begun = time.process_time()
-        state = json.dumps(records.data)
-        told["of CPU, to make a snapshot"] = made = time.process_time() - begun
-        store = Store.open(path)
-        store.snapshot(state)
-        store.close()
-        took, used, records = going_on(path, given.rounds)
-        told["seconds from a snapshot"], told["of CPU, from a snapshot"] = took, used
-        say(f"{'from a snapshot':30}{took:16.2f}{used:16.2f}{0:16,}{len(state) / 1e6:16.1f}")
-        say(f"{'to make one':46}{made:16.2f}")
+        took, used = going_on(path, given.rounds)
+        told["seconds to go on"], told["of CPU, to go on"] = took, used
+        say(f"{'from its rows':30}{took:16.2f}{used:16.2f}{events:16,}{size:16.1f}")
     return told
 
 

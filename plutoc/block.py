@@ -165,7 +165,7 @@ class Block:
     limit: Callable[..., Any] | None = None
     """What it adds to a wait for the end of the trip, so that one wait can stand for several blocks.
 
-    Called as `limit(run, **parameters, **fields)`, it gives a `plutoc_runtime.trips.flight.Limit`, or None
+    Called as `limit(run, **parameters, **fields)`, it gives a `plutoc_runtime.flow.flight.Limit`, or None
     for no limit. The block's step must do no more than to wait under that limit.
     """
     evaluates: bool = False

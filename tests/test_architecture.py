@@ -76,7 +76,7 @@ def test_declarations_load_no_event_loop() -> None:
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
     loaded = set(done.stdout.split())
-    assert "plutoc_runtime.trips.transitions" in loaded or "plutoc_runtime.domain.status" in loaded
+    assert "plutoc_runtime.flow.transitions" in loaded or "plutoc_runtime.domain.status" in loaded
     assert not {"asyncio", "argparse", "black", "jinja2"} & loaded
 
 

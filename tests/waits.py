@@ -10,7 +10,6 @@ fail only by what was let befall its drone: not by a load, nor by a gateway that
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import signal
@@ -167,7 +166,7 @@ def fly(number: int, *, load: int, crtp: bool, stall: float = 0.0) -> Came:
             struck = _strike(flight, fault)
         _see_through(flight, stall)
     with closing(Reader(flight.journal)) as reader:
-        events = [event for row in reader.rows() for event in json.loads(row.text)]
+        events = [event for _, event in reader.events()]
     kinds = ("mission.waits", "drone.waits", "drone.landed")
     told = [event for event in events if event["event"] in kinds]
     failed = [event for event in events if event["event"] == "trip.failed"]

@@ -7,6 +7,7 @@ mappings, except for the app, the space and the hooks. Seconds since the app's s
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -21,17 +22,26 @@ from .fleet.fleet import Fleet
 from .fleet.orders import Order, Orders
 from .fleet.queue import Queue
 from .fleet.reach import Reach
+from .flow.blame import waiting_at
+from .flow.changes import Changes
 from .flow.control import Control
 from .flow.engine import Engine
+from .flow.flight import Limits
+from .flow.going_on import GoingOn
 from .flow.mission import Core
-from .flow.restore import Recording, Restorer
-from .flow.standing import drone_standing, mission_of, standing_of, whereabouts_of
-from .hooks.plain_data import value_data
+from .flow.record import (
+    Row,
+    changed_rows,
+    drone_standing,
+    mission_of,
+    result_row,
+    standing_of,
+    whereabouts_of,
+)
+from .flow.transitions import Transitions
 from .time.hours import Hours
-from .time.kernel import FLEET
+from .time.kernel import FLEET, Future
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
-from .trips.flight import Limits
-from .trips.transitions import Transitions
 
 if TYPE_CHECKING:
     from .domain.airspace import Airspace
@@ -58,7 +68,7 @@ class Brain:
 
         `motion` is how they move, `charges_at_home` whether they are charged there; `began` is when the app has
         started, in seconds since 1970, `zone` says which hour that is, and `drift` is as `tell` takes it.
-        With `recorded` in it, the events say all from which a later brain can go on; no drone is free
+        With `recorded` in it, `rows` says all from which a later brain can go on; no drone is free
         before `go_on` has said how it is, and the brain must be told what is `durable`. With `silent`
         nothing is kept for `events`. Without `hooks` they are called at once.
         """
@@ -71,9 +81,9 @@ class Brain:
         self._events: list[Event] = []
         self._states: dict[str, MissionState] = {}
         results = ResultStore()
-        self._recording = Recording(app, self._states, results, self._events)
-        hear = self._recording.hear if recorded else self._events.append
-        trace = Trace(kernel, () if fleet.get("silent") else (hear,))
+        self._disk = Disk()
+        self._changes = changes = Changes(self._states, kept=recorded)
+        trace = Trace(kernel, () if fleet.get("silent") else (self._hear,))
         self._orders = orders = Orders(kernel)
         status = DroneStatus.OFFLINE if recorded else DroneStatus.FREE
         drones = list[Drone]()
@@ -88,15 +98,17 @@ class Brain:
             orders=orders,
             trace=trace,
             results=results,
-            transitions=Transitions(kernel, trace, results),
+            transitions=Transitions(app, kernel, trace, results, changes),
             queue=queue,
             fleet=Fleet(kernel, trace, orders, drones, queue, after_trip),
             limits=Limits(kernel),
-            on_record=self._recording.on_record if recorded else None,
+            changes=changes,
+            on_record=self._disk.on_record if recorded else None,
         )
+        core.fleet.changed = changes.drone
         self._engine = engine = Engine(core, self._states)
-        self._restorer = Restorer(engine)
-        self._control = Control(engine, self._restorer)
+        self._going_on = GoingOn(engine)
+        self._control = Control(engine)
         self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
@@ -114,36 +126,38 @@ class Brain:
         if self._whole is None or self._whole.is_set:
             self._whole = self._kernel.spawn(self._engine.see_through(), FLEET, "the whole")
 
-    def go_on(self, standing: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
-        """Resume missions from their records, after any end, or after one was paused.
+    def restore(self, standing: Mapping[str, Any], now: float) -> None:
+        """Have missions, drones and results as their rows say, after any end: as in `standing()`.
 
-        `standing` has the `missions` by name, as in `standing()`; a mission may be `suspended`, a flight
-        may have a `report` of its end, and be `heard`: its graph has gone on from that end. Of the
-        `results` so far a mission's evaluator has seen those before `judged`; `first_result` is the
-        number of the first. Further how many trips each drone has `flown`, which drones are `retired`,
-        and why some are `lost`. `drones` are the reports of those that no mission may need: `reached`,
-        `landed`, `carrying`, `problems`.
+        Every mission is out of its graph: what came of its flight can be found out, and told by commands, until
+        `go_on`. One that does not fit the app as it is now has `unfit`, the fields without which it cannot be.
         """
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._go_on, (standing, drones))
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._going_on.restore, standing)
 
-    def _go_on(self, told: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
-        (standing, drones), fleet = told, self._core.fleet
-        for drone in fleet.drones:
-            if drone.id in standing.get("retired", ()):
-                fleet.retired.add(drone)
-            if drone.id in standing.get("lost", ()):
-                fleet.lost_before[drone] = str(standing["lost"][drone.id])
-        self._restorer.go_on(standing, drones)
+    def go_on(self, missions: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
+        """Let missions that are out of their graphs go on, by their names.
+
+        Each may have the `report` of how its flight ended; without one, a flight that was not settled flies
+        on. `drones` are the reports of those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
+        """
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._go_on, (missions, drones))
+
+    def _go_on(self, given: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
+        missions, drones = given
+        self._going_on.go_on(missions, drones)
         self._see_through()
 
     def command(self, request: Mapping[str, Any], now: float) -> str:
-        """Do what a person wants; raise `BadInput` with the reason why it cannot be done.
+        """Do what a person wants, or what was found out; raise `BadInput` with the reason why it cannot be done.
 
-        `{"command": "pause" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or
-        never; `skip` a trip that is not the next one; `prioritise` one; `change-trips`, all but the first,
-        to other `trips`; `retire` or `bring-back` a drone;
-        `join`, a new `drone` with its `category` and `home`, which is free when `go_on` says how it is;
-        `probe` whether a flight's action was done: the answer is an order to note what was `probed`.
+        `{"command": "leave" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or never.
+        Of one that has left: `pause`, `resume`; `doubt` whether its action was done, with a `reason`; `hold`, as it
+        does not fit the app; `decide`, with a person's `answer`; `settle` its flight: `done` with a `value`,
+        a `failure` with a `reason`, or neither; `probe` whether its action was done: the answer is an order
+        to note what was `probed`. `skip` a `trip` that is not the next one; `prioritise` one; `change-trips`, all
+        but the first, to other `trips`; `acts-beside`: where a `flight` does its action.
+        `retire` or `bring-back` a drone; `join`, a new `drone` with its `category` and `home`, which is
+        free when `go_on` says how it is.
         """
         return self._kernel.call(now, ONLY_WHAT_IS_READY, self._control.perform, request)
 
@@ -165,7 +179,7 @@ class Brain:
         elif "hook" in message:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.hook_ended, message)
         elif "durable" in message:
-            self._kernel.call(now, ONLY_WHAT_IS_READY, self._recording.durable, message)
+            self._kernel.call(now, ONLY_WHAT_IS_READY, self._disk.durable, message["durable"])
         elif "drift" in message:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.drifted, message["drift"])
 
@@ -188,16 +202,30 @@ class Brain:
         self._events.clear()
         return events
 
+    def rows(self) -> list[Row]:
+        """Return the rows that have changed since they were asked for, if this run is recorded.
+
+        Ask between two instants: then they fit to the events.
+        """
+        core = self._core
+        return changed_rows(self._app, self._changes, self._states, core.results, core.fleet)
+
+    def mission(self, name: str) -> Mapping[str, Any]:
+        """Return the row of a mission with those of its trips: `todo`, `done`, `gone`."""
+        return standing_of(self._app, self._states[name])
+
+    def under_way(self) -> tuple[str, ...]:
+        """Return the names of the missions that have not ended, in their order."""
+        living = [state.mission for state in self._states.values() if not state.ended]
+        return tuple(one.name for one in sorted(living, key=lambda mission: mission.index))
+
     def standing(self) -> Mapping[str, Any]:
-        """Return where every mission and every drone stands, and all results."""
+        """Return all rows: where every mission and every drone stands, and all results."""
         core = self._core
         return {
             "missions": {name: standing_of(self._app, one) for name, one in self._states.items()},
             "drones": self.drones(),
-            "results": [
-                [mission.name, trip and trip.name, round_, attempt, value_data(value)]
-                for mission, trip, round_, attempt, value in core.results.results
-            ],
+            "results": [result_row(result) for result in core.results.results],
             "waiting": core.queue.summary() if core.queue.waiting else "",
         }
 
@@ -224,9 +252,40 @@ class Brain:
         `lives`: whether it is in its graph at all; `block`: the declaration of the block at which it
         waits; its `drone`, whether that is just `allocated`, or `flies`; `until` when it is delayed.
         """
-        living = {name: one for name, one in self._states.items() if not one.ended}
-        return {name: whereabouts_of(one, self._app.flow) for name, one in living.items()}
+        found = {}
+        for name, state in self._states.items():
+            if not state.ended:
+                task = state.task
+                block = "" if task is None else waiting_at(task.coroutine, self._app.flow)
+                found[name] = whereabouts_of(state, block)
+        return found
+
+    def _hear(self, event: Event) -> None:
+        self._disk.said += 1
+        self._events.append(event)
 
     def close(self) -> None:
         """End everything where it is; nothing may be called after that."""
         self._kernel.close()
+
+
+class Disk:
+    """How many events there were, and how many of them are durable."""
+
+    def __init__(self) -> None:
+        self.said = 0
+        self._durable = 0
+        self._waiting: deque[tuple[int, Future[None]]] = deque()
+
+    async def on_record(self) -> None:
+        """Wait until everything up to now is durable."""
+        if self._durable < self.said:
+            durable: Future[None] = Future()
+            self._waiting.append((self.said, durable))
+            await durable
+
+    def durable(self, count: int) -> None:
+        """Called when so many events are durable."""
+        self._durable = max(self._durable, count)
+        while self._waiting and self._waiting[0][0] <= self._durable:
+            self._waiting.popleft()[1].set(None)

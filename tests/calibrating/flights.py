@@ -15,9 +15,9 @@ from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.controls import Controls
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.header import header
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.standing import Standing
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.app import moving
@@ -32,19 +32,19 @@ from tests.kit import apps
 Around = Callable[[Kernel, Controls], Controls]
 
 
-class _Rows:
+class _Disk:
     """A disk that takes no time; all is written at the end."""
 
     def __init__(self) -> None:
-        self.rows: list[str] = []
+        self.entries: list[Entry] = []
         self.life: RecordedFlight | None = None
 
-    def add(self, row: str) -> int:
-        """Take a row, which is durable at once."""
-        self.rows.append(row)
+    def add(self, entry: Entry) -> int:
+        """Take an entry, which is durable at once."""
+        self.entries.append(entry)
         if self.life is not None:
-            self.life.recorder.durable(len(self.rows))
-        return len(self.rows)
+            self.life.recorder.durable(len(self.entries))
+        return len(self.entries)
 
 
 def flown(
@@ -60,7 +60,7 @@ def flown(
     for index, mission in enumerate(missions):
         mission.index = index
     planned, app = app, moving(app, motion or fleet.motion)
-    kernel, disk, drones = VirtualTime(), _Rows(), simulated(app, fleet)
+    kernel, disk, drones = VirtualTime(), _Disk(), simulated(app, fleet)
     world = World(seed, fleet.airspace, fleet.world)
     controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed)
     if around is not None:
@@ -70,14 +70,14 @@ def flown(
     )
     link = gateway.link(1)
     life = RecordedFlight(
-        moving(planned, fleet.motion), fleet, kernel, link, disk, Records(), epoch=1
+        moving(planned, fleet.motion), fleet, kernel, link, disk, Standing(), epoch=1
     )
     disk.life = life
     kernel.run(life.start(missions))
     life.recorder.finish()
     told = header(app, missions="", fleet=fleet_text(fleet), sim=True, seed=seed)
     with closing(Store.create(path, told)) as store:
-        store.append(disk.rows)
+        store.append(disk.entries)
     return path
 
 

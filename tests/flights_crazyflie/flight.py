@@ -93,7 +93,7 @@ class Flight(Lives):
     def events(self) -> list[Event]:
         """What the journal says, each event with the time on the wall when it was written."""
         with closing(Reader(self.journal)) as reader:
-            rows = list(reader.rows())
+            rows = list(reader.instants())
         return [{**event, "wall": row.wall} for row in rows for event in json.loads(row.text)]
 
     def ends(self) -> dict[str, str]:

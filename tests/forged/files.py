@@ -11,8 +11,6 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from pluto_fleet.journal.database import row_checksum, snapshot_checksum, tip_checksum
-
 DEEP = "[" * 100_000 + "]" * 100_000
 RAW = (
     *("", "null", "[]", "[1]", "{}", "[{}]", "1],[2", DEEP, '[{"event":' * 300, "[NaN]"),
@@ -52,8 +50,8 @@ def changed(random: Random, data: Any) -> Any:
     return data
 
 
-def forged_rows(random: Random, rows: Sequence[str]) -> list[str]:
-    """Return the texts of a journal's rows, some of which are others."""
+def forged_texts(random: Random, rows: Sequence[str]) -> list[str]:
+    """Return the texts of a journal, some of which are others."""
     found = list(rows)
     for _ in range(random.choice((1, 1, 3))):
         number = random.randrange(len(found))
@@ -77,54 +75,44 @@ COLUMNS: Sequence[Any] = (-1, 2**62, 1.5, "x", b"\xff", "9" * 400, b"\0" * 1000)
 """What is no number of a row."""
 
 
-def write_journal(path: Path, rows: Sequence[str], random: Random | None = None) -> None:
-    """Put these rows into a journal that is there, with right checksums; with a chance, wrong columns."""
+def write_events(path: Path, texts: Sequence[str], random: Random | None = None) -> None:
+    """Put these events into a journal that is there; with a chance, with wrong columns."""
     with closing(sqlite3.connect(path, isolation_level=None)) as database:
-        database.execute("DELETE FROM journal")
-        for seq, text in enumerate(rows):
-            epoch = 1
-            wall = 1_700_000_000_000 + seq
-            values: list[Any] = [epoch, wall]
+        database.execute("DELETE FROM event")
+        for seq, text in enumerate(texts):
+            columns: list[Any] = [1, 1_700_000_000_000 + seq]
             if random is not None and random.random() < 0.02:
-                values[random.randrange(2)] = random.choice(COLUMNS)
-            checksum = row_checksum(
-                seq, values[0], values[1], text.encode("utf-8", "surrogatepass")
-            )
-            sent: Any = text.encode("utf-8", "surrogatepass").decode("utf-8", "replace")
-            database.execute(
-                "INSERT INTO journal VALUES (?, ?, ?, ?, ?)", (seq, *values, sent, checksum)
-            )
-        last = len(rows) - 1
-        tip: tuple[Any, ...] = last, 1
-        if random is not None and random.random() < 0.1:
-            tip = random.choice(((-3, 1), (2**62, 1), (last, 2**63 - 1), (last, "x"), (last, -1)))
-        database.execute("DELETE FROM tip")
-        database.execute("INSERT INTO tip VALUES (0, ?, ?, ?)", (*tip, tip_checksum(*tip)))
-        database.execute("DELETE FROM snapshot")
+                columns[random.randrange(2)] = random.choice(COLUMNS)
+            sent = text.encode("utf-8", "surrogatepass").decode("utf-8", "replace")
+            database.execute("INSERT INTO event VALUES (?, ?, ?, ?)", (seq, *columns, sent))
 
 
-def write_snapshot(path: Path, seq: int, text: str, wall: Any = 1_700_000_000_000) -> None:
-    """Put a snapshot there, with a right checksum."""
-    checksum = snapshot_checksum(seq, 1, wall, text.encode())
+def write_rows(path: Path, random: Random) -> None:
+    """Replace some of the rows of a journal by others."""
     with closing(sqlite3.connect(path, isolation_level=None)) as database:
-        row = seq, 1, wall, text, checksum
-        database.execute("INSERT OR REPLACE INTO snapshot VALUES (?, ?, ?, ?, ?)", row)
+        for table in ("mission", "trip", "drone", "app"):
+            key = {"mission": "name", "trip": "number", "drone": "id", "app": "fact"}[table]
+            for name, text in database.execute(f"SELECT {key}, text FROM {table}").fetchall():
+                if random.random() < 0.3:
+                    other = json.dumps(changed(random, json.loads(text)))
+                    other = other if random.random() < 0.8 else random.choice(RAW)
+                    update = f"UPDATE {table} SET text = ? WHERE {key} = ?"
+                    database.execute(update, (other, name))
 
 
 _ENDLESS = (
-    "ALTER TABLE journal RENAME TO j2; CREATE VIEW journal AS WITH RECURSIVE n(i) AS (SELECT 1"
-    " UNION ALL SELECT i + 1 FROM n) SELECT i AS seq, 1 AS epoch, 1 AS wall, '' AS text, 1 AS checksum"
-    " FROM n"
+    "ALTER TABLE event RENAME TO e2; CREATE VIEW event AS WITH RECURSIVE n(i) AS (SELECT 1"
+    " UNION ALL SELECT i + 1 FROM n) SELECT i AS seq, 1 AS epoch, 1 AS wall, '' AS text FROM n"
 )
 TABLES = (
     _ENDLESS,
-    "CREATE TRIGGER t AFTER INSERT ON journal BEGIN DELETE FROM journal; END",
-    "ALTER TABLE journal RENAME TO j2; CREATE VIEW journal AS SELECT * FROM j2",
-    "DROP TABLE tip; CREATE VIEW tip AS SELECT 0 AS id, 1 AS seq, 1 AS epoch, 0 AS checksum",
+    "CREATE TRIGGER t AFTER INSERT ON event BEGIN DELETE FROM event; END",
+    "ALTER TABLE event RENAME TO e2; CREATE VIEW event AS SELECT * FROM e2",
+    "DROP TABLE app; CREATE VIEW app AS SELECT 'epoch' AS fact, '1' AS text",
     "CREATE VIRTUAL TABLE v USING fts5(x)",
-    "DROP TABLE snapshot; CREATE TABLE snapshot (seq)",
-    "DELETE FROM journal",
-    "DELETE FROM tip; DELETE FROM journal",
+    "DROP TABLE result; CREATE TABLE result (number)",
+    "DELETE FROM event",
+    "DELETE FROM app; DELETE FROM event",
 )
 """What makes other tables of a journal's."""
 

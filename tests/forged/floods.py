@@ -25,7 +25,7 @@ from tempfile import TemporaryDirectory
 
 from pluto_fleet.journal.store import Store
 from pluto_fleet.station.history.folder import recording_of
-from tests.forged.files import DEEP, write_journal
+from tests.forged.files import DEEP, write_events
 from tests.kit.campaign import Campaign
 from tests.kit.station import Station, Stations, until
 
@@ -121,7 +121,7 @@ def _forge(folder: Path) -> list[str]:
     for id in (*recordings, *rows):
         path = folder / f"{id}.journal"
         Store.create(path, {"event": "journal.begun"}).close()
-        write_journal(path, [header, rows[id]] if id in rows else [header])
+        write_events(path, [header, rows[id]] if id in rows else [header])
         if id in recordings:
             recording_of(path).write_bytes(recordings[id])
     return [*recordings, *rows]

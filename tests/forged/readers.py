@@ -43,7 +43,6 @@ def readers(folder: Path) -> Iterator[tuple[str, Callable[[], object]]]:
     yield "mcap", lambda: past.mcap(FLIGHT)
     yield "console", lambda: past.console(FLIGHT).encode()
     yield "results", lambda: _results(folder)
-    yield "mend", lambda: _run(lambda: main(FARM, ["journal", str(journal), "--mend"]))
 
 
 def faults_of(folder: Path, *, only: Sequence[str] = ()) -> Iterator[str]:

@@ -11,7 +11,7 @@ import pytest
 
 from pluto_fleet.station.history.folder import recording_of
 from tests.forged.__main__ import one
-from tests.forged.files import DEEP, write_journal
+from tests.forged.files import DEEP, write_events
 from tests.forged.floods import MOST_MEMORY, flooded
 from tests.forged.readers import FLIGHT, faults_of
 from tests.library.station.history.test_past import ROWS, frames_of, kept, past_of
@@ -80,7 +80,7 @@ def test_a_flight_of_years_is_replayed_in_time(tmp_path: Path) -> None:
         "ended": "done",
     }
     end = {"t": 9e8, **flew, "seconds": 9e8}
-    write_journal(kept(tmp_path, FLIGHT), [json.dumps([header]), json.dumps([began, end])])
+    write_events(kept(tmp_path, FLIGHT), [json.dumps([header]), json.dumps([began, end])])
     assert list(faults_of(tmp_path, only=("replay", "report", "flights", "mcap"))) == []
 
 

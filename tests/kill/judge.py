@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.standing import Standing
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.trials.invariants import Invariants
 from pluto_fleet.trials.promise_rule import PromisesAreKept
@@ -31,17 +31,9 @@ def events_of(rows: Sequence[str]) -> Iterator[Event]:
         yield from json.loads(row)
 
 
-def folded(rows: Sequence[str]) -> Records:
-    """Return how all missions stand after these rows."""
-    records = Records()
-    for event in events_of(rows):
-        records.take(event)
-    return records
-
-
-def phase(rows: Sequence[str]) -> str:
-    """Say in a word what went on after these rows."""
-    missions = folded(rows).missions.values()
+def phase(standing: Standing) -> str:
+    """Say in a word what went on."""
+    missions = standing.missions.values()
     if not missions:
         return "setting out"
     if all(record["ended"] for record in missions):
@@ -87,7 +79,7 @@ def done_by_the_world(journal: Path) -> Counter[tuple[str, str]]:
     return counts
 
 
-def wrong(journal: Path, rows: Sequence[str]) -> Iterator[str]:
+def wrong(journal: Path, rows: Sequence[str], standing: Standing) -> Iterator[str]:
     """Yield what is wrong with how it ended, beside the world's own record."""
     promises = Invariants({}, rules=[PromisesAreKept])
     for event in events_of(rows):
@@ -97,7 +89,7 @@ def wrong(journal: Path, rows: Sequence[str]) -> Iterator[str]:
     for (action, trip), times in done.items():
         if times > 1:
             yield f"{action} of {trip} was done {times} times"
-    for name, record in folded(rows).missions.items():
+    for name, record in standing.missions.items():
         if record["question"] is not None:
             continue  # that is not known: a person decides
         if not record["ended"]:

@@ -16,9 +16,9 @@ from typing import Any
 import pytest
 
 from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.reader import Reader, standing_of
 from tests.kill.conftest import NewFlight
-from tests.kill.judge import events_of, folded
+from tests.kill.judge import events_of
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.painter import painted
 from tests.kill.plans import Plan
@@ -34,7 +34,7 @@ def launched(flight: Flight) -> Flight:
 
 def rows_of(flight: Flight) -> list[str]:
     with closing(Reader(flight.journal)) as reader:
-        return [row.text for row in reader.rows()]
+        return [instant.text for instant in reader.instants()]
 
 
 def events(flight: Flight, kind: str) -> list[dict[str, Any]]:
@@ -42,7 +42,7 @@ def events(flight: Flight, kind: str) -> list[dict[str, Any]]:
 
 
 def statuses(flight: Flight) -> list[str]:
-    return [record["status"] for record in folded(rows_of(flight)).missions.values()]
+    return [record["status"] for record in standing_of(flight.journal).missions.values()]
 
 
 def drones_are_at(flight: Flight) -> list[list[float]]:

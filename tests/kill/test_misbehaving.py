@@ -6,13 +6,12 @@ What a hook does is the name of its trip, and which process it must not do it in
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
-from pluto_fleet.journal.reader import Reader
-from tests.kill.judge import folded
+from pluto_fleet.journal.reader import standing_of
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.plans import TRIP, Plan, plan, source_of
 from tests.kill.trial import end_gateway, gateway_of
@@ -234,8 +233,7 @@ def test_all_other_missions_fly_on(
 
 
 def ends(flight: Flight) -> dict[str, dict[str, object]]:
-    with closing(Reader(flight.journal)) as reader:
-        return folded([row.text for row in reader.rows()]).missions
+    return standing_of(flight.journal).missions
 
 
 def test_a_hook_s_children_end_without_the_app_and_with_it(misfits: Path, tmp_path: Path) -> None:

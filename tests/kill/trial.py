@@ -12,8 +12,9 @@ from pathlib import Path
 from random import Random
 
 from pluto_fleet.journal.place import gateway_folder
-from pluto_fleet.journal.reader import Reader
-from tests.kill.judge import done_by_the_world, folded, lost, phase, unkept, wrong
+from pluto_fleet.journal.reader import Reader, standing_of
+from pluto_fleet.journal.standing import Standing
+from tests.kill.judge import done_by_the_world, lost, phase, unkept, wrong
 from tests.kill.lives import Flight, alive, eventually
 from tests.kill.plans import Plan
 
@@ -90,22 +91,22 @@ class Trial:
         """Return what went on; nothing that was on record may have gone."""
         before, self._seen = self._seen, self._rows()
         self._wrong += lost(before, self._seen)
-        return phase(self._seen)
+        return phase(self._standing())
 
     def _end(self, code: int) -> None:
         tally, journal = self.tally, self.flight.journal
         code = self._decide(code)
         self._now()
-        records = folded(self._seen)
+        standing = self._standing()
         self._wrong += unkept(self.flight.lives, self._seen)
-        self._wrong += wrong(journal, self._seen)
+        self._wrong += wrong(journal, self._seen, standing)
         if code not in (0, 1):
             self._wrong.append(f"exit code {code}: {self.flight.lives[-1][-400:]}")
         pid = gateway_of(journal)
         if pid is not None and not eventually(lambda: not alive(pid)):
             self._wrong.append(f"the gateway, process {pid}, has not ended")
         tally.actions += done_by_the_world(journal).total()
-        for record in records.missions.values():
+        for record in standing.missions.values():
             tally.ends[record["status"]] += 1
             if record["reason"]:
                 tally.reasons[record["reason"]] += 1
@@ -113,7 +114,7 @@ class Trial:
     def _decide(self, code: int) -> int:
         """Say of every unknown action what the world has on record, and go on."""
         while code == 4:
-            for name, record in folded(self._rows()).missions.items():
+            for name, record in self._standing().missions.items():
                 if record["question"] is None:
                     continue
                 flight = record["flight"]
@@ -134,9 +135,13 @@ class Trial:
         if not self.flight.journal.exists():
             return []
         with closing(Reader(self.flight.journal)) as reader:
-            rows = [row.text for row in reader.rows()]
-            self._wrong += [one for one in (reader.damaged, reader.torn) if one is not None]
+            rows = [instant.text for instant in reader.instants()]
+            if reader.damaged is not None:
+                self._wrong.append(reader.damaged)
         return rows
+
+    def _standing(self) -> Standing:
+        return standing_of(self.flight.journal) if self.flight.journal.exists() else Standing()
 
 
 def end_gateway(journal: Path) -> None:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Coroutine, Sequence
 from typing import Any, TypeVar
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile, with_joined
+from pluto_fleet.flight.offline import decided
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.store import Entry
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.model import Mission
@@ -42,9 +42,9 @@ class _AtOnce:
         self._memory = memory
         self.life: RecordedFlight | None = None
 
-    def add(self, row: str) -> int:
-        """Make a row durable."""
-        number = self._memory.add(row)
+    def add(self, entry: Entry) -> int:
+        """Make an entry durable."""
+        number = self._memory.add(entry)
         self._memory.commit()
         if self.life is not None:
             self.life.recorder.durable(number)
@@ -151,9 +151,7 @@ class Living:
     def _new_life(self) -> RecordedFlight:
         self._epoch += 1
         self._brain = Mortal(self.kernel)
-        records = Records()
-        for event in self.memory.read().events:
-            records.read(event)
+        records = self.memory.standing()
         fleet = with_joined(self.app, self.fleet, records.joined)
         disk, link = _AtOnce(self.memory), self.gateway.link(self._epoch)
         life = RecordedFlight(
@@ -211,8 +209,7 @@ class Living:
     def decide_at_rest(self, mission: str, answer: str) -> None:
         """Write a person's decision into the journal while no brain lives, and begin another life."""
         self.die()
-        decided = {"t": self.kernel.now, "event": "mission.decided", "mission": mission}
-        self.memory.append([json.dumps([{**decided, "answer": answer}])])
+        self.memory.append([decided(self.memory.standing(), mission, answer)])
         self.done = Future()
         self.live_on()
 

@@ -26,7 +26,7 @@ from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Mission
-from pluto_fleet.shared.flow.standing import fleet_data
+from pluto_fleet.shared.flow.record import fleet_data
 from pluto_fleet.simulation.body import simulated
 from tests.kit.unthreaded import in_virtual_time, passes, the_air
 from tests.prediction.record import Flown

@@ -8,18 +8,17 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.flight import reconcile, recovery, suspending
+from pluto_fleet.flight import recovery, suspending
 from pluto_fleet.flight.reconcile import Outcome, outcome_of
 from pluto_fleet.gateway.gateway import Gateway, Line
 from pluto_fleet.gateway.jobs import Jobs
 from pluto_fleet.jobs.reports import JobState
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.recorder import Recorder
 from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
-from pluto_fleet.shared.flow import standing
-from pluto_fleet.shared.flow.restore import Restorer
+from pluto_fleet.shared.flow import record
+from pluto_fleet.shared.flow.going_on import GoingOn
 from pluto_fleet.shared.hooks import plain_data
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -81,15 +80,13 @@ def done_is_written_before_the_action(patch: pytest.MonkeyPatch) -> None:
 
 
 @mutant("waits until|once more", seed=3)
-def a_snapshot_forgets_delays(patch: pytest.MonkeyPatch) -> None:
-    really = Records.__init__
+def delays_are_forgotten_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
+    really = GoingOn._restored
 
-    def begin(self: Records, data: Any = None) -> None:
-        really(self, data)
-        for record in self.missions.values():
-            record["delay"], record["waited"] = None, []
+    def restored(self: GoingOn, name: str, record: Any) -> Any:
+        return really(self, name, {**record, "delay": None, "waited": []})
 
-    patch.setattr(Records, "__init__", begin)
+    patch.setattr(GoingOn, "_restored", restored)
 
 
 @mutant("and went on with")
@@ -102,7 +99,7 @@ def priority_is_lost_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
             trip.priority = 0
         return trip
 
-    patch.setattr(standing, "trip_of", trip_of)
+    patch.setattr(record, "trip_of", trip_of)
 
 
 @mutant("was told to .* while told to", seed=7)
@@ -133,20 +130,17 @@ def what_may_have_been_done_is_done_again(patch: pytest.MonkeyPatch) -> None:
 
 @mutant("results were there", seed=6, example="alfalfa")
 def results_are_lost_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
-    really = Restorer.go_on
-
-    def go_on(self: Restorer, standing: Any, drones: Any) -> None:
-        really(self, {**standing, "results": ()}, drones)
-
-    patch.setattr(Restorer, "go_on", go_on)
+    patch.setattr(GoingOn, "_restore_results", lambda self, rows: None)
 
 
 @mutant("yet serves|item|before it was free again", seed=6)
 def a_stopped_missions_carrier_is_given_away(patch: pytest.MonkeyPatch) -> None:
-    really = reconcile.for_brain
-    patch.setattr(
-        recovery, "for_brain", lambda app, record: {**really(app, record), "carrier": None}
-    )
+    really = GoingOn._restored
+
+    def restored(self: GoingOn, name: str, record: Any) -> Any:
+        return really(self, name, {**record, "carrier": None})
+
+    patch.setattr(GoingOn, "_restored", restored)
 
 
 @mutant("before that was on record")

@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import FLEW
+from ..journal import errors
 from ..journal.facts import BEGUN, check
-from ..journal.fold import Records, taken
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import bounded, quoted
@@ -86,16 +86,16 @@ def read_flights(path: Path) -> Flights:
         header = reader.header
         takes = header.get("takes", {})
         acting = Acting(takes)
-        for row, event in taken(path, reader.more(), Records()):
+        for instant, event in reader.events():
             acting.hear(event)
             if event["event"] == BEGUN:
-                begun = row.wall
+                begun = instant.wall
             elif event["event"] == FLEW:
-                runs[-1].append(_command(path, row.seq, event))
+                runs[-1].append(_command(path, instant.seq, event))
             elif event["event"] == "brain.began":
                 runs.append([])
         if reader.damaged is not None:
-            raise BadInput(reader.damaged)
+            raise errors.damaged(path, reader.damaged)
     if not any(runs):
         raise BadInput(f"{path}: {_NONE}")
     return Flights(

@@ -43,7 +43,7 @@ from .supervise import STOPS, Supervised, supervise
 if TYPE_CHECKING:
     from ..app import App
     from ..flight.fly import Recovered
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from ..shared.domain.model import Drone
     from ..shared.domain.trace import Event
     from .options import Options
@@ -112,8 +112,6 @@ def resume(app: App, options: Options) -> int:
         clear_stop(store.path)
         if taken.header["app_hash"] != fingerprint(app):
             output.tell("the app has changed since: missions go on by the names of its blocks")
-    if store.torn is not None:
-        output.tell(f"{journal}: {store.torn}")
     if options.supervise:
         store.close()
         return supervised(app, options, journal, None)
@@ -154,7 +152,7 @@ def see_through(flight: FlightSetup, store: Store, known: Recovered | None = Non
     return reported(flight.app, flight.journal, lived.records, lived.drones)
 
 
-def reported(app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()) -> int:
+def reported(app: App, journal: Path, records: Standing, drones: Sequence[Drone] = ()) -> int:
     """Report the outcome of a flight, and return its exit code."""
     code, lines = report_of(app, journal, records, drones)
     for line in [*lines, *waiting_lines(app, journal, records)]:

@@ -11,18 +11,16 @@ from contextlib import closing, suppress
 from typing import TYPE_CHECKING, Any
 
 from ..journal import errors, place
-from ..journal.mending import mend
+from ..journal.copies import newest_whole
 from ..journal.reader import Reader
 from ..report.sentences import journal_sentence
 from ..shared import output
-from ..shared.domain.text import counted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from pathlib import Path
 
     from ..app import App
-    from ..journal.database import Row
+    from ..journal.database import Instant
     from .options import Options
 
 DAMAGED = 1
@@ -34,33 +32,16 @@ LOOK_EVERY = 0.2
 def journal(app: App, options: Options) -> int:
     """Print the journal; with `--follow`, new events as well."""
     path = options.journal or place.newest(app.name)
-    if options.mend:
-        output.line(_mended(path))
-        return 0
     with closing(Reader(path, follows=options.follow)) as reader:
         printer = _Printer(as_json if options.json else as_text)
-        printer.print(reader.rows())
+        printer.print(reader.instants())
         if options.follow and reader.damaged is None:
             _follow(reader, printer)
-    for trouble in (reader.torn, reader.damaged):
-        if trouble is not None:
-            output.flush()
-            output.tell(trouble if trouble.startswith(str(path)) else f"{path}: {trouble}")
-    return DAMAGED if reader.damaged is not None else 0
-
-
-def _mended(path: Path) -> str:
-    done = mend(path)
-    if done is None:
-        return f"{path}: nothing is damaged"
-    kept = f"the damaged journal is kept as {done.kept}"
-    if not done.lost:
-        return f"{path}: mended: {counted(done.rows, 'row')} are there again; {kept}"
-    lost = counted(done.lost, "row")
-    return (
-        f"{path}: mended: {counted(done.rows, 'row')} are there again; {lost} after a gap are left"
-        f" out, and resume asks the drones what they did since; {kept}"
-    )
+        if reader.damaged is None:
+            return 0
+        output.flush()
+        output.tell(str(errors.damaged(path, reader.damaged, newest_whole(path))))
+        return DAMAGED
 
 
 def _follow(reader: Reader, printer: _Printer) -> None:
@@ -68,7 +49,7 @@ def _follow(reader: Reader, printer: _Printer) -> None:
     with suppress(KeyboardInterrupt):
         while reader.damaged is None:
             _wait(LOOK_EVERY)
-            printer.print(reader.more())
+            printer.print(reader.instants())
 
 
 def _wait(seconds: float) -> None:
@@ -84,27 +65,21 @@ def _wait(seconds: float) -> None:
 
 
 class _Printer:
-    """Prints the events of rows, and notes gaps."""
+    """Prints the events of instants."""
 
     def __init__(self, lines: Callable[[dict[str, Any], float], Iterator[str]]) -> None:
-        self._lines, self._next = lines, 0
+        self._lines = lines
 
-    def print(self, rows: Iterator[Row]) -> None:
-        for row in rows:
-            if row.seq > self._next:
-                first, last = self._next, row.seq - 1
-                missing = f"row {first}" if first == last else f"rows {first} to {last}"
-                output.flush()
-                output.tell(f"… {missing} cannot be read …")
-            self._next = row.seq + 1
+    def print(self, instants: Iterator[Instant]) -> None:
+        for instant in instants:
             try:
-                events = row.events
+                events = instant.events
             except ValueError as error:
                 output.flush()
-                output.tell(f"… {errors.unfit(row.seq, error)} …")
+                output.tell(f"… {errors.unfit(instant.seq, error)} …")
                 continue
             for event in events:
-                for line in self._lines(event, row.wall):
+                for line in self._lines(event, instant.wall):
                     output.line(line)
         output.flush()
 

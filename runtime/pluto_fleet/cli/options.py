@@ -74,7 +74,6 @@ class Options:
     plot: Path | None = None
     json: bool = False
     follow: bool = False
-    mend: bool = False
     sim: bool = False
     crtp_sim: int | None = None
     speed: float | None = None
@@ -182,7 +181,7 @@ def row(
 
 TABLE = (
     row("simulate size check fly", "missions M.toml", "the missions file"),
-    row("resume journal", "journal J", "the journal; default: the newest", nargs="?"),
+    row("resume journal", "journal J", "the journal; default: the newest", nargs="?", default=None),
     row("tell", "journal J", "the journal that the app keeps"),
     row("decide", "journal J", "the journal"),
     row("tell", "action WHAT", ", ".join(ACTIONS), choices=ACTIONS),
@@ -403,13 +402,7 @@ TABLE = (
     row("drones", "--save F.toml", "write a fleet file of those that answer", apart="what"),
     row("simulate size", "--json", "print one JSON object instead"),
     row("drones", "--json", "print one JSON object instead", apart="what"),
-    row("journal", "--follow", "go on with what comes, as it comes", apart="how"),
-    row(
-        "journal",
-        "--mend",
-        "make a whole journal of what can be read of a damaged one",
-        apart="how",
-    ),
+    row("journal", "--follow", "go on with what comes, as it comes"),
     row("journal", "--json", "print a JSON object for each event"),
 )
 

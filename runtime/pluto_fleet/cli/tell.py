@@ -28,7 +28,7 @@ from .given import drone_in, trips_in
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from .options import Options
 
 STOP_DIRECTLY_AFTER = 1.0
@@ -219,7 +219,7 @@ def decide(app: App, options: Options) -> int:
         request = {"command": "decide", "mission": mission, "answer": answer}
         output.line(asked(app, options, request))
     except NotRunning:
-        record_decision(journal, mission, answer, records.time)
+        record_decision(journal, mission, answer)
         output.line(
             f"mission {quoted(mission)}: {answer}; it is on record, and "
             f"{app.name} resume {in_shell(journal)} acts on it"
@@ -227,7 +227,7 @@ def decide(app: App, options: Options) -> int:
     return 0
 
 
-def _not_asked(journal: Path, mission: str, records: Records) -> str:
+def _not_asked(journal: Path, mission: str, records: Standing) -> str:
     known = mission in records.missions
     what = "waits for no decision" if known else "is not in this journal"
     others = ", ".join(quoted(name) for name, _, _ in waiting(records))

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.telemetry import Telemetry
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from ..shared.domain.model import Trip
 
 Given = Sequence[object]

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..jobs.link import Link
     from ..jobs.reports import Down
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from ..process.realtime import RealTime
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
@@ -65,7 +65,7 @@ class FlightResult:
     end: End
     missions: Sequence[Mission[Any]]
     drones: Sequence[Drone]
-    records: Records
+    records: Standing
 
 
 class Stops:

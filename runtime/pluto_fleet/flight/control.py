@@ -19,7 +19,7 @@ from ..shared.domain.text import counted, quoted
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
-from .mission_status import aside, in_order
+from .mission_status import aside
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
     CANCELLED,
@@ -31,7 +31,7 @@ from .suspending import Suspending
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from .recorded_brain import RecordedBrain
 
 PRIORITY = "priority"
@@ -63,6 +63,7 @@ class Control(Suspending):
                 work.cancel()
             if self.whole is not None:
                 self.whole.cancel()  # it may still be querying drones: nothing may begin after that
+            self._run.recorder.fact("stopped", self._run.kernel.now)
             self._run.note("stopped", how=how.value)
         else:
             self._stops.cancel()
@@ -99,7 +100,6 @@ class Control(Suspending):
             self._step_out(mission, record, partial(self._skip, unwanted["name"]))
         else:
             self._command("skip", mission=mission, trip=unwanted["name"])
-            self._run.note("trip.skipped", mission=mission, trip=unwanted["name"])
         return f"mission {quoted(mission)}: trip {quoted(unwanted['name'])} is skipped"
 
     def cancel(self, mission: str | None = None) -> str:
@@ -119,14 +119,15 @@ class Control(Suspending):
             raise BadInput(f"mission {quoted(mission)} is {status.value}: {asked}")
         if answer == "go-on" and not (record["todo"] or record["done"]):
             raise BadInput(f"mission {quoted(mission)} cannot go on in this app: cancel it")
-        self._run.note("mission.decided", mission=mission, answer=answer)
+        self._command("decide", mission=mission, answer=answer)
         if answer == "cancel":
             self._cancel(mission)
         elif answer == "go-on":
             self._step_out(mission, record, self._resume)
         else:
-            self._settle(mission, record, DONE_OR_NOT[answer])
-            self._go_on(mission, record)
+            with self._half_done():
+                self._settle(mission, record, DONE_OR_NOT[answer])
+                self._go_on(mission)
         return f"mission {quoted(mission)}: {answer}"
 
     def change_trips(
@@ -154,19 +155,14 @@ class Control(Suspending):
 
     def _change(self, mission: str, record: Record, change: TripChange) -> None:
         if aside(record) is not None:
-            self._replan(change.todo, mission, record)
+            self._command("change-trips", mission=mission, trips=change.todo)
         elif change.in_place:
             self._command("change-trips", mission=mission, trips=change.todo[1:])
-            self._replan(change.todo, mission, record)
         else:
-            self._step_out(mission, record, partial(self._replan_and_resume, change.todo))
+            self._step_out(mission, record, partial(self._change_and_resume, change.todo))
 
-    def _replan(self, todo: Sequence[Record], name: str, record: Record) -> None:
-        facts = {"todo": todo, "done": record["done"], "fields": record["fields"]}
-        self._run.note("mission.replanned", mission=name, **facts)
-
-    def _replan_and_resume(self, todo: Sequence[Record], name: str, record: Record) -> None:
-        self._replan(todo, name, record)
+    def _change_and_resume(self, todo: Sequence[Record], name: str, record: Record) -> None:
+        self._command("change-trips", mission=name, trips=todo)
         self._resume(name, record)
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
@@ -175,7 +171,6 @@ class Control(Suspending):
         if not any(field.name == PRIORITY for field in self._run.app.fields):
             raise BadInput("the trips of this app have no priority")
         _trip_to_do(mission, record, trip)
-        self._run.note("trip.prioritised", mission=mission, trip=trip, priority=priority)
         self._command("prioritise", mission=mission, trip=trip, priority=priority)
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
@@ -234,6 +229,7 @@ class Control(Suspending):
 
     def remember(self, id: str, command: str) -> None:
         """Record that a command is carried out, so that it is never carried out twice."""
+        self._run.recorder.remember(id)
         self._run.note("commanded", id=id, command=command)
 
     async def carried_out(self) -> None:
@@ -247,20 +243,20 @@ class Control(Suspending):
         """Whether missions that are in no graph keep the app running."""
         if self._busy or self._steps_out or self._joining:
             return True
-        waiting = [aside(record) for record in self._run.records.missions.values()]
+        waiting = [aside(record) for _, record in self._under_way()]
         paused = any(one is not None and one[0] is Status.PAUSED for one in waiting)
         return paused or (self._run.patient and any(one is not None for one in waiting))
 
     def _paused(self, name: str, _: Record) -> None:
-        self._run.note("mission.paused", mission=name)
+        self._command("pause", mission=name)
 
     def _skip(self, unwanted: str, name: str, record: Record) -> None:
-        was_paused = record["paused"] is not None
         if any(trip["name"] == unwanted for trip in record["todo"]):
-            self._run.note("trip.skipped", mission=name, trip=unwanted)
+            self._command("skip", mission=name, trip=unwanted)
+            record = self._run.record(name)
         if not record["todo"] and unheard(record) is None:
             self._command("cancel", mission=name, status=Status.COMPLETED.value, reason="")
-        elif not was_paused:
+        elif record["paused"] is None:
             self._resume(name, record)
 
     def _cancel(self, name: str) -> None:
@@ -283,17 +279,16 @@ class Control(Suspending):
         raise BadInput(f"no drone {quoted(id)} is in the fleet; there are: {names}")
 
     def _under_way(self) -> list[tuple[str, Record]]:
-        known = in_order(self._run.records) if self._run.is_set_out else []
-        return [(name, record) for name, record in known if not record["ended"]]
+        names = self._run.brain.under_way() if self._run.is_set_out else ()
+        return [(name, self._run.record(name)) for name in names]
 
     def record(self, mission: str) -> Record:
         """Return the record of a mission that is under way; raise `BadInput` if it is not."""
         self._refuse_after_stop()
-        living = self._under_way()
-        for name, record in living:
-            if name == mission:
-                return record
-        names = ", ".join(quoted(name) for name, _ in living)
+        living = self._run.brain.under_way() if self._run.is_set_out else ()
+        if mission in living:
+            return self._run.record(mission)
+        names = ", ".join(map(quoted, living))
         raise BadInput(f"no mission {quoted(mission)} is under way; there are: {names or 'none'}")
 
     def _status(self, name: str, record: Record) -> Status:

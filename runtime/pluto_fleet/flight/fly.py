@@ -8,13 +8,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..gateway.starting import speed_in
-from ..journal import errors
-from ..journal.fold import replayed
 from ..journal.place import gateway_folder
 from .live_flight import LiveFlight
 
 if TYPE_CHECKING:
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from ..journal.store import Store
     from .config import FlightConfig, FlightResult, Stops
 
@@ -23,24 +21,20 @@ if TYPE_CHECKING:
 class Recovered:
     """The contents of a journal."""
 
-    records: Records
-    written: float | None
-    """When its last row was written, in seconds since 1970."""
+    records: Standing
+    written: float
+    """When its last entry was written, in seconds since 1970."""
 
     def time(self, speed: float) -> float:
         """Return the present time in a run that resumes from there; `speed`: of the time in between."""
-        if not self.records.missions or self.written is None:
+        if not self.records.missions:
             return self.records.time
         return self.records.time + max(0.0, time.time() - self.written) * speed
 
 
 def recovered(store: Store) -> Recovered:
-    """Read a journal; raise `BadInput` if it is damaged."""
-    read = store.read()
-    records = replayed(read, store.header)
-    if read.damaged is not None:
-        raise errors.damaged(store.path, read.damaged)
-    return Recovered(records=records, written=read.written)
+    """Read where everything stands by a journal; raise `BadInput` if it is not as this version writes it."""
+    return Recovered(records=store.standing(), written=store.written)
 
 
 async def live(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
@@ -16,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from ..files.fleet import with_joined
 from ..jobs.link import UNCERTAIN
 from ..jobs.reports import Down
+from ..journal.copies import EVERY
 from ..journal.errors import JournalError
 from ..journal.writer import Writer
 from ..process.hook_runner import RealHooks
@@ -30,17 +32,10 @@ from .waits import Waits
 
 if TYPE_CHECKING:
     from ..jobs.link import Link
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from ..journal.store import Store
-    from ..shared.domain.trace import Event
     from ..shared.time.kernel import Task
     from .config import FlightConfig, Stops
-
-SNAPSHOT_EVERY = 50_000
-"""Events between two snapshots: as many are read again in a tenth of a second."""
-
-SNAPSHOT_AT_END = 1_000
-"""The least events since the last snapshot for another one at the end of a run."""
 
 LOOK_EVERY = 1.0
 """Seconds of real time between two checks that the journal is still there."""
@@ -51,7 +46,9 @@ _ENDED = "the app ended before it could say whether that was done: look, once it
 class LiveFlight:
     """Runs from the first report of the drones to the end."""
 
-    def __init__(self, setting: FlightConfig, store: Store, records: Records, begin: float) -> None:
+    def __init__(
+        self, setting: FlightConfig, store: Store, records: Standing, begin: float
+    ) -> None:
         self._setting, self._store = setting, store
         self._loop = asyncio.get_running_loop()
         self._kernel = RealTime(setting.speed, begin)
@@ -65,7 +62,8 @@ class LiveFlight:
         """The recorded flight, once the gateway is connected."""
         self._end: Future[End] = Future()
         self._failure: JournalError | None = None
-        self._since_snapshot = 0
+        self._copied = time.monotonic()
+        """When the journal was copied last."""
         self._kept: asyncio.Future[bool] = self._loop.create_future()
         """Set at the end: whether all commands have taken effect and are durable."""
 
@@ -85,7 +83,6 @@ class LiveFlight:
             self._writer,
             self._records,
             epoch=self._store.epoch,
-            listeners=(self._count,),
             watcher=setting.tell,
             hooks=hooks,
             clock=self._clock,
@@ -121,6 +118,7 @@ class LiveFlight:
         """Run to some end, and make everything durable."""
         over = life.go_on(self._setting.missions)
         over.watch(self._over)
+        self._copy()
         self._kernel.spawn(Waits(life).watch(), FLEET, "what waits")
         if stops.asked is not None:
             stops.stop(stops.asked)
@@ -129,8 +127,6 @@ class LiveFlight:
             over.result()  # raises its error
         if self._failure is None:
             life.recorder.finish()
-            if self._since_snapshot > SNAPSHOT_AT_END:
-                self._keep()
             try:
                 self._writer.flush()
             except JournalError as failure:
@@ -169,17 +165,6 @@ class LiveFlight:
 
     # Events, to the journal and back
 
-    def _count(self, _: Event) -> None:
-        """Count events, and write a snapshot now and then."""
-        self._since_snapshot += 1
-        if self._since_snapshot == SNAPSHOT_EVERY:
-            self._loop.call_soon(self._keep)  # between two instants
-
-    def _keep(self) -> None:
-        self._since_snapshot = 0
-        if self._failure is None:
-            self._writer.snapshot(json.dumps(self._records.data))
-
     def _durable(self, number: int) -> None:
         if self.life is not None:
             self.life.recorder.durable(number)
@@ -197,8 +182,14 @@ class LiveFlight:
                 self._store.look()
             except JournalError as failure:
                 self._unwritable(failure)
+            if time.monotonic() - self._copied > EVERY:
+                self._copy()
             if self.life is not None and self._clock.moved():
                 self._kernel.post(self.life.driver.ask_for_the_hour)
+
+    def _copy(self) -> None:
+        self._copied = time.monotonic()
+        self._writer.copy()
 
     def _drifted(self) -> float | None:
         """Return how far the clock of the hours has drifted, and record it, if that is news."""
@@ -207,7 +198,9 @@ class LiveFlight:
         drift = self._clock.drift
         if life is None or not life.is_set_out or life.records.clock["drift"] == drift:
             return None
-        life.note("clock.moved", by=drift - life.records.clock["drift"], drift=drift)
+        by = drift - life.records.clock["drift"]
+        life.recorder.fact("clock", {**life.records.clock, "drift": drift})
+        life.note("clock.moved", by=by, drift=drift)
         return drift
 
     def _unwritable(self, failure: JournalError) -> None:

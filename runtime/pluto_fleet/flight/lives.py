@@ -122,7 +122,7 @@ def reopen(app: App, journal: Path) -> Resumable:
         fleet = fleet_in(app, journal, header)
         app = moving(app, fleet.motion)
         known = recovered(store)
-        if unknown := known.records.drones - {drone.id for drone in fleet.drones}:
+        if unknown := known.records.needed - {drone.id for drone in fleet.drones}:
             raise errors.strange(journal, errors.unknown_drone(min(unknown)))
         planned: Sequence[Mission[Any]] = ()
         if not known.records.missions:

@@ -15,7 +15,7 @@ from .reconcile import id_of, in_flight, trip_of
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Task
     from .recorded_brain import RecordedBrain
@@ -58,7 +58,8 @@ class Mishaps:
         return f"{drone}: nothing will be heard of {trip['action']} of trip {quoted(trip['name'])}"
 
     def _mission_of(self, drone: str) -> tuple[str, Record]:
-        for name, record in self._run.records.missions.items():
+        for name in self._run.brain.under_way():
+            record = self._run.record(name)
             flight = in_flight(record)
             if flight is not None and flight["drone"] == drone and aside(record) is None:
                 return name, record
@@ -68,7 +69,7 @@ class Mishaps:
         """Wait until a drone has done its job's action and forgotten it."""
         await self._run.link.ask("mishap", drone=drone, kind=UNCERTAIN, job=id)
         del self._armed[name]
-        self._look_into(name, self._run.records.missions[name])
+        self._look_into(name, self._run.record(name))
 
     def hear(self, event: Event) -> None:
         """Called with each event: an action of the app's own is done here, and not by the drone."""
@@ -83,4 +84,4 @@ class Mishaps:
         armed = self._armed.pop(name, None)
         if armed is not None:  # else it has ended at that very instant
             armed.cancel()
-            self._look_into(name, self._run.records.missions[name])
+            self._look_into(name, self._run.record(name))

@@ -7,12 +7,11 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..journal.errors import Damaged
 from ..journal.facts import DRAINED, Event
 from ..journal.facts import check as check_facts
-from ..journal.fold import Record, Records, taken
 from ..journal.header import check
 from ..journal.reader import Reader
+from ..journal.standing import Record, Standing
 from ..shared.domain.status import Status
 
 if TYPE_CHECKING:
@@ -24,27 +23,23 @@ ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel
 _ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
 
 
-def records_in(app: App, journal: Path) -> Records:
-    """Return a journal's content, while an app may be writing it.
+def records_in(app: App, journal: Path) -> Standing:
+    """Return where everything stands by a journal, while an app may be writing it.
 
     Another app's journal is refused, and so is a damaged one, whose missing part cannot be known.
     """
-    records = Records()
     with closing(Reader(journal)) as reader:
-        for row, event in taken(journal, reader.more(), records):
-            if row.seq == 0:
-                check(journal, event, app)
-        if reader.damaged is not None:
-            raise Damaged(reader.damaged)
-    return records
+        if reader.damaged is None:
+            check(journal, reader.header, app)
+        return reader.standing()
 
 
-def in_order(records: Records) -> list[tuple[str, Record]]:
+def in_order(records: Standing) -> list[tuple[str, Record]]:
     """Return the missions with their names, in the order of the plan."""
     return sorted(records.missions.items(), key=lambda item: int(item[1]["index"]))
 
 
-def finished(records: Records) -> int:
+def finished(records: Standing) -> int:
     """Return how many trips and missions have ended."""
     ended = sum(record["ended"] for record in records.missions.values())
     failed = sum(
@@ -55,20 +50,20 @@ def finished(records: Records) -> int:
     return int(ended + failed + len(records.results))
 
 
-def all_over(records: Records) -> bool:
+def all_over(records: Standing) -> bool:
     """Whether every mission has ended."""
     missions = records.missions.values()
     return bool(missions) and all(record["ended"] for record in missions)
 
 
-def has_ended(records: Records) -> bool:
+def has_ended(records: Standing) -> bool:
     """Whether nothing flies any more: each mission has ended, or waits for an answer."""
     missions = records.missions.values()
     asides = [record["ended"] or aside(record) is not None for record in missions]
     return bool(asides) and all(asides)
 
 
-def waiting(records: Records, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
+def waiting(records: Standing, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
     """Yield the missions that wait for the user: name, status, and the question.
 
     `answered`: also those that have been answered without effect yet.
@@ -99,9 +94,9 @@ def count_flights(journal: Path) -> tuple[int, int, float, list[Event]]:
     ended = 0.0
     drained = list[Event]()
     with closing(Reader(journal)) as reader:
-        for row in reader.rows():
+        for instant in reader.instants():
             with suppress(ValueError):
-                for event in row.events:
+                for event in instant.events:
                     check_facts(event)
                     kind = event["event"]
                     launched += kind == "trip.launched"

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING
 from ..jobs.reports import Down
 from ..journal.header import check
 from ..journal.place import gateway_folder
-from ..journal.store import Store
+from ..journal.store import Entry, Store
 from ..shared.domain.text import printable
-from .fly import recovered
 
 if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
-    from ..journal.fold import Records
+    from ..journal.standing import Standing
     from ..shared.domain.model import Point
 
 Event = Mapping[str, object]
@@ -31,18 +30,20 @@ def record_return(app: App, journal: Path, drone: str, also: Sequence[Event] = (
     """
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
-        event, said = returned(recovered(store).records, drone)
+        standing = store.standing()
+        event, said = returned(standing, drone)
         if event is not None:
-            store.append([json.dumps([event, *also])])
+            row = standing.bring_back(drone)
+            store.append([Entry(json.dumps([event, *also]), [row])])
     return said
 
 
-def returned(records: Records, drone: str) -> tuple[Event | None, str]:
+def returned(standing: Standing, drone: str) -> tuple[Event | None, str]:
     """Return the event of a drone that is brought back, if it was away, and the answer for the user."""
-    lost = drone in records.lost
-    if not lost and drone not in records.retired:
+    lost = drone in standing.lost
+    if not lost and drone not in standing.retired:
         return None, f"{printable(drone)} is neither retired nor lost"
-    event = {"t": records.time, "event": "drone.brought_back", "drone": drone, "lost": lost}
+    event = {"t": standing.time, "event": "drone.brought_back", "drone": drone, "lost": lost}
     when = "it is asked how it is as soon as missions fly"
     return event, f"{drone} is brought back: {when}"
 
@@ -51,15 +52,26 @@ def record_loss(app: App, journal: Path, drone: str, reason: str, at: Point | No
     """Write into an idle journal that a drone was lost while no app was running."""
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
-        event = {"t": recovered(store).records.time, "event": "drone.lost", "drone": drone}
-        store.append([json.dumps([{**event, "at": at, "reason": reason}])])
+        standing = store.standing()
+        event = {"t": standing.time, "event": "drone.lost", "drone": drone, "at": at}
+        row = standing.lose(drone, reason, at)
+        store.append([Entry(json.dumps([{**event, "reason": reason}]), [row])])
 
 
-def record_decision(journal: Path, mission: str, answer: str, now: float) -> None:
+def record_decision(journal: Path, mission: str, answer: str) -> None:
     """Write the user's answer into an idle journal."""
-    event = {"t": now, "event": "mission.decided", "mission": mission, "answer": answer}
     with closing(Store.open(journal)) as store:
-        store.append([json.dumps([event])])
+        standing = store.standing()
+        store.append([decided(standing, mission, answer)])
+
+
+def decided(standing: Standing, mission: str, answer: str) -> Entry:
+    """Return what is written of a user's answer."""
+    event = {"t": standing.time, "event": "mission.decided", "mission": mission, "answer": answer}
+    record = standing.missions[mission]
+    accepted = record["at"] if answer == "go-on" else record["accepted"]
+    row = {**standing.row_of(mission), "answer": answer, "accepted": accepted}
+    return Entry(json.dumps([event]), [("mission", (mission,), row)])
 
 
 def leave_stop(journal: Path, how: Down) -> None:

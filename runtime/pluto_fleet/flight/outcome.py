@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ..shared.alone.simulate import Outcome
 from ..shared.domain.model import Drone, Mission, Result
 from ..shared.domain.status import DroneStatus, Status
-from ..shared.flow.standing import update
-from ..shared.hooks.plain_data import value_of
+from ..shared.flow import record
 
 if TYPE_CHECKING:
     from ..app import App
@@ -46,7 +45,7 @@ def result_of(
     """Return an outcome in objects, and bring these missions up to date."""
     standing = outcome.standing
     for mission in missions:
-        update(app, mission, standing["missions"][mission.name])
+        record.update(app, mission, standing["missions"][mission.name])
     return SimulationResult(
         **{one.name: getattr(outcome, one.name) for one in fields(Outcome)},
         missions=tuple(missions),
@@ -75,7 +74,7 @@ def drones_of(
 
 
 def _results_of(
-    missions: Sequence[Mission[Any]], stored: Sequence[Sequence[Any]]
+    missions: Sequence[Mission[Any]], stored: Sequence[Mapping[str, Any]]
 ) -> tuple[Result[Any, Any], ...]:
     """Return the results of these missions, which are up to date."""
     named = {one.name: one for one in missions}
@@ -85,6 +84,6 @@ def _results_of(
         for trip in (*one.trips, *one.completed_trips)
     }
     return tuple(
-        Result(named[mission], trips.get((mission, trip)), round_, attempt, value_of(value))
-        for mission, trip, round_, attempt, value in stored
+        record.result_of(row, named[row["mission"]], trips.get((row["mission"], row["trip"])))
+        for row in stored
     )

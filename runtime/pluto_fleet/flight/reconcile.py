@@ -10,16 +10,12 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import Entry, JobState
-from ..shared.domain.errors import FlightFailed
-from ..shared.domain.text import shown
-from ..shared.hooks.plain_data import value_data
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..app import App
     from ..jobs.reports import DroneReport
-    from ..journal.fold import Record
+    from ..journal.standing import Record
 
 Data = dict[str, Any]
 
@@ -79,26 +75,9 @@ def unheard(record: Record) -> str | None:
     return None if flight is None or flight["heard"] else flight["outcome"]
 
 
-def ended(mission: str, flight: Record, result: object = None) -> Data:
-    """Return the event of a flight that has ended, by what was reported of it."""
-    facts = {key: flight[key] for key in ("trip", "drone", "round", "attempt")}
-    if isinstance(result, FlightFailed):
-        return {"event": "trip.failed", "mission": mission, **facts, "reason": str(result)}
-    data = {"value": shown(result), "result": value_data(result), "found_out": True}
-    return {"event": "trip.completed", "mission": mission, **facts, **data}
-
-
 def question(trip: Record, drone: str) -> str:
     """Return the question whether an action was done, for a person."""
     return f"was {trip['action']} of trip {trip['name']} done by {drone}? It could not be seen"
-
-
-def for_brain(app: App, record: Record) -> Record:
-    """Return a mission's record to go on from; a block that the app has no more is replaced."""
-    at = record["at"]
-    if at is not None and at not in app.resumes and app.resumes:
-        at = app.resumes[0]  # the user has said so
-    return {**record, "at": at}
 
 
 def drone_told(report: DroneReport) -> Data:

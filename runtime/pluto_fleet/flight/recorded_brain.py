@@ -1,6 +1,6 @@
 """The durability layer of a flight: what a brain says is on the disk before it has any effect outside.
 
-An order to fly waits until the row of its launch is on the disk; orders that bring drones down do not.
+An order to fly waits until its launch is on the disk; orders that bring drones down do not.
 """
 
 from __future__ import annotations
@@ -15,21 +15,20 @@ from ..jobs.reports import result_data
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
-from ..shared.flow.standing import fleet_data, update
+from ..shared.flow.record import fleet_data, update
 from ..shared.time.hours import Hours
 from ..shared.time.kernel import FLEET, Kernel
-from .acts_beside import acts_beside
 from .driver import Driver
 from .mission_status import aside, in_order
 from .outcome import drones_of
-from .reconcile import Outcome, ended, id_of, in_flight, outcome_of, trip_of
+from .reconcile import Outcome, id_of, outcome_of, trip_of
 
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..jobs.flown import Flown
     from ..jobs.link import Link, Message, Order
-    from ..journal.fold import Record, Records
+    from ..journal.standing import Record, Standing
     from ..process.wall_clock import WallClock
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
@@ -48,7 +47,7 @@ class RecordedBrain:
         kernel: Kernel,
         link: Link,
         sink: Sink,
-        records: Records,
+        records: Standing,
         *,
         listeners: Sequence[Listener] = (),
         watcher: Listener | None = None,
@@ -62,11 +61,11 @@ class RecordedBrain:
         may have more in their batteries than they say now.
         """
         self.app, self.fleet, self.kernel, self.link = app, fleet, kernel, link
-        self.recorder = Recorder(kernel, sink, records)
         self.clock = {} if clock is None else clock.data
         data = {**fleet_data(fleet), "charges_at_home": charges, "recorded": True, **self.clock}
         self.hours = Hours(data["began"], data["zone"])
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
+        self.recorder = Recorder(kernel, sink, records, self.brain.rows)
         self.told_to: dict[str, str] = {}
         """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
         self.to_land: set[str] = set()
@@ -95,9 +94,18 @@ class RecordedBrain:
         """Called with a mission and its flight that was called off, and whose action may be done."""
 
     @property
-    def records(self) -> Records:
-        """Where everything stands."""
-        return self.recorder.records
+    def records(self) -> Standing:
+        """Where everything stands, as of the last instant that is over."""
+        return self.recorder.standing
+
+    def record(self, mission: str) -> Record:
+        """Return where a mission stands now, as its row says."""
+        return dict(self.brain.mission(mission))
+
+    def command(self, command: str, **request: Any) -> None:
+        """Have the brain carry out a command; raise `BadInput` if it cannot be done."""
+        told = {"command": command, **request}
+        self.driver.call(partial(self.app.perform, self.brain, told))
 
     @property
     def missions(self) -> tuple[Mission[Any], ...]:
@@ -127,10 +135,9 @@ class RecordedBrain:
         """Go on with a fleet that has one more drone, the last; `entry` is that as it was given."""
         drone = fleet.drones[-1]
         self._keys[drone.id] = FLEET + len(fleet.drones)
+        self.recorder.fact("joined", [*self.records.joined, dict(entry)])
         self.note("drone.joined", drone=drone.id, entry=entry)
-        data = {"drone": drone.id, "category": drone.category, "home": drone.home}
-        told = {"command": "join", **data}
-        self.driver.call(partial(self.app.perform, self.brain, told))
+        self.command("join", drone=drone.id, category=drone.category, home=drone.home)
         self.fleet = fleet
 
     def halt(self) -> None:
@@ -162,35 +169,21 @@ class RecordedBrain:
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""
         if command["what"] == BESIDE:
-            event = acts_beside(self.brain, command)
-            record = self.records.missions.get(event["mission"]) if event is not None else None
-            flight = None if record is None else record["flight"]
-            if event is not None and flight is not None and "beside" not in flight:
-                self.take(event)  # an earlier life of the app may have noted it
+            facts = {name: command[name] for name in ("flight", "target", "at")}
+            self.command("acts-beside", **facts)
             return
         self.recorder.measure({"t": round(self.kernel.now, 6), "event": FLEW, **command})
 
     def interrupted(self, mission: str, flight: Record) -> None:
         """Take back a flight whose action was not done: its trip is flown again, under the same id."""
         self._forget(id_of(mission, flight))
-        self.note("trip.interrupted", mission=mission, trip=flight["trip"])
+        self.command("settle", mission=mission)
 
     def _hear(self, event: Event) -> None:
         self._heard += 1
-        if event["event"] == "mission.ended":
-            self._end_flight_of(event)
         self._take(event)
         if event["event"] == "action.begun":  # all that a brain waits for
             self.recorder.when_durable(partial(self._tell_durable, self._heard))
-
-    def _end_flight_of(self, event: Event) -> None:
-        """Fail the flight of a mission that ends while it is found out what came of that."""
-        name = str(event["mission"])
-        record = self.records.missions[name]
-        flight = in_flight(record)
-        if flight is not None and record["question"] is None:
-            reason = f"its mission ended: {event['reason'] or event['status']}"
-            self.take(ended(name, flight, FlightFailed(Failure.REFUSED, reason)))
 
     def hook_ended(self, number: int) -> None:
         """Called within the kernel when a hook that took its time has ended."""
@@ -206,8 +199,6 @@ class RecordedBrain:
         for listener in self._listeners:
             listener(event)
         if self._watcher is not None:
-            if event["event"] == "trip.completed":
-                event = {**event, "did": self.records.flown_last(str(event["mission"]))}
             self.recorder.when_durable(partial(self._watcher, event))
 
     # What the brain orders
@@ -246,8 +237,7 @@ class RecordedBrain:
         number, id = order["settle"], order["flight"]
         entry = None if was_held else (await self.link.fleet_report()).jobs.get(id)
         mission = id.rsplit("/", 3)[0]
-        record = self.records.missions[mission]
-        what = outcome_of(entry, self.repeat_of(record), begun=False)
+        what = outcome_of(entry, self.repeat_of(self.record(mission)), begun=False)
         if what is Outcome.UNKNOWN:
             self.doubted(mission, id)
         elif what is Outcome.FLIES_ON:

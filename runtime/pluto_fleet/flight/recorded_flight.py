@@ -61,7 +61,7 @@ class RecordedFlight(RecordedBrain):
         """Start more missions while others fly; raise `BadInput` if they cannot be flown."""
         if not self.is_set_out:
             raise BadInput("the drones are just being asked where they are: try again in a moment")
-        known = self.records.missions
+        known = self.brain.standing()["missions"]
         for mission in missions:
             if mission.name in known:
                 name = quoted(mission.name)
@@ -84,25 +84,31 @@ class RecordedFlight(RecordedBrain):
             # else one of them, which was repaired, is queried again
             lost = {name: one["reason"] for name, one in records.lost.items()}
             _refuse_if_none_is_ready(fleet_report, lost)
-        self.note("brain.began", epoch=self._epoch, **self.clock)
+        self._note_begin()
         recovery = Recovery(self, self.control, fleet_report)
-        recovery.ask_the_mended()
-        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones()))
+        recovery.restore()
+        recovery.go_on()
         self._begin(missions)
         self.is_set_out = True
         return await self._over
 
     async def _went_on(self) -> float:
         fleet_report = await self.link.fleet_report()
-        self.note("brain.began", epoch=self._epoch, **self.clock)
+        self._note_begin()
         recovery = Recovery(self, self.control, fleet_report)
-        recovery.ask_the_mended()
+        recovery.restore()
         await recovery.find_out()
         recovery.settle()
-        self.driver.call(partial(self.brain.go_on, recovery.standing(), recovery.drones()))
+        recovery.go_on()
         self.is_set_out = True
         self.look_for_the_end()
         return await self._over
+
+    def _note_begin(self) -> None:
+        if self.clock:
+            clock = {name: self.clock[name] for name in ("began", "drift")}
+            self.recorder.fact("clock", clock)
+        self.note("brain.began", epoch=self._epoch, **self.clock)
 
     # The end
 

@@ -7,20 +7,18 @@ records say how each mission goes on.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.reports import reported_result, result_data
 from ..shared.domain.fields import Entity
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.status import Status
-from .mission_status import in_order
 from .reconcile import (
     ANSWERS,
     CANCELLED,
     Outcome,
     drone_told,
-    ended,
-    for_brain,
     id_of,
     in_flight,
     outcome_of,
@@ -29,7 +27,7 @@ from .reconcile import (
 if TYPE_CHECKING:
     from ..app import App
     from ..jobs.reports import FleetReport
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from .control import Control
     from .recorded_brain import RecordedBrain
 
@@ -38,19 +36,33 @@ class Recovery:
     """Settles what an earlier run has left, and says how a brain goes on."""
 
     def __init__(self, run: RecordedBrain, control: Control, fleet_report: FleetReport) -> None:
-        self._run, self._control, self._report = run, control, fleet_report
-        self._app, self._link, self._records = run.app, run.link, run.records
+        self._run = run
+        self._control = control
+        self._report = fleet_report
+        self._app = run.app
+        self._link = run.link
         self._outcomes: dict[str, Outcome] = {}
         """What came of the missions' flights that had not ended."""
-        self._suspended: set[str] = set()
         self._unfit: dict[str, str] = {}
         """Why missions do not fit the present app."""
-        self._reports: dict[str, Mapping[str, Any]] = {}
-        """What was reported of flights that ended after the earlier run, by mission."""
+        self._resumed: dict[str, Mapping[str, Any]] = {}
+        """The missions that go on; with the report of a flight that ended after the earlier run."""
 
-    def ask_the_mended(self) -> None:
-        """Ask those drones anew that were repaired, and not back when the earlier run ended."""
-        for drone in self._records.mended:
+    def restore(self) -> None:
+        """Give the brain all rows; delays that a Stop interrupted keep their remaining time."""
+        run, known = self._run, self._run.records
+        missions = {}
+        for name, record in known.missions.items():
+            missions[name] = record
+            if (why := unfit(self._app, record)) is not None:
+                missions[name] = {**record, "unfit": _needed(self._app)}
+                if not record["ended"]:
+                    self._unfit[name] = why
+        shift = run.kernel.now - known.app["stopped"] if known.stopped else 0.0
+        data = {**known.data, "missions": missions, "shift": shift}
+        run.driver.call(partial(run.brain.restore, data))
+        run.recorder.fact("stopped", None)
+        for drone in known.mended:  # they were repaired, and not back when the earlier run ended
             self._link.send({"do": "mended", "drone": drone})
 
     async def find_out(self) -> None:
@@ -59,8 +71,6 @@ class Recovery:
         This may take a while, and nothing begins before all outcomes are known.
         """
         for name, record in self._living():
-            if (why := unfit(self._app, record)) is not None:
-                self._unfit[name] = why
             flight = in_flight(record)
             if flight is not None and self._why_held(name, record) is None:
                 entry = self._report.jobs.get(id_of(name, flight))
@@ -77,57 +87,58 @@ class Recovery:
                 self._end(name, Status.CANCELLED, CANCELLED)
             elif why is not None:
                 self._call_off(record)
-                self._check_carrier(name, record)
-                if not record["ended"]:
-                    self._run.note("mission.held", mission=name, reason=why)
-                    self._suspended.add(name)
+                if not self._has_lost_its_item(name, record):
+                    self._run.command("hold", mission=name, reason=why)
             elif name in self._outcomes:
                 self._settle_flight(name, record, self._outcomes[name])
-            else:
-                self._check_carrier(name, record)
-                self._resume(name, record)
+            elif not self._has_lost_its_item(name, record):
+                self._resume(name)
 
     def _living(self) -> list[tuple[str, Record]]:
-        return [(name, record) for name, record in in_order(self._records) if not record["ended"]]
+        return [(name, self._run.record(name)) for name in self._run.brain.under_way()]
 
     def _settle_flight(self, name: str, record: Record, what: Outcome) -> None:
         flight = record["flight"]
         entry = self._report.jobs.get(id_of(name, flight))
         if what is Outcome.FLIES_ON and entry is not None:
-            if not entry.flies:
-                self._reports[name] = result_data(reported_result(entry))
-            self._resume(name, record)
+            ended = {} if entry.flies else {"report": result_data(reported_result(entry))}
+            self._resume(name, ended)
             return
         if what is Outcome.UNKNOWN:
             answer = record["answer"] if record["question"] else None
             if answer not in ANSWERS:
                 self._control.doubt(name, record)
-                self._suspended.add(name)
                 return
             what = ANSWERS[answer]
         else:
             self._link.send({"do": "break_off", "drone": flight["drone"]})
         if what is Outcome.DONE:
-            self._run.take(ended(name, flight))
+            self._run.command("settle", mission=name, done=True)
         else:
             self._run.interrupted(name, flight)
-        self._resume(name, record)
+        self._resume(name)
 
-    def _resume(self, name: str, record: Record) -> None:
-        if record["paused"] is not None and not record["ended"]:
-            self._run.note("mission.paused", mission=name)
-            self._suspended.add(name)
-
-    def _check_carrier(self, name: str, record: Record) -> None:
-        """Check that the mission's item is still aboard its drone."""
-        if record["carrier"] is None or record["carries"] is None:
+    def _resume(self, name: str, flown: Mapping[str, Any] | None = None) -> None:
+        record = self._run.record(name)
+        if record["ended"]:
             return
+        if record["paused"] is not None:
+            self._run.command("pause", mission=name)
+        else:
+            self._resumed[name] = flown or {}
+
+    def _has_lost_its_item(self, name: str, record: Record) -> bool:
+        """End a mission whose item is not aboard its drone any more."""
+        if record["carrier"] is None or record["carries"] is None:
+            return False
         found, item = self._report.drones[record["carrier"]], record["carries"]["name"]
-        if found.reached and found.carrying != item:
-            self._end(name, Status.FAILED, f"{item} is not aboard {found.drone} any more")
+        if not found.reached or found.carrying == item:
+            return False
+        self._end(name, Status.FAILED, f"{item} is not aboard {found.drone} any more")
+        return True
 
     def _end(self, name: str, status: Status, reason: str) -> None:
-        self._run.note("mission.ended", mission=name, status=status.value, reason=reason)
+        self._run.command("cancel", mission=name, status=status.value, reason=reason)
 
     def _why_held(self, name: str, record: Record) -> str | None:
         if name in self._unfit:
@@ -142,38 +153,15 @@ class Recovery:
         if flight is not None:
             self._link.send({"do": "break_off", "drone": flight["drone"]})
 
-    # For the brain
+    def go_on(self) -> None:
+        """Have the brain go on; the drones that fly for no mission are called off."""
+        self._run.driver.call(partial(self._run.brain.go_on, self._resumed, self._drones()))
 
-    def standing(self) -> Mapping[str, Any]:
-        """Return how everything stands."""
-        records = self._records
-        return {
-            "missions": {name: self._record(name) for name in records.missions},
-            "results": records.results,
-            "flown": records.flown,
-            "lost": {drone: one["reason"] for drone, one in records.lost.items()},
-            "retired": records.retired,
-        }
-
-    def _record(self, name: str) -> Record:
-        record = self._records.missions[name]
-        if name in self._unfit:
-            return {**_bare(self._app, record), "status": "HELD"}
-        if record["ended"] and unfit(self._app, record) is not None:
-            return {**_bare(self._app, record), "status": record["status"], "ended": True}
-        record = for_brain(self._app, record)
-        if name in self._suspended:
-            record["suspended"] = True
-        elif name in self._reports:
-            record["flight"] = {**record["flight"], "report": self._reports[name]}
-        return record
-
-    def drones(self) -> Mapping[str, Mapping[str, Any]]:
-        """Call off the drones that fly for no mission, and return the reports of all."""
+    def _drones(self) -> Mapping[str, Mapping[str, Any]]:
         wanted = {
-            self._records.missions[name]["flight"]["drone"]
+            self._run.record(name)["flight"]["drone"]
             for name, what in self._outcomes.items()
-            if what is Outcome.FLIES_ON and name not in self._suspended
+            if what is Outcome.FLIES_ON and name in self._resumed
         }
         at_work = {entry.drone for entry in self._report.jobs.values() if entry.flies} - wanted
         told = {}
@@ -185,10 +173,9 @@ class Recovery:
         return told
 
 
-def _bare(app: App, record: Record) -> dict[str, Any]:
-    """Return what a brain must know of a mission that cannot go on: its trips and fields do not fit."""
-    needed = {one.name: one.sample for one in _own(app, Entity.MISSION) if one.hint}
-    return {"index": record["index"], "fields": needed, "suspended": True}
+def _needed(app: App) -> dict[str, Any]:
+    """Return the fields without which a mission cannot be, of one that does not fit the app."""
+    return {one.name: one.sample for one in _own(app, Entity.MISSION) if one.hint}
 
 
 def _own(app: App, on: Entity) -> list[OwnField]:

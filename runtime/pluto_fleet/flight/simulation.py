@@ -10,10 +10,9 @@ from ..gateway.gateway import Gateway
 from ..shared.alone.simulate import Outcome
 from ..shared.alone.world import World
 from ..shared.domain.app import moving
-from ..shared.flow.standing import fleet_data
+from ..shared.flow.record import fleet_data
 from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
-from .acts_beside import acts_beside
 from .driver import Driver, Stands, begun, take_up
 from .outcome import SimulationResult, result_of
 
@@ -77,7 +76,6 @@ class Simulation:
         self.brain = app.new_brain(fleet_data(fleet), space=fleet.airspace, hooks=hooks)
         link = gateway.link(1)
         link.hear = self._told
-        self._listener = listener
         self._driver = driver = Driver(
             kernel, self.brain, obey=link.send, motions=self._motions, hear=listener
         )
@@ -108,13 +106,13 @@ class Simulation:
         self._kernel.close()
 
     def _told(self, message: Message) -> None:
-        """Tell the brain, or note where an action is done that is done beside its target."""
+        """Tell the brain what came of an order, or where an action is done that is done beside its target."""
         if "flown" not in message:
             self._driver.tell(message)
             return
-        event = acts_beside(self.brain, message["flown"])
-        if event is not None:
-            self._listener({"t": round(self._kernel.now, 6), **event})
+        facts = {name: message["flown"][name] for name in ("flight", "target", "at")}
+        request = {"command": "acts-beside", **facts}
+        self._driver.call(partial(self._app.perform, self.brain, request))
 
     def _motions(self) -> Mapping[str, object]:
         if not self._changed:

@@ -7,27 +7,23 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.reports import reported_result
+from ..jobs.reports import reported_result, result_data
 from ..shared.domain.errors import BadInput
-from ..shared.domain.status import Status
 from ..shared.domain.text import quoted
 from ..shared.time.kernel import FLEET, Future, Task
 from .mission_status import aside
 from .reconcile import (
     PROBED,
     Outcome,
-    ended,
-    for_brain,
     id_of,
     in_flight,
     outcome_of,
     question,
     trip_of,
-    unheard,
 )
 
 if TYPE_CHECKING:
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from .recorded_brain import RecordedBrain
 
 Then = Callable[[str, "Record"], None]
@@ -44,12 +40,9 @@ class Suspending:
         """The tasks of missions whose flights are being aborted."""
         self._probes: dict[str, Future[bool | None]] = {}
         """The flights whose outcomes the app is asked for, by their ids."""
-        self._untold: list[tuple[int, list[Any]]] = []
-        """Results that the brain does not know yet, with their numbers."""
 
     def _command(self, command: str, **request: Any) -> None:
-        told = {"command": command, **request}
-        self._run.driver.call(partial(self._run.app.perform, self._run.brain, told))
+        self._run.command(command, **request)
 
     def _step_out(self, name: str, record: Record, then: Then) -> None:
         """Suspend a mission; continue when the outcome of its flight is known."""
@@ -57,7 +50,7 @@ class Suspending:
         flight, was_aside = in_flight(record), aside(record) is not None
         with self._half_done():
             if not was_aside:
-                self._command("pause", mission=name)
+                self._command("leave", mission=name)
             if flight is None or was_aside:
                 then(name, record)
             else:
@@ -72,11 +65,11 @@ class Suspending:
     @contextmanager
     def _half_done(self) -> Iterator[None]:
         """Let nothing end meanwhile."""
-        self._busy = True
+        was_busy, self._busy = self._busy, True
         try:
             yield
         finally:
-            self._busy = False
+            self._busy = was_busy
         self._run.look_for_the_end()
 
     def _refuse_while_it_steps_out(self, name: str) -> None:
@@ -94,58 +87,37 @@ class Suspending:
         if what is Outcome.UNKNOWN:
             what = await self.probe(name, record)
         del self._steps_out[name]
-        if record["ended"]:
+        if self._run.record(name)["ended"]:
             return  # it has ended meanwhile
         if what is Outcome.UNKNOWN:
             self.doubt(name, record)
             self._run.look_for_the_end()
             return
         if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
-            self._take_result(name, ended(name, flight, reported_result(entry)))
+            told = result_data(reported_result(entry))
+            self._command("settle", mission=name, done=True, **told)
         else:
             self._settle(name, record, what)
+        record = self._run.record(name)
         if not record["ended"]:
             then(name, record)
         self._run.look_for_the_end()
 
     def _settle(self, name: str, record: Record, what: Outcome) -> None:
         """Record whether the action of an interrupted flight was done."""
-        flight = record["flight"]
         if what is Outcome.DONE:
-            self._take_result(name, ended(name, flight))
+            self._command("settle", mission=name, done=True)
         else:
-            self._run.interrupted(name, flight)
-
-    def _take_result(self, name: str, event: dict[str, Any]) -> None:
-        """Record the end of a flight that the brain has not seen; a failed one loses what is aboard."""
-        record = self._run.records.missions[name]
-        carries = record["carries"]
-        if event["event"] == "trip.failed" and carries is not None:
-            event["reason"] = reason = f"{event['reason']}, with {carries['name']} aboard"
-            self._run.take(event)
-            self._command("cancel", mission=name, status=Status.FAILED.value, reason=reason)
-            return
-        number = len(self._run.records.results)
-        self._run.take(event)
-        if event["event"] == "trip.completed":
-            self._untold.append((number, self._run.records.results[number]))
+            self._run.interrupted(name, record["flight"])
 
     def _resume(self, name: str, record: Record) -> None:
-        begun = record["attempts"] or record["interrupted"]
-        usual = Status.STANDBY.value if begun else Status.UNEXECUTED.value
-        self._run.note("mission.resumed", mission=name, status=unheard(record) or usual)
-        self._go_on(name, record)
+        with self._half_done():
+            self._command("resume", mission=name)
+            self._go_on(name)
 
-    def _go_on(self, name: str, record: Record) -> None:
+    def _go_on(self, name: str) -> None:
         """Give a suspended mission back to the brain."""
-        untold = [(number, one) for number, one in self._untold if one[0] == name]
-        self._untold = [(number, one) for number, one in self._untold if one[0] != name]
-        standing = {
-            "missions": {name: for_brain(self._run.app, record)},
-            "results": [one for _, one in untold],
-            "first_result": untold[0][0] if untold else 0,
-        }
-        self._run.driver.call(partial(self._run.brain.go_on, standing, {}))
+        self._run.driver.call(partial(self._run.brain.go_on, {name: {}}, {}))
 
     # What only the app, or a person, can tell
 
@@ -154,7 +126,7 @@ class Suspending:
         answer: Future[bool | None] = Future()
         id = id_of(name, record["flight"])
         self._probes[id] = answer
-        self._command("probe", mission=name, record=for_brain(self._run.app, record))
+        self._command("probe", mission=name)
         return PROBED[await answer]
 
     def probed(self, flight: str, answer: bool | None) -> None:
@@ -167,19 +139,16 @@ class Suspending:
         """Record that only the user can say whether the action of a suspended mission was done."""
         flight, trip = record["flight"], trip_of(record, record["flight"])
         assert trip is not None
-        why = question(trip, flight["drone"])
-        self._run.note(
-            "mission.uncertain", mission=name, trip=trip["name"], drone=flight["drone"], reason=why
-        )
+        self._command("doubt", mission=name, reason=question(trip, flight["drone"]))
 
     def doubt_in_flight(self, name: str, id: str) -> None:
         """Suspend a mission whose flight was called off, and whose action may be done."""
-        record = self._run.records.missions[name]
+        record = self._run.record(name)
         flight = in_flight(record)
         if flight is None or id_of(name, flight) != id or aside(record) is not None:
             return  # it has ended, or its mission was suspended
         if name in self._steps_out or record["ended"]:
             return
         with self._half_done():
-            self._command("pause", mission=name)
+            self._command("leave", mission=name)
             self.doubt(name, record)

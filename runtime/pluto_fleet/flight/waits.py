@@ -17,7 +17,7 @@ from .mission_status import aside
 from .reconcile import trip_of
 
 if TYPE_CHECKING:
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from ..shared.domain.model import Point
     from .recorded_flight import RecordedFlight
 
@@ -180,7 +180,7 @@ class Waits:
         record = self._life.records.missions[mission]
         flight = record["flight"]
         trip = trip_of(record, flight)
-        goal = None if flight is None or trip is None else flight.get("beside", trip["target"])
+        goal = None if flight is None or trip is None else flight["beside"] or trip["target"]
         return goal is not None and (flight["begun"] or dist(goal, at) < NEAR)
 
     def _see_landing(self, id: str, drone: Mapping[str, Any], mission: str | None) -> None:

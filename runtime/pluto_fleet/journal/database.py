@@ -1,99 +1,87 @@
-"""A journal's file: three tables with a checksum in every row, which is checked before a row is used.
+"""A journal's file: an SQLite database with what has happened, and where everything stands.
 
 The page `docs/journal.md` says the same for other programs.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import sqlite3
 import stat
 import struct
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypeGuard
-from zlib import crc32
+from typing import NamedTuple
 
-from . import errors, wal
+from . import errors
 from .errors import TROUBLE
-from .facts import Event, events_of, header_of
+from .facts import Event, events_of, header_of, row_of
+from .standing import Row, Standing
 
 APPLICATION = 0x506C7574
 """`Plut`, as SQLite's application id."""
 
 VERSION = 1
-"""The version of the format, and of what its events mean; a reader refuses any other."""
+"""The version of the format, and of what its events and rows mean; a reader refuses any other."""
 
 TABLES = {
-    "journal": """CREATE TABLE journal (
+    "event": """CREATE TABLE event (
   seq INTEGER PRIMARY KEY, -- 0 is the header; then no number is left out
   epoch INTEGER NOT NULL, -- how often the journal had been opened
   wall INTEGER NOT NULL, -- milliseconds since 1970
-  text TEXT NOT NULL, -- the events of one instant: a JSON list of objects
-  checksum INTEGER NOT NULL
+  text TEXT NOT NULL -- the events of one instant: a JSON list of objects
 )""",
-    "snapshot": """CREATE TABLE snapshot (
-  seq INTEGER PRIMARY KEY, -- it stands for all rows up to this one
-  epoch INTEGER NOT NULL,
-  wall INTEGER NOT NULL,
+    "mission": """CREATE TABLE mission (
+  name TEXT PRIMARY KEY,
+  text TEXT NOT NULL -- where it stands: a JSON object
+) WITHOUT ROWID""",
+    "trip": """CREATE TABLE trip (
+  mission TEXT NOT NULL,
+  number INTEGER NOT NULL, -- among all trips that the mission has ever had
   text TEXT NOT NULL,
-  checksum INTEGER NOT NULL
+  PRIMARY KEY (mission, number)
+) WITHOUT ROWID""",
+    "drone": """CREATE TABLE drone (
+  id TEXT PRIMARY KEY,
+  text TEXT NOT NULL
+) WITHOUT ROWID""",
+    "result": """CREATE TABLE result (
+  number INTEGER PRIMARY KEY, -- in the order in which actions were done
+  text TEXT NOT NULL
 )""",
-    "tip": """CREATE TABLE tip (
-  id INTEGER PRIMARY KEY, -- 0: there is one row
-  seq INTEGER NOT NULL, -- of the journal's last row
-  epoch INTEGER NOT NULL,
-  checksum INTEGER NOT NULL
-)""",
+    "app": """CREATE TABLE app (
+  fact TEXT PRIMARY KEY, -- epoch, clock, stopped, commands, joined
+  text TEXT NOT NULL
+) WITHOUT ROWID""",
 }
 
-
-def row_checksum(seq: object, epoch: object, wall: object, text: bytes) -> int:
-    """Return the checksum of a row: of its numbers and its text."""
-    return crc32(text, crc32(f"journal {seq} {epoch} {wall} ".encode()))
-
-
-def snapshot_checksum(seq: object, epoch: object, wall: object, text: bytes) -> int:
-    """Return the checksum of a snapshot."""
-    return crc32(text, crc32(f"snapshot {seq} {epoch} {wall} ".encode()))
-
-
-def tip_checksum(seq: object, epoch: object) -> int:
-    """Return the checksum of the tip, without which the last rows could be gone unnoticed."""
-    return crc32(f"tip {seq} {epoch} ".encode())
-
+PUT = {
+    "mission": "INSERT OR REPLACE INTO mission VALUES (?, ?)",
+    "trip": "INSERT OR REPLACE INTO trip VALUES (?, ?, ?)",
+    "drone": "INSERT OR REPLACE INTO drone VALUES (?, ?)",
+    "result": "INSERT OR REPLACE INTO result VALUES (?, ?)",
+    "app": "INSERT OR REPLACE INTO app VALUES (?, ?)",
+}
+"""How a row is put into each table in place of the one with its key."""
 
 LARGEST_TEXT = 128 * 1024 * 1024
 """Bytes of one text, so that no file has its reader take more memory than there is."""
 
 LATEST_WALL = 10**13
-MOST = 2**53
-"""The largest plausible time, in milliseconds since 1970, and the largest plausible other number."""
+"""The largest plausible time, in milliseconds since 1970."""
 
 PATIENCE = 5.0
 """Seconds that a commit waits for another program that reads the file."""
 
 _MAGIC = b"SQLite format 3\0"
-_LOOKED_AT, _SIZE_OF_HEAD = 4096, 100
+_SIZE_OF_HEAD = 100
 _SANE = 1000
 """The largest plausible version: a larger one is damage."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Found:
-    """The facts about a journal."""
-
-    header: Event
-    seq: int
-    """The number of the last row."""
-    epoch: int
-    torn: str | None
-    """What is wrong with the last commit, if it is torn: it is left out."""
-    lost: bool
-    """Whether later rows exist that cannot be read."""
-
-
-class Row(NamedTuple):
+class Instant(NamedTuple):
     """The events of one instant."""
 
     seq: int
@@ -110,20 +98,18 @@ class Row(NamedTuple):
         return events_of(self.text)
 
 
-class Snapshot(NamedTuple):
-    """The state after the rows up to one."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """The facts about a journal."""
 
-    text: str | None
-    """None: there is none."""
+    header: Event
     seq: int
-    wall: float | None
-    """When it was made."""
-    damaged: tuple[str, ...]
-    """What is wrong with newer snapshots."""
+    """The number of the last instant."""
+    epoch: int
 
 
 def connect(path: Path, how: str) -> sqlite3.Connection:
-    """Open a database with these URI parameters, such as `mode=ro`; texts come as bytes."""
+    """Open a database with these URI parameters, such as `mode=ro`."""
     database = sqlite3.connect(
         f"{path.absolute().as_uri()}?{how}",
         uri=True,
@@ -131,7 +117,6 @@ def connect(path: Path, how: str) -> sqlite3.Connection:
         check_same_thread=False,
         timeout=PATIENCE,
     )
-    database.text_factory = bytes
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_TEXT)
     database.execute("PRAGMA trusted_schema = OFF")
     database.execute("PRAGMA cell_size_check = ON")  # what is damaged is noticed early
@@ -147,7 +132,7 @@ def look_at(path: Path) -> None:
         if not stat.S_ISREG(kind.st_mode):
             raise errors.no_file(path)
         with path.open("rb") as file:
-            start = file.read(_LOOKED_AT)
+            start = file.read(_SIZE_OF_HEAD)
     except FileNotFoundError:
         raise errors.missing(path) from None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
@@ -157,121 +142,72 @@ def look_at(path: Path) -> None:
     if len(start) < _SIZE_OF_HEAD:
         raise errors.no_journal(path)
     version, application = struct.unpack_from(">60xI4xI", start)
-    if application != APPLICATION and TABLES["journal"].encode() not in start:
+    if application != APPLICATION:
         raise errors.no_journal(path)
     if version != VERSION and 0 < version < _SANE:
         raise errors.of_another_version(path, version, VERSION)
-    if not start.startswith(_MAGIC) or version != VERSION or application != APPLICATION:
+    if not start.startswith(_MAGIC) or version != VERSION:
         raise errors.damaged(path, errors.no_beginning())
 
 
 def found(path: Path, database: sqlite3.Connection) -> Found:
-    """Return the facts about a journal, or raise a `JournalError`; its rows are not checked here."""
+    """Return the facts about a journal, or raise a `JournalError`."""
     try:
-        if _schema(database) != set(TABLES.values()):
+        tables = {str(sql) for (sql,) in database.execute("SELECT sql FROM sqlite_schema") if sql}
+        if tables != set(TABLES.values()):
             raise errors.damaged(path, errors.other_tables())
-        header = _header(database)
-        seq, epoch = _tip(database)
+        first = database.execute("SELECT text FROM event WHERE seq = 0").fetchone()
+        ((last,),) = database.execute("SELECT max(seq) FROM event")
+        epoch = database.execute("SELECT text FROM app WHERE fact = 'epoch'").fetchone()
+        header = header_of(first[0])
+        known = row_of("app", ("epoch",), epoch[0])["is"]
+        if type(last) is not int:
+            raise ValueError
+        return Found(header=header, seq=last, epoch=known)
+    except (LookupError, TypeError, ValueError):
+        raise errors.damaged(path, errors.no_header()) from None
     except TROUBLE as error:
         raise errors.refused(path, error) from None
-    if header is None:
-        raise errors.damaged(path, errors.no_header())
-    rest = wal.rest(path)
-    torn = errors.torn_log() if rest is wal.Rest.TORN else None
-    last_is_bad = seq > 0 and not _sound(database, seq) and _sound(database, seq - 1)
-    if last_is_bad and newest_snapshot(database).seq < seq:  # else the row is not needed
-        torn = errors.torn(seq)
-        seq -= 1
-    lost = rest is wal.Rest.LOST
-    return Found(header=header, seq=seq, epoch=epoch, torn=torn, lost=lost)
 
 
-def _schema(database: sqlite3.Connection) -> set[str]:
-    return {
-        sql.decode(errors="replace") if isinstance(sql, bytes) else str(sql)
-        for (sql,) in database.execute("SELECT sql FROM sqlite_schema")
-    }
-
-
-def _header(database: sqlite3.Connection) -> Event | None:
-    if not _sound(database, 0):
-        return None
-    ((text,),) = database.execute("SELECT text FROM journal WHERE seq = 0")
+def why_unsound(database: sqlite3.Connection) -> str | None:
+    """Return what is wrong with the pages of a database, by SQLite's own check; None: nothing."""
     try:
-        return header_of(text.decode())
-    except ValueError:
-        return None
+        ((first,),) = database.execute("PRAGMA quick_check(1)")
+    except TROUBLE as error:
+        return errors.why(error)
+    return None if first == "ok" else str(first)
 
 
-def _tip(database: sqlite3.Connection) -> tuple[int, int]:
-    """Return the number of the last row, and the epoch."""
-    for seq, epoch, checksum in database.execute("SELECT seq, epoch, checksum FROM tip"):
-        if checksum == tip_checksum(seq, epoch) and _is_number(seq) and _is_number(epoch):
-            return seq, epoch
-    # Then it is salvaged page by page, without the database.
-    if [fault for (fault,) in database.execute("PRAGMA quick_check(1)")] != [b"ok"]:
-        raise sqlite3.DatabaseError("database disk image is malformed")
-    query = "SELECT seq, epoch FROM journal ORDER BY seq DESC LIMIT 1"
-    for seq, epoch in database.execute(query):
-        if _is_number(seq) and _is_number(epoch):
-            return seq, epoch + SURELY_LESS_OPENINGS
-    raise sqlite3.DatabaseError("no row can be the last one")
+def put_rows(database: sqlite3.Connection, rows: Iterable[Row]) -> None:
+    """Put rows in place of those with the same keys; within a transaction."""
+    by_table: dict[str, list[tuple[object, ...]]] = {}
+    for table, key, row in rows:
+        by_table.setdefault(table, []).append((*key, json.dumps(row)))
+    for table, found in by_table.items():
+        database.executemany(PUT[table], found)
 
 
-SURELY_LESS_OPENINGS = 1_000
-"""Added to an epoch if it is unknown how often the journal was opened since: it only has to grow."""
-
-
-def _sound(database: sqlite3.Connection, seq: int) -> bool:
-    query = "SELECT seq, epoch, wall, text, checksum FROM journal WHERE seq = ?"
+def standing_in(path: Path, database: sqlite3.Connection) -> Standing:
+    """Return where everything stands; raise a `JournalError` if that is not as this version writes it."""
     try:
-        row = database.execute(query, (seq,)).fetchone()
-    except TROUBLE:
-        return False
-    return row is not None and is_sound(row)
+        last = "SELECT text FROM event WHERE text != '[]' ORDER BY seq DESC LIMIT 1"
+        ((text,),) = database.execute(last)
+        time = float(events_of(text)[-1]["t"])
+        return Standing(_rows_in(database), time)
+    except ValueError as error:
+        raise errors.strange(path, str(error)) from None
+    except (LookupError, TypeError) as error:
+        raise errors.strange(path, errors.odd_rows(error)) from None
+    except TROUBLE as error:
+        raise errors.refused(path, error) from None
 
 
-def last_row(database: sqlite3.Connection) -> int:
-    """Return the number of the last row at present."""
-    return _tip(database)[0]
-
-
-def is_sound(row: tuple[object, ...]) -> bool:
-    """Whether a row's checksum is right, and it holds what a row can hold."""
-    seq, epoch, wall, text, checksum = row
-    if not isinstance(text, bytes) or row_checksum(seq, epoch, wall, text) != checksum:
-        return False
-    return _is_number(seq) and _is_number(epoch) and _is_number(wall, LATEST_WALL)
-
-
-def _is_number(value: object, most: int = MOST) -> TypeGuard[int]:
-    return type(value) is int and 0 <= value <= most
-
-
-def row_of(row: tuple[Any, ...]) -> Row | None:
-    """Return a row that was read; None: it is not sound."""
-    if not is_sound(row):
-        return None
-    seq, epoch, wall, text, _ = row
-    try:
-        return Row(seq, wall / 1000, text.decode(), epoch)
-    except UnicodeDecodeError:
-        return None
-
-
-def newest_snapshot(database: sqlite3.Connection) -> Snapshot:
-    """Return the newest sound snapshot."""
-    damaged: list[str] = []
-    try:
-        query = "SELECT seq, epoch, wall, text, checksum FROM snapshot ORDER BY seq DESC"
-        for seq, epoch, wall, text, checksum in database.execute(query):
-            sound = isinstance(text, bytes) and _is_number(wall, LATEST_WALL) and _is_number(seq)
-            if sound and checksum == snapshot_checksum(seq, epoch, wall, text):
-                return Snapshot(text.decode(), seq, wall / 1000, tuple(damaged))
-            damaged.append(errors.bad_snapshot(seq))
-    except TROUBLE:
-        damaged.append(errors.unreadable_snapshots())
-    return Snapshot(None, 0, None, tuple(damaged))
+def _rows_in(database: sqlite3.Connection) -> Iterator[Row]:
+    for table in PUT:
+        # results in their order, and missions before their trips
+        for *key, text in database.execute(f"SELECT * FROM {table} ORDER BY 1"):
+            yield table, tuple(key), row_of(table, key, text)
 
 
 def sync_folder(path: Path) -> None:

@@ -21,6 +21,17 @@ class JournalError(BadInput):
 class Damaged(JournalError):
     """A journal is damaged, at least in part."""
 
+    def __init__(self, path: Path, what: str, whole: tuple[Path, str] | None) -> None:
+        """`whole` is the newest copy of it that is whole, and when it was made."""
+        self.what = what
+        back = "there is no whole copy beside it: put back one of yours"
+        if whole is not None:
+            copied, made = whole
+            back = f"its copy of {made} is whole: to go on from that, put {copied} in its place"
+        super().__init__(
+            f"{path}: the journal is damaged: {what}. The command journal prints what can be read; {back}"
+        )
+
 
 def exists(path: Path) -> JournalError:
     """A new journal would overwrite another."""
@@ -130,11 +141,6 @@ def cut_short(file: Path) -> JournalError:
     )
 
 
-def cannot_mend(path: Path, why_not: str) -> JournalError:
-    """A damaged journal cannot be repaired, and stays as it is."""
-    return JournalError(f"{path}: the journal cannot be mended: {why_not}")
-
-
 def refused(path: Path, error: Exception) -> JournalError:
     """The database reports an error on reading."""
     if code(error) in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB, sqlite3.SQLITE_ERROR):
@@ -171,32 +177,14 @@ _WHY = {
 }
 
 
-def damaged(path: Path, what: str) -> Damaged:
+def damaged(path: Path, what: str, whole: tuple[Path, str] | None = None) -> Damaged:
     """The journal is damaged."""
-    return Damaged(
-        f"{path}: the journal is damaged: {what}. The command journal prints what can be read;"
-        " with --mend it makes a whole journal of that, or put back a copy of the file"
-    )
+    return Damaged(path, what, whole)
 
 
-def unsound_row(seq: int, last: int) -> str:
-    """A row's checksum is wrong."""
-    return f"row {seq} of {last} is not what was written{_before(seq)}"
-
-
-def missing_rows(first: int, until: int, last: int) -> str:
-    """Acknowledged rows are missing."""
-    rows = f"row {first}" if first == until else f"rows {first} to {until}"
-    return f"{rows} of {last} cannot be found{_before(first)}"
-
-
-def unreadable_from(seq: int, last: int, why_not: str) -> str:
-    """Nothing more can be read from a row on."""
-    return f"from row {seq} of {last} on it cannot be read ({why_not}){_before(seq)}"
-
-
-def _before(seq: int) -> str:
-    return f"; {counted(seq - 1, 'row')} before it can be read" if seq > 1 else ""
+def missing_instants(seq: int) -> str:
+    """Something that was written is not there."""
+    return f"entry {seq} cannot be found"
 
 
 def strange(path: Path, what: str) -> JournalError:
@@ -210,20 +198,24 @@ def header_lacks(path: Path, what: str) -> JournalError:
 
 
 def unfit(seq: int, error: ValueError) -> str:
-    """A row is what was written, and not what this version knows."""
-    return f"row {seq} is not as this version knows it: {error}"
+    """An entry is not what this version knows."""
+    return f"entry {seq} is not as this version knows it: {error}"
+
+
+def does_not_follow(seq: int) -> str:
+    """An entry cannot come after those before it."""
+    return f"entry {seq} does not fit to what is said before it"
+
+
+def odd_rows(error: Exception) -> str:
+    """The rows are no rows."""
+    return f"its rows do not fit together ({type(error).__name__})"
 
 
 def unknown_drone(drone: str) -> str:
     """A mission has a drone that the fleet does not have."""
     name = printable(bounded(drone, _LONGEST_NAME))
     return f"a mission has the drone {name}, which is not in its fleet"
-
-
-def does_not_follow(kind: str, error: Exception) -> str:
-    """An event cannot come after those before it."""
-    kind = printable(bounded(kind, _LONGEST_NAME))
-    return f"{kind} does not fit to what is said before it ({type(error).__name__})"
 
 
 def no_header() -> str:
@@ -239,37 +231,6 @@ def no_beginning() -> str:
 def other_tables() -> str:
     """The tables are not those of a journal."""
     return "its tables are not those of a journal"
-
-
-def lost_log() -> str:
-    """Acknowledged parts of the write-ahead log are lost."""
-    return "part of what was written last, in the file beside it that ends in -wal, cannot be read"
-
-
-def torn(seq: int) -> str:
-    """The last row is incomplete, and dropped."""
-    return (
-        f"row {seq}, the last one, is not what was written: it is left out, as if the app had been"
-        " killed right before it"
-    )
-
-
-def torn_log() -> str:
-    """The last commit in the log is incomplete."""
-    return (
-        "what was being written last is not whole and is left out: so it is when a machine loses"
-        " its power in the middle of it"
-    )
-
-
-def bad_snapshot(seq: int) -> str:
-    """A snapshot's checksum is wrong; the rows are used instead."""
-    return f"the snapshot of row {seq} is damaged: the rows are read instead"
-
-
-def unreadable_snapshots() -> str:
-    """The snapshots cannot be listed."""
-    return "the snapshots cannot be read: the rows are read instead"
 
 
 def no_home() -> JournalError:

@@ -1,8 +1,9 @@
-"""What the events and snapshots of a journal must say, which may be from anybody, before it is used."""
+"""What the events and rows of a journal must say, which may be from anybody, before it is used."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NotRequired, TypedDict
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
@@ -11,6 +12,10 @@ from ..shared.domain.status import Status, TripStatus
 from ..shared.domain.text import bounded, printable
 
 Event = dict[str, Any]
+
+BROKEN = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, StopIteration)
+"""What an event raises that is not as this version knows it."""
+
 Point = tuple[float, float, float]
 Place = tuple[str, str, int, int]
 
@@ -89,7 +94,7 @@ class FlightFacts(TypedDict):
     begun: bool
     outcome: Status | None
     heard: bool
-    beside: NotRequired[Point]
+    beside: NotRequired[Point | None]
 
 
 class TakesFacts(TypedDict):
@@ -99,7 +104,7 @@ class TakesFacts(TypedDict):
     parameter: NotRequired[str]
 
 
-class RecordFacts(TypedDict):
+class MissionRow(TypedDict):
     """How a mission stands."""
 
     index: int
@@ -108,9 +113,6 @@ class RecordFacts(TypedDict):
     reason: str
     round: int
     attempts: int
-    todo: list[TripFacts]
-    done: list[TripFacts]
-    gone: list[TripFacts]
     at: str | None
     delay: tuple[Place, float, float] | None
     waited: list[Place]
@@ -133,20 +135,44 @@ class RecordFacts(TypedDict):
     changed: bool
 
 
-class SnapshotFacts(TypedDict):
-    """How everything stands."""
+class TripRow(TripFacts):
+    """How a trip stands."""
 
-    t: float
-    missions: dict[str, RecordFacts]
-    results: list[tuple[str, str, int, int, Any]]
-    flown: dict[str, int]
-    lives: int
-    stopped: float | None
-    commands: NotRequired[list[str]]
-    retired: NotRequired[list[str]]
-    mended: NotRequired[list[str]]
-    joined: NotRequired[list[dict[str, Any]]]
-    lost: NotRequired[dict[str, LossFacts]]
+    number: int
+    rank: int
+    drone: NotRequired[str]
+
+
+class DroneRow(TypedDict):
+    """How a drone stands; of one that has not been seen yet only what earlier flights know."""
+
+    status: NotRequired[str]
+    at: NotRequired[Point]
+    battery: NotRequired[float]
+    trips: NotRequired[int]
+    retired: NotRequired[bool]
+    mended: NotRequired[bool]
+    lost: NotRequired[LossFacts | None]
+
+
+class ResultRow(TypedDict):
+    """What came of an action."""
+
+    mission: str
+    trip: str | None
+    number: int | None
+    round: int
+    attempt: int
+    value: Any
+    time: float
+    place: Point | None
+
+
+class ClockFacts(TypedDict):
+    """When the app first began, and how far the clock of the hours has drifted since."""
+
+    began: float | None
+    drift: float
 
 
 _MISSION = {"mission": str}
@@ -219,7 +245,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.launched": _FLIGHT,
     ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
     "action.begun": {**_TRIP, "drone": str},
-    "trip.completed": {**_FLIGHT, "result": Any, "found_out?": bool},
+    "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
     "trip.interrupted": {**_TRIP, "reason?": str},
@@ -278,7 +304,6 @@ _TESTS = {kind: _tests(facts) for kind, facts in _FACTS.items()}
 _MEASUREMENT = _tests(_MEASURED)
 _OF_A_DRONE = _tests(_DRONE)
 _SECONDS = fits(float)
-_SNAPSHOT = fits(SnapshotFacts)
 _MARKED: Mapping[str, Test] = {
     "$photo": fits(PhotoFacts),
     "$number": fits(Literal["nan", "inf", "-inf"]),
@@ -357,11 +382,34 @@ _LONGEST = 80
 """Characters of what is quoted."""
 
 
-def snapshot_of(text: str) -> dict[str, Any]:
-    """Return a snapshot's data; raise `ValueError` if it is none."""
-    data = parsed(text)
-    sound = _SNAPSHOT(data) and 0 <= data["t"] <= LATEST
-    if not sound or not all(_is_value(value) for *_, value in data["results"]):
-        raise ValueError("it does not say how missions and drones stand")
-    found: dict[str, Any] = data
+_ROWS: Mapping[str, Test] = {
+    "mission": fits(MissionRow),
+    "trip": fits(TripRow),
+    "drone": fits(DroneRow),
+    "result": fits(ResultRow),
+}
+_APP: Mapping[str, Test] = {
+    "epoch": fits(int),
+    "clock": fits(ClockFacts),
+    "stopped": fits(float | None),
+    "commands": fits(list[str]),
+    "joined": fits(list[dict[str, Any]]),
+}
+
+
+def row_of(table: str, key: Sequence[object], text: str) -> dict[str, Any]:
+    """Return what a row holds; raise `ValueError` if it is not as this version writes it."""
+    try:
+        row = json.loads(text)
+    except (RecursionError, TypeError, ValueError):
+        row = None
+    if table == "app":
+        test = _APP.get(str(key[0]))
+        sound = isinstance(row, dict) and "is" in row and test is not None and test(row["is"])
+    else:
+        sound = _ROWS[table](row)
+    if not sound or (table == "result" and not _is_value(row["value"])):
+        name = printable(bounded(" ".join(map(str, key)), _LONGEST))
+        raise ValueError(f"the row of {table} {name} is not as this version knows it")
+    found: dict[str, Any] = row
     return found

@@ -1,196 +1,92 @@
-"""Reading a journal without writing it, up to the first damaged row.
-
-This works beside a running app, on a read-only disk, and with a damaged journal.
-"""
+"""Reading a journal without writing it: beside a running app, and on a disk that may only be read."""
 
 from __future__ import annotations
 
 import shutil
 import sqlite3
 import tempfile
-from collections.abc import Generator, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import closing, suppress
 from pathlib import Path
-from typing import Any
 
-from . import errors
+from . import copies, errors
 from .database import (
+    LATEST_WALL,
     Found,
-    Row,
+    Instant,
     connect,
     found,
-    last_row,
     look_at,
-    newest_snapshot,
-    row_of,
+    standing_in,
 )
 from .errors import TROUBLE, Damaged
-from .facts import Event
+from .facts import Event, check
 from .lock import holder
 from .place import beside
-from .salvage import salvage
+from .standing import Standing
 
 _AT_ONCE = 100
-"""Rows that are read at once: more would not fit into the processor's cache."""
-
-_LARGE = 8 * 1024 * 1024
-"""Bytes of rows after which no more are read at once."""
-
-
-Chunks = Generator[list[Row], None, str | None]
-"""Rows in order; at the end, why further ones cannot be read, if so."""
-
-
-class Read:
-    """A snapshot and the rows after it; iterate over `rows` or `events`, one of them and once."""
-
-    def __init__(
-        self,
-        chunks: Chunks,
-        snapshot: str | None,
-        after: int,
-        *,
-        written: float | None = None,
-        warnings: Sequence[str] = (),
-    ) -> None:
-        self.snapshot, self.after = snapshot, after
-        """The snapshot, and the number of the last row that it covers."""
-        self.warnings = tuple(warnings)
-        """Harmless damage."""
-        self.damaged: str | None = None
-        """Why nothing more can be read, after all readable rows; None: that was everything."""
-        self.written = written
-        """When the last row read was written, in seconds since 1970."""
-        self._chunks = chunks
-
-    @property
-    def rows(self) -> Iterator[Row]:
-        """The rows in order, without damaged ones."""
-        for chunk in self._sound():
-            yield from chunk
-
-    @property
-    def events(self) -> Iterator[Event]:
-        """The events of all rows, in order."""
-        for row in self.rows:
-            yield from row.events
-
-    def _sound(self) -> Iterator[list[Row]]:
-        while True:
-            try:
-                chunk = next(self._chunks)
-            except StopIteration as end:
-                self.damaged = end.value
-                return
-            if chunk:
-                self.written = chunk[-1].wall
-                yield chunk
-
-
-def since_snapshot(database: sqlite3.Connection, last: int) -> Read:
-    """Read what is needed to resume: the newest sound snapshot, and the rows after it."""
-    newest = newest_snapshot(database)
-    rows = _rows(database, newest.seq + 1, last)
-    return Read(rows, newest.text, newest.seq, written=newest.wall, warnings=newest.damaged)
-
-
-def rows_between(database: sqlite3.Connection, first: int, last: int) -> Read:
-    """Read some of the rows; the header is row 0."""
-    return Read(_rows(database, first, last), None, first - 1)
-
-
-def _rows(database: sqlite3.Connection, seq: int, last: int) -> Chunks:
-    while seq <= last:
-        # each chunk is a query of its own, so that a slow reader does not block a writer's checkpoints
-        rows, until, trouble = _fetched(database, seq, min(last, seq + _AT_ONCE - 1))
-        sound: list[Row] = []
-        for unchecked in rows:
-            row = row_of(unchecked)
-            if row is None or row.seq != seq:
-                yield sound
-                found = unchecked[0]
-                missing = errors.missing_rows(seq, found - 1, last) if found > seq else None
-                return missing or errors.unsound_row(seq, last)
-            sound.append(row)
-            seq += 1
-        yield sound
-        if trouble is not None:
-            return errors.unreadable_from(seq, last, errors.why(trouble))
-        if seq <= until:
-            return errors.missing_rows(seq, until, last)
-    return None
-
-
-def _fetched(
-    database: sqlite3.Connection, first: int, last: int
-) -> tuple[list[tuple[Any, ...]], int, Exception | None]:
-    """Return unchecked rows up to a number, and the error that keeps the database from returning more."""
-    rows: list[tuple[Any, ...]] = []
-    size = 0
-    try:
-        for row in database.execute(_QUERY, (first, last)):
-            rows.append(row)
-            size += len(row[3]) if isinstance(row[3], bytes) else 0
-            if size >= _LARGE:
-                return rows, row[0], None
-    except TROUBLE as error:
-        return rows, last, error
-    return rows, last, None
-
-
-_QUERY = (
-    "SELECT seq, epoch, wall, text, checksum FROM journal WHERE seq BETWEEN ? AND ? ORDER BY seq"
-)
+"""Instants that are read at once: each time by a query of its own, so that a slow reader does not
+block a writer's checkpoints."""
 
 
 class Reader:
-    """A journal that is open for reading."""
+    """A journal that is open for reading; raises a `JournalError` if it is none."""
 
-    def __init__(self, path: Path, *, follows: bool = False, locked: bool = False) -> None:
+    def __init__(self, path: Path, *, follows: bool = False) -> None:
+        self.path = path
         self.damaged: str | None = None
-        """What is wrong with it, after all readable rows; None: nothing."""
-        self.torn: str | None = None
-        """What is wrong with the last commit, which is left out; None: nothing."""
+        """Why no more can be read, after all that could be; None: that was everything."""
         self.header: Event = {}
         """The first event, as far as that can be read."""
-        self._path, self._seen, self._follows = path, -1, follows
+        self._seen = -1
+        self._follows = follows
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._database: sqlite3.Connection | None = None
         try:
             look_at(path)
             self._database, state = self._opened()
             self.header = state.header
-            if locked or holder(path) is None:  # a log that is being written is not always complete
-                self.torn = state.torn
-                if state.lost:
-                    self.damaged = str(errors.damaged(path, errors.lost_log()))
         except Damaged as error:
-            self.damaged = str(error)
+            self._trouble(error.what)
 
-    def rows(self) -> Iterator[Row]:
-        """Yield all sound rows, the header first."""
-        yield from self.more()
-        if self.damaged is not None:
-            for row in salvage(self._path, self._seen):
-                self._seen = row.seq
-                yield row
-
-    def more(self) -> Iterator[Row]:
-        """Yield the rows that were added since the last one."""
+    def instants(self) -> Iterator[Instant]:
+        """Yield the events of each instant since the last one, the header first."""
         database = self._database
         if database is None:
             return
         try:
-            last = last_row(database)
+            ((last,),) = database.execute("SELECT max(seq) FROM event")
+            while last is not None and self._seen < last:
+                until = min(last, self._seen + _AT_ONCE)
+                some = database.execute(_QUERY, (self._seen + 1, until)).fetchall()
+                for seq, epoch, wall, text in some:
+                    if seq != self._seen + 1 or not _is_sound(epoch, wall, text):
+                        self._trouble(errors.missing_instants(self._seen + 1))
+                        return
+                    self._seen = seq
+                    yield Instant(seq, wall / 1000, text, epoch)
+                if self._seen < until:
+                    self._trouble(errors.missing_instants(self._seen + 1))
+                    return
         except TROUBLE as error:
             self._trouble(errors.why(error))
-            return
-        read = rows_between(database, self._seen + 1, last)
-        for row in read.rows:
-            self._seen = row.seq
-            yield row
-        if read.damaged is not None:
-            self._trouble(read.damaged)
+
+    def events(self) -> Iterator[tuple[Instant, Event]]:
+        """Yield the events, each with its instant; raise a `JournalError` at one that is not as it must be."""
+        for instant in self.instants():
+            try:
+                for event in instant.events:
+                    check(event)
+                    yield instant, event
+            except ValueError as error:
+                raise errors.strange(self.path, errors.unfit(instant.seq, error)) from None
+
+    def standing(self) -> Standing:
+        """Return where everything stands; raise `Damaged` if that cannot be read."""
+        if self._database is None or self.damaged is not None:
+            raise Damaged(self.path, self.damaged or "", copies.newest_whole(self.path))
+        return standing_in(self.path, self._database)
 
     def close(self) -> None:
         """Close it."""
@@ -201,36 +97,45 @@ class Reader:
 
     def _trouble(self, what: str) -> None:
         if self.damaged is None:
-            self.damaged = str(errors.damaged(self._path, what))
+            self.damaged = what
 
     def _opened(self) -> tuple[sqlite3.Connection, Found]:
         try:
-            logged = beside(self._path, "-wal").stat().st_size > 0
+            logged = beside(self.path, "-wal").stat().st_size > 0
         except OSError:
             logged = False
-        at_rest = not logged and holder(self._path) is None
+        at_rest = not logged and holder(self.path) is None
         if at_rest and not self._follows:
-            return _opened(self._path, "mode=ro&immutable=1")  # creates no file beside it
+            return _opened(self.path, "mode=ro&immutable=1")  # creates no file beside it
         try:
-            return _opened(self._path, "mode=ro")
+            return _opened(self.path, "mode=ro")
         except Damaged:
             raise
         except errors.JournalError:
             # SQLite wants to write beside a database that has a log, if only to read it
             if at_rest:
-                return _opened(self._path, "mode=ro&immutable=1")
+                return _opened(self.path, "mode=ro&immutable=1")
             return _opened(self._copied(), "mode=ro")
 
     def _copied(self) -> Path:
         self._copy = tempfile.TemporaryDirectory(prefix="pluto-journal-")
-        copy = Path(self._copy.name) / "journal"
+        copied = Path(self._copy.name) / "journal"
         try:
             for suffix in ("", "-wal"):
-                shutil.copyfile(beside(self._path, suffix), beside(copy, suffix))
+                shutil.copyfile(beside(self.path, suffix), beside(copied, suffix))
         except OSError as error:
             self._copy.cleanup()
-            raise errors.cannot_open(self._path, error) from None
-        return copy
+            raise errors.cannot_open(self.path, error) from None
+        return copied
+
+
+_QUERY = "SELECT seq, epoch, wall, text FROM event WHERE seq BETWEEN ? AND ? ORDER BY seq"
+
+
+def _is_sound(epoch: object, wall: object, text: object) -> bool:
+    return (
+        type(epoch) is int and type(wall) is int and 0 <= wall <= LATEST_WALL and type(text) is str
+    )
 
 
 def _opened(path: Path, how: str) -> tuple[sqlite3.Connection, Found]:
@@ -244,3 +149,9 @@ def _opened(path: Path, how: str) -> tuple[sqlite3.Connection, Found]:
         with suppress(*TROUBLE):
             database.close()
         raise
+
+
+def standing_of(path: Path) -> Standing:
+    """Return where everything stands, by a journal that may be being written."""
+    with closing(Reader(path)) as reader:
+        return reader.standing()

@@ -1,57 +1,58 @@
-"""Group commit: while one batch of rows is written, the next one is collected."""
+"""Group commit: while one batch of entries is written, the next one is collected."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from threading import Condition, Thread
 from typing import TYPE_CHECKING
 
-from .errors import JournalError
+from .errors import TROUBLE, JournalError
 
 if TYPE_CHECKING:
-    from .store import Store
+    from .store import Entry, Store
 
 OnDurable = Callable[[int], object]
 OnFailure = Callable[[JournalError], object]
 
 
 class Writer:
-    """Writes rows in a thread of its own; adding one does not wait for the disk.
+    """Writes entries in a thread of its own; adding one does not wait for the disk.
 
     `on_durable` and `on_failure` are called in that thread. After a failure nothing is written any
-    more, and no further row is reported as durable.
+    more, and no further entry is reported as durable.
     """
 
     def __init__(self, store: Store, on_durable: OnDurable, on_failure: OnFailure) -> None:
         self._store, self._on_durable, self._on_failure = store, on_durable, on_failure
         self._changed = Condition()
-        self._rows: list[str] = []
-        self._snapshot: tuple[int, str] | None = None
+        self._entries: list[Entry] = []
+        self._copy_wanted = False
         self._added = self._durable = store.seq
         self._over = False
         self._thread = Thread(target=self._work, name="journal", daemon=True)
         self._thread.start()
 
-    def add(self, row: str) -> int:
-        """Add a row and return its number; it is durable once `on_durable` was called with that number."""
+    def add(self, entry: Entry) -> int:
+        """Add an entry and return its number; it is durable once `on_durable` was called with that number."""
         with self._changed:
-            self._rows.append(row)
+            self._entries.append(entry)
             self._added += 1
-            if len(self._rows) == 1:
+            if len(self._entries) == 1:
                 self._changed.notify_all()
             return self._added
 
-    def snapshot(self, state: str) -> None:
-        """Store a snapshot of the rows added so far; of several pending ones only the last."""
+    def copy(self) -> None:
+        """Copy the journal, as soon as what was added is written."""
         with self._changed:
-            self._snapshot = self._added, state
+            self._copy_wanted = True
             self._changed.notify_all()
 
     def flush(self) -> None:
         """Wait until all added rows are durable; raise a `JournalError` if that fails."""
         with self._changed:
             number = self._added
-            while self._snapshot is not None or self._durable < number:
+            while self._durable < number:
                 if self._store.failure is not None:
                     raise self._store.failure
                 self._changed.wait()
@@ -67,36 +68,29 @@ class Writer:
         changed = self._changed
         while True:
             with changed:
-                while not (self._rows or self._snapshot or self._over):
+                while not (self._entries or self._copy_wanted or self._over):
                     changed.wait()
-                rows, self._rows = self._rows, []
-                snapshot = self._snapshot
-                over = self._over and not rows and snapshot is None
+                entries, self._entries = self._entries, []
+                copies, self._copy_wanted = self._copy_wanted, False
+                over = self._over and not entries
             if over:
                 return
             try:
-                self._write(rows, snapshot)
+                if entries:
+                    self._store.append(entries)
             except JournalError as failure:
                 with changed:
                     changed.notify_all()
                 self._on_failure(failure)
                 return
             with changed:
-                self._durable += len(rows)
-                if self._snapshot is snapshot:
-                    self._snapshot = None
+                self._durable += len(entries)
                 changed.notify_all()
-            if rows:
+            if entries:
                 self._on_durable(self._durable)
+            if copies:
+                self._copy()
 
-    def _write(self, rows: list[str], snapshot: tuple[int, str] | None) -> None:
-        if snapshot is None:
-            self._store.append(rows)
-            return
-        number, state = snapshot
-        before = number - self._durable
-        if before:
-            self._store.append(rows[:before])
-        self._store.snapshot(state)
-        if rows[before:]:
-            self._store.append(rows[before:])
+    def _copy(self) -> None:
+        with suppress(OSError, *TROUBLE):  # a full disk: the journal itself is what counts
+            self._store.copy()

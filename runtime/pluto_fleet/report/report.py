@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..flight.outcome import SimulationResult
-    from ..journal.fold import Record, Records
+    from ..journal.standing import Record, Standing
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 
@@ -206,7 +206,7 @@ _HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
 
 
 def report_of(
-    app: App, journal: Path, records: Records, drones: Sequence[Drone] = ()
+    app: App, journal: Path, records: Standing, drones: Sequence[Drone] = ()
 ) -> tuple[int, list[str]]:
     """Return the exit code of a flight that has a journal, and the lines of its report."""
     rows = [_recorded_row(name, record) for name, record in in_order(records)]
@@ -221,7 +221,7 @@ def report_of(
     return code_of(statuses), lines
 
 
-def waiting_lines(app: App, journal: Path, records: Records) -> Iterator[str]:
+def waiting_lines(app: App, journal: Path, records: Standing) -> Iterator[str]:
     """Yield the open questions, and the commands that answer them."""
     for name, what, question in waiting(records):
         yield f"{printable(name)}: {printable(question)}"

@@ -11,15 +11,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..files.fleet import with_joined
-from ..flight.fly import recovered
 from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
 from ..flight.offline import record_loss, record_return, returned
 from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place
-from ..journal.fold import Records
 from ..journal.header import Header, check_whole
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
+from ..journal.standing import Standing, inherited
 from ..journal.store import Store
 from ..process.untrusted import parsed
 from ..shared import output
@@ -59,7 +58,7 @@ class IdleDrones:
         """The drones' last known states, of those that were ever heard of."""
         return self._newest()
 
-    def rows(self, known: Records | None) -> Iterator[DroneRow]:
+    def rows(self, known: Standing | None) -> Iterator[DroneRow]:
         """Yield the row of each; `known` is the journal's record of them."""
         sightings, now = self._newest(), time.time()
         ids = dict.fromkeys(entry.id for entry in self._fleet)
@@ -72,7 +71,7 @@ class IdleDrones:
         """Return the drones that fell, as the gateway has seen."""
         return [id for id, seen in self._newest().items() if seen.crashed]
 
-    def write_down(self, app: App, known: Records | None) -> bool:
+    def write_down(self, app: App, known: Standing | None) -> bool:
         """Record the drones that crashed while no app was running; return whether there are any.
 
         Each state of a drone is processed once.
@@ -99,7 +98,7 @@ class IdleDrones:
         return self._sightings
 
 
-def _row(id: str, seen: Sighting | None, known: Records | None, now: float) -> DroneRow:
+def _row(id: str, seen: Sighting | None, known: Standing | None, now: float) -> DroneRow:
     lost = known.lost.get(id) if known is not None else None
     trips = known.flown.get(id, 0) if known is not None else 0
     retired = known is not None and id in known.retired
@@ -181,7 +180,7 @@ class FleetHistory:
         self._app, self._config = app, config
         self._kind = [config.sim, config.crtp_sim is not None]
         self._file = config.own_folder / DRONES_FILE
-        self.records = Records()
+        self.records = Standing()
         self._journal: Path | None = None
         """The newest journal, if it is of these drones."""
         self._idle = IdleDrones(config.fleet.drones, None)
@@ -203,27 +202,27 @@ class FleetHistory:
                 return
             flown = fleet_in(self._app, journal, header)
             same = shown_fleet(flown) == shown_fleet(self._config.fleet)
-            records = recovered(store).records
+            records = store.standing()
         if "lost" not in header:  # it was not started by a station
             for drone, why in self.records.lost.items():
-                records.lost.setdefault(drone, why)
+                records.lose(drone, why["reason"], why["at"])
         self.records = records
         if same:
             self._journal = journal
         else:  # positions on another map mean nothing on this one
-            records.joined.clear()
-            for why in records.lost.values():
-                why["at"] = None
+            records.app["joined"] = []
+            for drone, why in records.lost.items():
+                records.with_drone(drone, lost={**why, "at": None})
 
-    def _kept(self) -> Records:
-        records = Records()
+    def _kept(self) -> Standing:
+        records = Standing()
         with suppress(OSError, ValueError, TypeError, LookupError):
             kept = parsed(self._file.read_text(encoding="utf-8"))
             if kept["kind"] == self._kind:
-                records.read({"t": 0.0, "event": "journal.begun", **kept["drones"]})
+                records.take(inherited(kept["drones"]))
         return records
 
-    def leave(self, journal: Path, records: Records) -> None:
+    def leave(self, journal: Path, records: Standing) -> None:
         """Store the states that a flight has left."""
         self.records, self._journal = records, journal
         self._idle = IdleDrones(self._config.fleet.drones, journal)
@@ -276,8 +275,8 @@ class FleetHistory:
             self.read()
         else:
             event, said = returned(self.records, drone)
-            for one in [event, commanded] if event is not None else []:
-                self.records.take(one)
+            if event is not None:
+                self.records.bring_back(drone)
         self._keep()
         return said
 

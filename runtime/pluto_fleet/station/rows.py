@@ -19,7 +19,7 @@ from .words import words
 
 if TYPE_CHECKING:
     from ..gateway.sightings import Sighting
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from .wire import DroneRow, MissionRow, Question, TripRow, Words
 
 END = "end"

@@ -16,10 +16,10 @@ from ..flight.control import PRIORITY
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
 from ..flight.mission_status import aside, in_order, records_in
 from ..journal.errors import JournalError
-from ..journal.fold import Records, taken
 from ..journal.lock import holder
 from ..journal.place import written
 from ..journal.reader import Reader
+from ..journal.standing import Standing
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
@@ -84,7 +84,7 @@ class FlightSession:
         flight: FlightSetup,
         ended: Callable[[], object],
         seen: Callable[[], object],
-        known: Records | None = None,
+        known: Standing | None = None,
         name_of: NameOf = nowhere,
     ) -> None:
         """`seen` is called at each update of telemetry, `ended` when the run has ended.
@@ -100,7 +100,7 @@ class FlightSession:
         self.stops = Stops()
         self.one: LiveFlight | None = None
         """The current run."""
-        self.records: Records | None = known
+        self.records: Standing | None = known
         """The journal's records when it was last read."""
         self.end: End | None = None
         """How the last run ended; None: it has not, or its process died."""
@@ -137,9 +137,9 @@ class FlightSession:
         return self.one.life if self.one is not None else None
 
     @property
-    def known(self) -> Records | None:
+    def known(self) -> Standing | None:
         """The present records."""
-        return self.life.recorder.records if self.life is not None else self.records
+        return self.life.recorder.standing if self.life is not None else self.records
 
     @property
     def names(self) -> set[str]:
@@ -167,10 +167,8 @@ class FlightSession:
     def read(self, known: Recovered) -> None:
         """Show the journal of a run that has ended."""
         self.records = known.records
-        told = Records()
-        journal = self.flight.journal
-        with closing(Reader(journal)) as reader, suppress(JournalError):
-            for _, event in taken(journal, reader.rows(), told):
+        with closing(Reader(self.flight.journal)) as reader, suppress(JournalError):
+            for _, event in reader.events():
                 self.feed.take(event)
 
     def begin(self, store: Store, known: Recovered | None) -> None:

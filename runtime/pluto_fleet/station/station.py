@@ -20,8 +20,8 @@ from ..flight.recorded_flight import RecordedFlight
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
 from ..jobs.reports import Down
 from ..journal import lock, place
-from ..journal.fold import Records
 from ..journal.header import header
+from ..journal.standing import Standing, inherited
 from ..journal.store import Store
 from ..process.at_once import at_once
 from ..process.ipc import NoAnswer, NotRunning
@@ -354,8 +354,7 @@ class Station:
             sim=config.sim,
             crtp=config.crtp_sim is not None,
         )
-        known = Records()
-        known.take(begun)
+        known = Standing(inherited(begun))
         self.session = FlightSession(
             flight, self._over, self._updates.hurry, known, self.map.name_of
         )

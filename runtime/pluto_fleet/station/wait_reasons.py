@@ -16,7 +16,7 @@ from .charging import ready_in, to_fly
 from .words import words
 
 if TYPE_CHECKING:
-    from ..journal.fold import Record
+    from ..journal.standing import Record
     from ..shared.brain import Brain
     from ..shared.domain.app import App
     from ..shared.domain.fleet_data import DroneData, FleetData

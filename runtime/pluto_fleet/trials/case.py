@@ -115,8 +115,6 @@ class Weather:
     """Seconds by which the machine's clock is changed while the app is down."""
     down: float = 1.0
     """Seconds until a crashed app is restarted."""
-    snapshot: float = 0.0
-    """The share of runs that resume from a snapshot and not from the first row."""
 
 
 class BrokenHook(RuntimeError):
@@ -125,7 +123,7 @@ class BrokenHook(RuntimeError):
 
 FAIR = Weather()
 
-_SHARES = ("crash", "link", "action", "battery", "hook", "block", "late", "snapshot")
+_SHARES = ("crash", "link", "action", "battery", "hook", "block", "late")
 _MOST = 3_600.0
 """The largest seconds of all but `jump`: with longer delays an app may rightly fail."""
 _LONGEST_JUMP = 1e10
@@ -213,7 +211,6 @@ WORDS: Mapping[str, str] = {
     "slow disk": "the disk was slow",
     "late wake-up": "the app woke up late",
     "clock jump": "the machine's clock was set",
-    "snapshot": "the app began with a snapshot of its journal",
     "hook raising": "a hook raised an unexpected error",
     "hook blocking": "a hook took half a minute",
     "go on": "a person let a paused mission go on",
@@ -232,7 +229,6 @@ WRITTEN: Mapping[str, str] = {
     "slow disk": "--weather disk",
     "late wake-up": "--weather late",
     "clock jump": "--weather jump",
-    "snapshot": "--weather snapshot",
     "hook raising": "--weather hook",
     "hook blocking": "--weather block",
     **{f"flight: {name}": f"--weather {name}" for name in ("crash", "link", "battery", "action")},

@@ -289,5 +289,4 @@ def random_weather(rng: Random) -> Weather:
         disk=rng.choice((0.0, 0.0, 0.02, 0.3)),
         jump=rng.choice((0.0, 0.0, 5.0, 100.0, -50.0)),
         down=rng.choice((0.2, 1.0, 5.0, 60.0)),
-        snapshot=rng.choice((0.0, 1.0)),
     )

@@ -8,7 +8,6 @@ from collections import deque
 from functools import partial
 from typing import TYPE_CHECKING
 
-from ..flight.mission_status import aside
 from ..flight.recorded_flight import RecordedFlight
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
@@ -23,7 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from ..app import App
-    from ..journal.fold import Record, Records
+    from ..journal.standing import Record, Standing
+    from ..journal.store import Entry
     from ..shared.domain.trace import Event
     from .case import Case
 
@@ -48,7 +48,7 @@ _NONE: frozenset[StrikeKind] = frozenset()
 class TrialLife:
     """One run of the app within a trial."""
 
-    def __init__(self, run: TrialRun, records: Records) -> None:
+    def __init__(self, run: TrialRun, records: Standing) -> None:
         self.run, case = run, run.case
         now = max(run.world.now + run.skew, records.time)
         self.skew = run.skew = now - run.world.now
@@ -61,7 +61,7 @@ class TrialLife:
             line, self.kernel, case.weather.slow, run.fired, self.sent, run.report_is_lost
         )
         self.added = self.committed = 0
-        self.unwritten: deque[tuple[int, str, list[Event]]] = deque()
+        self.unwritten: deque[tuple[int, Entry, list[Event]]] = deque()
         self.unknown: dict[str, None] = {}
         """The missions with events that are not durable."""
         self.full = False
@@ -124,14 +124,14 @@ class TrialLife:
 
     # The journal
 
-    def add(self, row: str) -> int:
-        """Add the row of an instant."""
+    def add(self, entry: Entry) -> int:
+        """Add the entry of an instant."""
         run = self.run
         self.added += 1
         if run.brain is not self:  # another run has the journal by now
             return self.added
         run.record.times.append(run.world.now)
-        events: list[Event] = _read(row)[0]
+        events: list[Event] = _read(entry.events)[0]
         if self.before:
             self.look_back(events)
         struck = run.strikes.get(len(run.record.times))
@@ -143,7 +143,7 @@ class TrialLife:
         if self.full or StrikeKind.LOST in kinds:
             self.forget(events)
         else:
-            self.unwritten.append((self.added, row, events))
+            self.unwritten.append((self.added, entry, events))
             commit = partial(self.commit, self.added, StrikeKind.KEPT not in kinds)
             if kinds & {StrikeKind.KEPT, StrikeKind.CRASH} or not run.case.weather.disk:
                 self.due.append(commit)
@@ -160,8 +160,8 @@ class TrialLife:
         if self.run.brain is not self or self.full or number <= self.committed:
             return
         while self.unwritten and self.unwritten[0][0] <= number:
-            self.committed, row, events = self.unwritten.popleft()
-            self.run.record.commit(row, events)
+            self.committed, entry, events = self.unwritten.popleft()
+            self.run.record.commit(entry, events)
         if told:
             self.life.recorder.durable(number)
 
@@ -180,11 +180,9 @@ class TrialLife:
                 self.run.record.known[name] = memory_of(record)
 
     def standing(self) -> Mapping[str, Record]:
-        """Return where each mission stands: by the brain, or by the journal if it is in no graph."""
-        records, brain = self.life.records.missions, self.life.brain
-        stand = brain.standing()["missions"]
-        inside = {name for name in stand if name in records and aside(records[name]) is None}
-        return {**records, **{name: stand[name] for name in inside}} if stand else {}
+        """Return where each mission stands."""
+        missions: Mapping[str, Record] = self.life.brain.standing()["missions"]
+        return missions
 
     def look_back(self, events: list[Event]) -> None:
         """Report what this run has not restored of the last one."""
@@ -283,16 +281,16 @@ class TrialLife:
             return
         if self.told(self.life.control.go_on):
             run.fired["go on"] += 1
-        for name, record in list(self.life.recorder.records.missions.items()):
+        for name, record in list(self.life.recorder.standing.missions.items()):
             if not record["ended"] and (record["question"] or record["held"]):
                 decide = partial(
                     self.life.control.decide,
                     name,
-                    run.record.answer(name, self.life.recorder.records),
+                    run.record.answer(name, self.life.recorder.standing),
                 )
                 if self.told(decide):
                     run.fired["decision"] += 1
-        if any(record["paused"] for record in self.life.recorder.records.missions.values()):
+        if any(record["paused"] for record in self.life.recorder.standing.missions.values()):
             run.later(PERSON_LOOKS_AFTER, self.person)
 
     def lost(self, down: float = 0.5) -> None:
@@ -408,8 +406,7 @@ class TrialRun(TrialWorld):
         if self.lives > 1 and self.case.weather.jump:
             self.fired["clock jump"] += 1
             self.skew += self.case.weather.jump
-        records = self.record.records(self.case.weather.snapshot, self.chance)
-        self.brain = TrialLife(self, records)
+        self.brain = TrialLife(self, self.record.standing())
         self.brains.append(self.brain)
 
     def lose_brain(self, down: float) -> None:
@@ -457,7 +454,7 @@ class TrialRun(TrialWorld):
         self.gateway.cut()
         brain.die()
         waits = self.record.waits
-        if waits and self.record.decide(brain.life.recorder.records):
+        if waits and self.record.decide(brain.life.recorder.standing):
             self.later(PERSON_LOOKS_AFTER, self.start_life)
             return
         self.over = True

@@ -9,7 +9,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..journal.fold import Record, Records
+from ..flight.offline import decided
+from ..journal.standing import Record, Standing
+from ..journal.store import Entry
 from ..shared.alone.simulate import Bound
 from .case import BrokenHook
 from .invariants import ENDS, Invariants, items_of
@@ -17,7 +19,6 @@ from .rules import at
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-    from random import Random
 
     from ..app import App
     from ..shared.domain.trace import Event
@@ -221,8 +222,9 @@ class TrialRecord:
 
     def __init__(self, app: App, case: Case) -> None:
         self._app, self._missions = app, case.missions
-        self.rows: list[str] = []
-        """The durable rows."""
+        self._rows: dict[tuple[str, tuple[str | int, ...]], str] = {}
+        """The durable rows, by their tables and keys, as JSON."""
+        self._time = 0.0
         self.times: list[float] = []
         """When each row was written, durable or not."""
         self.acts: list[Act] = []
@@ -247,10 +249,12 @@ class TrialRecord:
         """The missions that have not ended."""
         return [m.name for m in self._missions if self.ends.get(m.name) not in ENDS]
 
-    def commit(self, row: str, events: list[Event]) -> None:
-        """Add a durable row."""
-        self.rows.append(row)
+    def commit(self, entry: Entry, events: list[Event]) -> None:
+        """Add a durable entry."""
+        for table, key, row in entry.rows:
+            self._rows[table, key] = json.dumps(row)
         for event in events:
+            self._time = float(str(event["t"]))
             self.events.append(event)
             self._invariants.take(event)
             self.once.take(event)
@@ -278,7 +282,7 @@ class TrialRecord:
             flight = context._latest()
             self.did(flight.id, flight.trip.action, now)
 
-    def answer(self, name: str, records: Records) -> str:
+    def answer(self, name: str, records: Standing) -> str:
         """Return the true answer to a mission's question, as a user would who checks it."""
         record = records.missions[name]
         if record["held"]:
@@ -287,7 +291,7 @@ class TrialRecord:
         job = f"{name}/{flight['trip']}/{flight['round']}/{flight['attempt']}"
         return "done" if any(act.job == job for act in self.acts) else "not-done"
 
-    def decide(self, records: Records) -> bool:
+    def decide(self, records: Standing) -> bool:
         """Answer open questions in the journal of an app that does not run; return whether there were any."""
         asking = [
             name
@@ -295,30 +299,15 @@ class TrialRecord:
             if not record["ended"] and (record["question"] or record["held"])
         ]
         for name in asking:
-            answer = self.answer(name, records)
-            event = {
-                "t": records.time,
-                "event": "mission.decided",
-                "mission": name,
-                "answer": answer,
-            }
+            entry = decided(records, name, self.answer(name, records))
             self.fired["decision at rest"] += 1
-            self.commit(json.dumps([event]), [event])
+            self.commit(entry, json.loads(entry.events))
         return bool(asking)
 
-    def records(self, snapshot: float, chance: Random) -> Records:
-        """Read the journal, possibly from a snapshot."""
-        records, rows = Records(), iter(self.rows)
-        if self.rows and chance.random() < snapshot:
-            for _ in range(chance.randrange(len(self.rows)) + 1):
-                for event in json.loads(next(rows)):
-                    records.take(event)
-            self.fired["snapshot"] += 1
-            records = Records(json.loads(json.dumps(records.data)))
-        for row in rows:
-            for event in json.loads(row):
-                records.take(event)
-        return records
+    def standing(self) -> Standing:
+        """Return where everything stands, by the durable rows."""
+        rows = [(table, key, json.loads(text)) for (table, key), text in self._rows.items()]
+        return Standing(rows, self._time)
 
     def closed(self, lives: int) -> TrialResult:
         """Return the outcome."""

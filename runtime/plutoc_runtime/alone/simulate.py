@@ -21,7 +21,7 @@ from ..domain.motion import CRAZYFLIE
 from ..domain.status import DroneStatus
 from ..domain.text import counted, quoted
 from ..domain.trace import Clock, Event
-from ..flow.standing import fleet_data
+from ..flow.record import fleet_data
 from ..hooks.plain_data import mission_data
 from ..time.told import Stuck
 from .ideal import IdealDrones

@@ -18,11 +18,12 @@ from ..domain.keeper import Keeper, Kept, hand_to, put, reading
 from ..domain.model import Drone, Mission, Point, ResultStore, Trip, put_back
 from ..domain.status import RUNNING, Status, TripStatus
 from ..domain.trace import Trace
+from ..flow.changes import Changes
+from ..flow.transitions import Transitions
 from ..hooks.calls import call_hook, hook_name
 from ..hooks.context import Context, LiveDrone, can_wait, results_for
 from ..time.kernel import FLEET, EventKind, Future, Task
 from ..time.told import Stuck, VirtualTime
-from ..trips.transitions import Transitions
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -162,7 +163,9 @@ class AppKit(Generic[M, T, Given]):
         self._app, self._store, self.clock = app, ResultStore(), Clock()
         kernel = self.clock.kernel
         self._keeper = _Open(kernel.time)
-        self._transitions = Transitions(kernel, Trace(kernel, ()), self._store)
+        self._transitions = Transitions(
+            app, kernel, Trace(kernel, ()), self._store, Changes({}, kept=False)
+        )
         self._flights: dict[Mission[Any], Flight] = {}
         self._none = app.mission(name="no mission", trips=[], **self._mission)
         self._drones, self._trips, self._missions = count(1), count(1), count(1)

@@ -160,6 +160,10 @@ class Trip(Kept):
     """An evaluator added it: it is not repeated."""
     reason: str = field(default="", init=False)
     """Why it failed, the last time."""
+    number: int = field(default=0, init=False, repr=False)
+    """Of its row among all trips that its mission has ever had; 0: it has none."""
+    rank: int = field(default=0, init=False, repr=False)
+    """Of two trips to do, or two done ones, the lower comes first."""
 
     @property
     def elapsed(self) -> float:
@@ -266,6 +270,10 @@ class Result(NamedTuple, Generic[M, T]):
     round: int
     attempt: int
     value: object
+    time: float = 0.0
+    """When the action was done, in seconds since the app started."""
+    place: Point | None = None
+    """Where its drone was then."""
 
 
 class Results(NamedTuple, Generic[M, T]):
@@ -285,10 +293,17 @@ class ResultStore:
         self.before: list[int] = []
         """For each result, the number of the previous one of its mission."""
 
-    def add(
-        self, mission: Mission[Any], trip: Trip | None, round_: int, attempt: int, value: object
-    ) -> int:
+    def add(self, result: Result[Any, Any]) -> int:
         """Store the result of an action, and return its number."""
-        self.results.append(Result(mission, trip, round_, attempt, value))
-        self.before.append(mission.last_result)
+        self.results.append(result)
+        self.before.append(result.mission.last_result)
         return len(self.results) - 1
+
+    def first_new(self, mission: Mission[Any]) -> int:
+        """Return the number of the first result that a mission's evaluator has not seen."""
+        first = len(self.results)
+        number = mission.last_result
+        while number != NO_RESULT:
+            first = number
+            number = self.before[number]
+        return first

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.errors import FlightFailed
 from ..domain.keeper import put
@@ -19,13 +19,20 @@ from ..time.kernel import FLEET, EventKind, Future, Kernel, Key, Task
 from .reach import LOW, docked
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone
+    from ..domain.model import Drone, Point
     from ..domain.trace import Trace
     from .orders import Orders
     from .queue import Queue
 
 Errand = Callable[["Drone"], Coroutine[Any, Any, None]]
 """What a drone does by itself: it returns, lands or recovers."""
+
+
+class Loss(NamedTuple):
+    """Why a drone is lost, and where it was then."""
+
+    reason: str
+    at: Point | None
 
 
 class Fleet:
@@ -41,6 +48,7 @@ class Fleet:
         after_trip: AfterTrip,
     ) -> None:
         self.drones, self.queue = drones, queue
+        self._by_id = {drone.id: drone for drone in drones}
         self._kernel, self._trace, self._orders = kernel, trace, orders
         self._after_trip, queue.stay_out = after_trip, after_trip is not AfterTrip.HOME
         self.errands: dict[Drone, Task[None]] = {}
@@ -49,9 +57,23 @@ class Fleet:
         """Set at the next change of any drone, if something waits for it."""
         self.unready: dict[Drone, str] = {}  # drones that are lost, or not ready to fly, and why
         self.retired: set[Drone] = set()  # they are not allocated until they are brought back
-        self.lost_before: dict[Drone, str] = {}
-        """Drones that were lost in an earlier run, and not brought back since."""
+        self.lost: dict[Drone, Loss] = {}
+        """Drones that no trip may have before a person has looked after them."""
+        self.mended: set[Drone] = set()
+        """Drones that were lost and repaired, and are not back yet."""
+        self.changed: Callable[[Drone], object] = _ignore
+        """Called when what must survive the app has changed of a drone."""
         queue.served = self._fetch_what_is_low
+
+    def named(self, id: str) -> Drone | None:
+        """Return the drone of this id, or None."""
+        return self._by_id.get(id)
+
+    def join(self, drone: Drone) -> None:
+        """Take a new drone into the fleet."""
+        self.drones.append(drone)
+        self._by_id[drone.id] = drone
+        self.changed(drone)
 
     def engage(self, drone: Drone) -> None:
         """End what a drone does by itself: it is about to fly for a mission."""
@@ -123,6 +145,12 @@ class Fleet:
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
             put(drone, status=status)
+            if status in _SETTLED:
+                self.mended.discard(drone)
+            if status is DroneStatus.LOST:
+                x, y, z = (round(metres, 3) for metres in drone.location)
+                self.lost.setdefault(drone, Loss(self.unready.get(drone, ""), (x, y, z)))
+            self.changed(drone)
             if self._trace.live:
                 self._note(drone)
         self.queue.moved(drone)
@@ -219,8 +247,8 @@ class Fleet:
         """Recover a drone; return False if it is lost."""
         self._become(drone, _RECOVERING)
         home = await self._orders.ask("recover", drone.id)  # true, or what a lost drone says
-        if drone in self.lost_before:
-            self._lose(drone, self.lost_before[drone])
+        if drone in self.lost:
+            self._lose(drone, self.lost[drone].reason)
         elif home is not True:
             why = self._not_ready(drone, str(home or "")) if repaired else str(home or "")
             reason = cut_off(printable(reason), LONGEST) or "it could not be brought home"
@@ -242,11 +270,11 @@ class Fleet:
         once it has been repaired, even if it reports to be healthy.
         """
         reached, landed = report.get("reached", True), report.get("landed", True)
-        if drone in self.lost_before:
+        if drone in self.lost:
             if reached and not landed:
                 self.recover(drone)  # it comes home, and stays lost
             else:
-                self._lose(drone, self.lost_before[drone])
+                self._lose(drone, self.lost[drone].reason)
             return
         why = self._not_ready(drone, "; ".join(report.get("problems", ())))
         well = reached and landed and not why and report.get("carrying") is None
@@ -270,13 +298,16 @@ class Fleet:
     def retire(self, drone: Drone) -> None:
         """Allocate this drone to no further mission; its current trip goes on to its end."""
         self.retired.add(drone)
+        self.changed(drone)
         if drone.status in (_FREE, DroneStatus.CHARGING) and not self._settle_here(drone):
             self.send_home(drone)
 
     def bring_back(self, drone: Drone) -> None:
         """Make a retired drone available again; a lost one once it has come home."""
         self.retired.discard(drone)
-        self.lost_before.pop(drone, None)
+        if self.lost.pop(drone, None) is not None:
+            self.mended.add(drone)
+        self.changed(drone)
         if drone.status is DroneStatus.LOST or drone in self.unready:
             self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
@@ -303,6 +334,12 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
+def _ignore(_: Drone) -> None:
+    """Do nothing: no callback is set."""
+
+
+_SETTLED = (DroneStatus.FREE, DroneStatus.CHARGING, DroneStatus.LOST)
+"""With one of these a repair is settled."""
 _FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
 _UNDER_WAY = (DroneStatus.RETURNING, _RECOVERING)  # and not one that has stood there before
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged

@@ -81,6 +81,14 @@ def take_over(state: MissionState, hook: Hook) -> None:
     changed = {of for (of, name), was in keeper.before.items() if getattr(of, name) != was}
     keeper.before.clear()
     keeper.changed = True
+    core.changes.leave(mission, [trip for trip in before if trip not in trips])
+    for trip in trips:
+        if trip in changed or trip not in before:
+            core.changes.trip(mission, trip)
+    for trip in mission.completed_trips:
+        if trip in changed:
+            core.changes.trip(mission, trip)
+    core.changes.mission(mission.name)
     if core.trace.live and (changed or trips != before):
         _note_change(core, mission, changed)
     before[:] = trips

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import partial
-from gc import freeze
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import Cancelled, HookFault, MissionFailed
+from ..domain.errors import Cancelled, Failure, FlightFailed, HookFault, MissionFailed
 from ..domain.fields import Entity
 from ..domain.keeper import Keeper, keep, keeper_of, trips_of
 from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..domain.text import said
 from ..time.kernel import Future, Task, mission_key
+from .blame import as_crash, blame, blamed, traced
 from .mission import Core, MissionState
 from .promises import Promises
 from .run import Run
-from .standing import as_crash, blame, blamed, traced
 
 if TYPE_CHECKING:
     from ..domain.model import Trip
@@ -42,16 +41,12 @@ class Engine:
 
     def start(self, missions: Sequence[Mission[Any]]) -> None:
         """Start the missions, all at the same instant."""
-        # All this lives until the end: the garbage collector need not traverse it each time, neither
-        # while the missions start nor afterwards.
-        freeze()
         states = [self.new_state(mission) for mission in missions]
         for state in states:
             self.states[state.mission.name] = state
             if state.mission.promises:
                 self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
-        freeze()
 
     async def see_through(self) -> float:
         """Wait until every mission has ended and every drone has landed; return when the last one ended."""
@@ -99,30 +94,35 @@ class Engine:
         if state.task is not None:
             state.task.cancel()
         elif state.suspended and self.states[state.mission.name] is state:
-            self._end(state, FAILED, state.doom or "it was called off")
+            self._end(state, FAILED, state.doom or "it was called off", was_out=True)
 
     def suspend(self, state: MissionState) -> None:
-        """Take a mission out of its graph; its flight is broken off, and what has its item waits there."""
+        """Take a mission out of its graph; its flight is broken off, and what has its item waits there.
+
+        What came of the flight is found out elsewhere, and settled then.
+        """
         self._leave(state)
         flight = state.in_flight
         if flight is not None:
             state.break_off(flight)
-            state.flight = None  # what came of it is found out elsewhere
             if flight.trip.item is not None:
-                state.carrier = flight.flier
-            if state.carrier is None:
+                state.holds = flight.flier
+            holds = state.carrier or state.holds
+            if holds is None:
                 self.core.fleet.recover(flight.flier)
             else:
-                state.keep_carrier(state.carrier)
+                state.keep_carrier(holds)
         if state.allocated is not None and state.allocated is not state.carrier:
             self.core.fleet.never_flew(state.allocated)
         state.allocated = None
+        self.core.changes.mission(state.mission.name)
         self.look_for_the_end()
 
     def cancel(self, state: MissionState, status: Status, reason: str) -> None:
         """End a mission, wherever it is."""
+        was_out = state.suspended
         self._leave(state)
-        self._end(state, status, reason)
+        self._end(state, status, reason, was_out=was_out)
 
     def _leave(self, state: MissionState) -> None:
         task, state.task = state.task, None
@@ -167,17 +167,26 @@ class Engine:
         if not self.living:
             self.done.set(None)
 
-    def _end(self, state: MissionState, status: Status, reason: str) -> None:
+    def _end(
+        self, state: MissionState, status: Status, reason: str, *, was_out: bool = False
+    ) -> None:
+        """End a mission; `was_out`: it was out of its graph already, and its flight is broken off."""
         mission, fleet = state.mission, self.core.fleet
         flight = state.in_flight
-        if flight is not None:
-            state.break_off(flight)
-            state.fail(flight, f"its mission ended: {reason or status.value}")
+        if flight is not None and state.question is None:
+            why = f"its mission ended: {reason or status.value}"
+            if was_out:
+                state.settle(flight, FlightFailed(Failure.REFUSED, why))
+            else:
+                state.break_off(flight)
+                state.fail(flight, why)
         if state.allocated is not None:
             fleet.never_flew(state.allocated)
-        if state.carrier is not None:
-            fleet.recover(state.carrier)  # what it carries must be taken off
-        state.allocated = state.carrier = state.carries = None
+        for drone in dict.fromkeys((state.carrier, state.holds)):
+            if drone is not None:
+                fleet.recover(drone)  # what it carries must be taken off
+        state.allocated = state.carrier = state.carries = state.holds = None
+        state.question = state.held = state.paused = state.delay = None
         state.ended = True
         self.core.transitions.end(mission, status, reason)
         self.promises.ended(mission)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -13,19 +13,21 @@ from ..domain.keeper import current_of
 from ..domain.status import Status, TripStatus
 from ..domain.text import LONGEST_LOG, bounded
 from ..time.kernel import mission_key
-from ..trips.flight import Flight, Limits
+from .flight import Flight, Limits
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
-    from ..domain.model import Drone, Item, Mission, ResultStore
+    from ..domain.model import Drone, Item, Mission, ResultStore, Trip
     from ..domain.trace import Trace
     from ..fleet.fleet import Fleet
     from ..fleet.orders import Orders
     from ..fleet.queue import Queue
+    from ..hooks.plain_data import Data
     from ..time.kernel import Task
     from ..time.told import ToldTime
-    from ..trips.transitions import Transitions
+    from .changes import Changes
+    from .transitions import Transitions
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -42,6 +44,7 @@ class Core:
     queue: Queue
     fleet: Fleet
     limits: Limits
+    changes: Changes
     on_record: Callable[[], Awaitable[None]] | None = None
     """Waits until everything up to now is durable; None: this run is never resumed."""
 
@@ -80,11 +83,37 @@ class MissionState:
     first_start: float | None = None  # when its first trip passed a clock
     ended: bool = False
     doom: str | None = None  # why it must end at once: a failure that no retry can repair
+    gone: dict[Trip, int] = field(default_factory=dict)
+    """The trips that it has no more, and the round in which each left."""
+    numbered: int = 0  # how many rows of trips it has
+    evaluated: int = 0  # the first result that its evaluator had not seen when it was asked last
+    judged: int = 0
+    """The first result that its evaluator has not seen, as far as its graph has gone on since."""
+    paused: float | None = None  # since when a person has it wait
+    question: str | None = None  # whether an action was done: what a person is asked
+    held: str | None = (
+        None  # why it does not fit the app as it is now: a person is asked whether it goes on
+    )
+    answer: str | None = None  # what a person has answered
+    accepted: str | None = (
+        None  # a block that the app has no more, from which a person lets it go on
+    )
+    replanned: bool = False  # whether a person has changed its trips
+    unfit: Data | None = None
+    """Its record, if the app as it is now cannot take it: it is kept as it is."""
+    holds: Drone | None = None
+    """The drone of a flight that was broken off, which may have the item aboard."""
 
     @property
     def suspended(self) -> bool:
         """Whether it was taken out of its graph."""
         return self.task is None and not self.ended
+
+    @property
+    def unsettled(self) -> Flight | None:
+        """The flight that was broken off when it was taken out of its graph, and may have done its action."""
+        flight = self.flight
+        return flight if flight is not None and self.suspended and not flight.is_set else None
 
     @property
     def held_until(self) -> float | None:
@@ -143,19 +172,45 @@ class MissionState:
 
     def complete(self, flight: Flight, value: object) -> None:
         """Complete a flight's trip; its drone is free, unless it carries an item."""
-        core, mission, trip = self.core, self.mission, flight.trip
+        self._take_done(flight, value, found_out=False)
+        if self.carrier is None:
+            self.core.fleet.dismiss(flight.flier)
+        else:
+            self.keep_carrier(flight.flier)
+        flight.set(self.mission.status)
+
+    def _take_done(self, flight: Flight, value: object, *, found_out: bool) -> None:
+        trip = flight.trip
         if trip.item is not None:
             if trip.action == PICK:
                 self.carries, self.carrier = trip.item, flight.flier
             elif trip.action == RELEASE:
                 self.carries = self.carrier = None
-        self.last_action_end = core.kernel.now
-        core.transitions.complete(mission, trip, value)
-        if self.carrier is None:
-            core.fleet.dismiss(flight.flier)
-        else:
-            self.keep_carrier(flight.flier)
-        flight.set(mission.status)
+        self.question = self.answer = None
+        self.last_action_end = self.core.kernel.now
+        self.core.transitions.complete(self.mission, trip, value, found_out=found_out)
+
+    def settle(self, flight: Flight, result: object) -> None:
+        """Take over what came of a flight that was broken off: its value, or a `FlightFailed`."""
+        if not isinstance(result, FlightFailed):
+            self._take_done(flight, result, found_out=True)
+            flight.set(self.mission.status)
+            return
+        reason = str(result)
+        if self.carries is not None:
+            reason = f"{reason}, with {self.carries.name} aboard"
+        lost = self.carries is not None
+        self.carries = self.carrier = self.question = self.answer = None
+        self.core.transitions.fail(self.mission, flight.trip, reason)
+        flight.set(self.mission.status)
+        if lost:
+            self.end(reason)
+
+    def interrupt(self, flight: Flight) -> None:
+        """Take back a flight that was broken off before its action was done."""
+        self.interrupted = True
+        self.flight = self.question = self.answer = None
+        self.core.transitions.interrupt(self.mission, flight.trip)
 
     def keep_carrier(self, drone: Drone) -> None:
         """Reserve the drone that has the item aboard; if it is lost, so is the item."""
@@ -174,7 +229,7 @@ class MissionState:
         if self.carries is not None:
             reason = f"{reason}, with {self.carries.name} aboard"
             mends = False
-        self.carries = self.carrier = None
+        self.carries = self.carrier = self.question = self.answer = None
         self.core.transitions.fail(self.mission, flight.trip, reason)
         self.core.fleet.recover(flight.flier, of_drone)
         if mends:

@@ -20,7 +20,7 @@ from ..time.kernel import EventKind, Future, mission_key
 from .asking import kept_by, take_over
 
 if TYPE_CHECKING:
-    from ..trips.flight import Flight
+    from .flight import Flight
     from .mission import MissionState
 
 NO_MORE = "battery: what is left of it only just suffices for the way home"
@@ -49,6 +49,7 @@ class OwnAction(Action):
         core, mission, trip, drone = state.core, state.mission, flight.trip, flight.flier
         hook, kernel, key = self.hook, core.kernel, mission_key(mission.index)
         assert hook is not None
+        flight.begun = True
         core.transitions.begin_action(mission, trip, drone)
         if core.on_record is not None:
             await core.on_record()

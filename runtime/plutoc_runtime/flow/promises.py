@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import MissionFailed
 from ..domain.fields import time_of_day
-from ..domain.keeper import plain_again, put, read_only
+from ..domain.keeper import put, read_only
 from ..domain.status import COMPLETED
 from ..domain.text import quoted
 from ..time.kernel import EventKind, Future, mission_key
@@ -45,10 +45,7 @@ class Promises:
         kernel = self._core.kernel
         promises = kept_from(mission.promises, kernel.hours, kernel.now, kernel.drift)
         put(mission, promises=read_only(promises))
-        if self._core.trace.live:
-            self._core.trace.note(
-                "mission.promised", mission=mission.name, **plain_again(mission.promises)
-            )
+        self._core.transitions.promise(mission)
         self.watch(mission)
 
     def watch(self, mission: Mission[Any]) -> None:
@@ -75,8 +72,7 @@ class Promises:
             return  # the clock was set back
         if not (mission.late or self._states[mission.name].ended):
             put(mission, late=True)
-            if (trace := self._core.trace).live:
-                trace.note("mission.late", mission=mission.name, deadline=mission.deadline)
+            self._core.transitions.note("mission.late", mission, deadline=mission.deadline)
 
     def ended(self, mission: Mission[Any]) -> None:
         """Called when a mission has ended, in any way; of one that did not complete all hear that wait for any."""

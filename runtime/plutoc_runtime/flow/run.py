@@ -12,7 +12,7 @@ from ..time.kernel import branch_key
 
 if TYPE_CHECKING:
     from ..time.kernel import Key, Task
-    from ..trips.flight import Flight, Limit
+    from .flight import Flight, Limit
     from .mission import MissionState
 
 M = TypeVar("M", bound=Mission[Any])
@@ -41,6 +41,7 @@ class Run(Generic[M]):
         state = self.state
         if not self._depth and state.allocated is None and block in self.core.app.resumes:
             state.at = block
+            self.core.changes.mission(self.mission.name)
 
     @property
     def trip(self) -> Any:

@@ -12,7 +12,7 @@ from ..domain.text import bounded, class_of, shown
 from .own_action import OwnAction
 
 if TYPE_CHECKING:
-    from ..trips.flight import Flight
+    from .flight import Flight
     from .mission import MissionState
 
 

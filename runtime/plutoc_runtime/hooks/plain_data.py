@@ -24,8 +24,13 @@ Data = dict[str, Any]  # plain data, as JSON can hold it
 
 def fields_of(app: App, entity: Entity, of: object) -> Data:
     """Return the filled-in fields that the app's graph adds to missions or to trips."""
-    given = {field: getattr(of, field.name) for field in app.fields if field.on is entity}
-    return {f.name: _plain(value) for f, value in given.items() if value is not f.default}
+    found: Data = {}
+    for field in app.fields:
+        if field.on is entity:
+            value = getattr(of, field.name)
+            if value is not field.default:
+                found[field.name] = _plain(value)
+    return found
 
 
 def trip_data(app: App, trip: Trip) -> Data:
@@ -56,13 +61,16 @@ def trip_data(app: App, trip: Trip) -> Data:
 
 def _plain(value: object) -> object:
     """Return a field's value, as text if a hook set it to something that is not plain data."""
-    kind = type(value)
-    if value is None or kind is bool or kind is float or kind is str:
+    if value is None or type(value) in _AS_IT_IS or (type(value) is int and abs(value) < _SMALL):
         return value
     plain = plain_of(value)
     is_long = type(plain) is int and plain.bit_length() > MOST_BITS
     is_odd = plain is None or (type(plain) is float and not isfinite(plain))
     return shown(value) if is_long or is_odd else plain
+
+
+_AS_IT_IS = (float, str, bool)
+_SMALL = 2**53
 
 
 def _place(point: Sequence[float]) -> list[object]:

@@ -37,6 +37,7 @@ async def wait_for_time(
         return state.held_until or 0.0
 
     if until() > arrival:
+        run.core.changes.moved_on(mission)
         if run.core.trace.live:
             run.core.trace.note(
                 "trip.delayed",

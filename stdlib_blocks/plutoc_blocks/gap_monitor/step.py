@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.text import duration
+from plutoc_runtime.flow.flight import Limit
 from plutoc_runtime.flow.run import watch
-from plutoc_runtime.trips.flight import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip

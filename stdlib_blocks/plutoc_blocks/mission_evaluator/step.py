@@ -19,5 +19,6 @@ async def evaluate_mission(
 ) -> Status:
     """Ask the mission's evaluator, and do as its verdict says; `own` is what `hook` is called."""
     chosen = run.core.app.evaluators[evaluator] if evaluator and evaluator != own else hook
+    run.state.evaluated = len(run.core.results.results)
     results = results_for(run.core.results, run.mission)
     return apply(run, chosen, await ask(run, chosen, run.mission, results))

@@ -30,7 +30,7 @@ def recorded(*trips: Any, **more: Any) -> tuple[Brain, list[Any]]:
     spray = OwnAction(name="spray", hook=lambda drone, trip, context: called.append(trip.name))
     given: Any = apps.app(apps.flow(), actions=[spray]).given
     brain = charged(app=given, recorded=True, **more)
-    brain.go_on({"missions": {}}, FREE, 0.0)
+    brain.go_on({}, FREE, 0.0)
     brain.begin([{"name": "m", "trips": [*trips]}], 0.0)
     return brain, called
 
@@ -74,12 +74,14 @@ def test_a_mission_goes_on_where_its_record_says() -> None:
     brain.close()
     given: Any = apps.app(apps.flow()).given
     later = charged(app=given, recorded=True)
-    later.go_on({"missions": record["missions"], "results": record["results"]}, FREE, 20.0)
+    later.restore(record, 20.0)
+    later.go_on({"m": {}}, FREE, 20.0)
     (flight,) = (order for order in settled(later, 20.0) if order["do"] == "fly")
     assert flight["flight"] == "m/2/0/1"
     stands = later.standing()
     assert [one["name"] for one in stands["missions"]["m"]["done"]] == ["1"]
-    assert (stands["missions"]["m"]["attempts"], stands["results"]) == (2, [["m", "1", 0, 1, 7]])
+    assert (stands["missions"]["m"]["attempts"], stands["results"]) == (2, record["results"])
+    assert [one["value"] for one in record["results"]] == [7]
     later.close()
 
 
@@ -101,7 +103,7 @@ def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> No
     """The Clock on its way would hold it until the time of the round after."""
     given: Any = apps.app(held_on_the_drone).given
     brain = charged(app=given, recorded=True)
-    brain.go_on({"missions": {}}, FREE, 0.0)
+    brain.go_on({}, FREE, 0.0)
     brain.begin([{"name": "m", "trips": [trip(3.0)], "fields": {"repeat": 1, "every": 100.0}}], 0.0)
     (first,) = settled(brain, 0.0)
     brain.tell({"done": first["id"]}, 9.0)
@@ -110,7 +112,8 @@ def test_a_round_that_was_launched_before_a_stop_waits_for_no_time_again() -> No
     record = brain.standing()
     brain.close()
     later = charged(app=given, recorded=True)
-    later.go_on({"missions": record["missions"]}, {}, 110.0)
+    later.restore(record, 110.0)
+    later.go_on({"m": {}}, {}, 110.0)
     (attached,) = settled(later, 110.0)
     assert (attached["do"], attached["flight"]) == ("attach", second["flight"])
     later.tell({"done": attached["id"]}, 111.0)
@@ -139,7 +142,8 @@ def test_an_evaluator_is_given_what_it_has_not_seen_before_the_stop(
     record["missions"]["m"]["judged"] = judged
     app: Any = apps.app(apps.flow(evaluator=judge)).given
     later = charged(app=app, recorded=True)
-    later.go_on({"missions": record["missions"], "results": record["results"]}, FREE, 20.0)
+    later.restore(record, 20.0)
+    later.go_on({"m": {}}, FREE, 20.0)
     (flight,) = (order for order in settled(later, 20.0) if order["do"] == "fly")
     later.tell({"done": flight["id"], "value": 8}, 30.0)
     settled(later, 30.0)

@@ -85,7 +85,7 @@ def test_a_drone_that_has_it_not_fails_the_action(
         except ActionFailed:
             return None
 
-    monkeypatch.setattr(SimulatedNavigation, "read", refuse)
+    monkeypatch.setattr(SimulatedNavigation, "_read", refuse)
     expected = "has no log variable range.front"
     said = reason(grip, real=real, apart=0.5)
     assert said.endswith(expected)
@@ -173,7 +173,7 @@ def unanswered(
             over.append(name)
         return 0.0
 
-    monkeypatch.setattr(SimulatedNavigation, "read", never)
+    monkeypatch.setattr(SimulatedNavigation, "_read", never)
     return over
 
 

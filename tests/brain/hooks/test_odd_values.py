@@ -11,7 +11,6 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.model import Mission, Photo
 from pluto_fleet.shared.domain.status import Status
@@ -101,11 +100,9 @@ def lived(hook: Callable[..., object]) -> Mission[Any]:
     living.run()
     odd, good = living.life.missions
     assert good.status is Status.COMPLETED
-    records = Records()
-    for event in living.memory.read().events:
-        records.take(event)
-    json.dumps(records.data)
-    assert {name: one["status"] for name, one in records.missions.items()} == {
+    standing = living.memory.standing()
+    json.dumps(standing.data)
+    assert {name: one["status"] for name, one in standing.missions.items()} == {
         one.name: one.status.value for one in (odd, good)
     }
     return odd

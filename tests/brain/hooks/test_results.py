@@ -14,7 +14,7 @@ def test_every_result_is_found_again_however_many_there_are() -> None:
     trip = Trip(name="A", action="measure", target=(0.0, 0.0, 1.0))
     given = [Result(missions[n % 2], trip, n // 7, n % 3 + 1, n) for n in range(5000)]
     for result in given:
-        result.mission.last_result = store.add(*result)
+        result.mission.last_result = store.add(result)
     everything = View(store.results)
     assert list(everything) == given
     assert (len(everything), everything[-1], everything[1:4]) == (

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.trips.flight import Limit
+from pluto_fleet.shared.flow.flight import Limit
 
 
 @pytest.mark.parametrize(

@@ -69,7 +69,11 @@ def files(text: str) -> dict[str, str]:
 def changes(before: str, after: str) -> Iterator[str]:
     """Yield the lines that went and came, and the modules of the runtime that joined or left."""
     old, new = files(before), files(after)
-    for path in sorted({*old, *new} - {"pluto.lock"}):
+    data = {
+        "pluto.lock",
+        *(path for path in new if path.endswith("/graph.json")),
+    }  # folded in reviews
+    for path in sorted({*old, *new} - data):
         one, other = old.get(path), new.get(path)
         if "/_runtime/" not in path:
             compared = unified_diff((one or "").splitlines(), (other or "").splitlines(), n=0)

@@ -17,7 +17,7 @@ from plutoc.compile import planned
 from plutoc.emit.package import emit
 from plutoc.registry import STD, Blocks
 from plutoc_blocks import BLOCKS
-from plutoc_runtime.flow.standing import blame, blamed
+from plutoc_runtime.flow.blame import blame, blamed
 from tests.compiler.emit import failing
 from tests.compiler.emit.plans import checked_of
 

@@ -9,9 +9,9 @@ from plutoc.block import ANY_SAME, Block, Param, emits
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.flow.flight import Limit
 from plutoc_runtime.flow.run import watch
 from plutoc_runtime.time.kernel import EventKind
-from plutoc_runtime.trips.flight import Limit
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Trip

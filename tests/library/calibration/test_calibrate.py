@@ -14,7 +14,7 @@ from tempfile import TemporaryDirectory
 import pytest
 
 from pluto_fleet.__main__ import main
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from tests.calibrating.flights import surveyed
 from tests.kit.command import run
@@ -55,7 +55,7 @@ def made(what: str) -> bytes:
             surveyed(path, said=CRAZYFLIE, **FLIGHTS[what])  # type: ignore[arg-type]
         else:
             with closing(Store.create(path, {"t": 0.0, "event": "journal.begun"})) as store:
-                store.append([json.dumps([event]) for event in EVENTS[what]])
+                store.append([Entry(json.dumps([event])) for event in EVENTS[what]])
         return path.read_bytes()
 
 

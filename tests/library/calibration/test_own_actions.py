@@ -17,7 +17,7 @@ from pluto_fleet.app import App
 from pluto_fleet.calibration.commands import Flights, read_flights
 from pluto_fleet.calibration.fit import calibrated
 from pluto_fleet.journal.header import header
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.shared.domain.actions import Parameter
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.model import Drone, Trip
@@ -171,7 +171,7 @@ def test_what_failed_was_broken_off_or_seen_only_afterwards_does_not_count(
     assert [len(living.named(f"trip.{how}")) for how in ("completed", "failed")] == [8, 2]
     told = header(app, missions="", fleet=None, sim=True, seed=0)
     with closing(Store.create(tmp_path / "J", told)) as store:
-        store.append(living.memory.rows)
+        store.append([Entry(json.dumps([event])) for event in living.memory.events])
     (own,) = calibrated([read_flights(tmp_path / "J")], CRAZYFLIE).own
     assert own.count == 6
     assert own.seconds == pytest.approx(10.0)

@@ -43,7 +43,9 @@ def test_check_warns_of_a_speed_that_a_crazyflie_does_not_follow(
     assert command("check", missions, "--fleet", fleet, app=fast)[2] == ""
 
 
-@pytest.mark.parametrize("words", ["tell N stop", "journal N --mend", "check N", "resume N --sim"])
+@pytest.mark.parametrize(
+    "words", ["tell N stop", "journal N --follow", "check N", "resume N --sim"]
+)
 def test_a_name_that_is_too_long_is_told(words: str, command: Command) -> None:
     code, _, said = command(*words.replace("N", "n" * 300).split())
     assert code == 2

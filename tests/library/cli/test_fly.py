@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sqlite3
 from collections.abc import Callable, Sequence
 from contextlib import closing
@@ -12,7 +11,10 @@ from typing import Any
 import pytest
 
 from pluto_fleet.journal.header import header
+from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
+from pluto_fleet.station.history.told import Told
+from tests.kit.journals import entry
 from tests.library.cli.conftest import MISSIONS, Command
 from tests.library.files.an_app import APP
 
@@ -46,15 +48,16 @@ def journal(tmp_path: Path) -> Write:
         path = tmp_path / "a.journal"
         whole = header(APP, missions=MISSIONS, fleet=None, sim=True, seed=0)
         with closing(Store.create(path, {**whole, **facts})) as store:
-            store.append([json.dumps([event]) for event in events])
+            told = Told()
+            store.append([entry([event], told) for event in events])
         return path
 
     return write
 
 
 def events_of(path: Path) -> Sequence[Event]:
-    with closing(Store.open(path)) as store:
-        return list(store.read().events)
+    with closing(Reader(path)) as reader:
+        return [event for _, event in reader.events()]
 
 
 def test_a_journal_that_is_there_is_never_overwritten(
@@ -156,12 +159,12 @@ def test_nothing_is_decided_in_a_damaged_journal(journal: Write, command: Comman
     """Neither listed nor written down: what is missing may be what it was about."""
     path = journal(created("North", 0), LAUNCHED, DOUBT)
     with closing(sqlite3.connect(path)) as database:
-        database.execute("UPDATE journal SET text = replace(text, 'North', 'South') WHERE seq = 1")
+        database.execute("UPDATE mission SET text = '[]'")
         database.commit()
     for words in (), ("North", "done"):
         code, out, err = command("decide", path, *words)
         assert (code, out) == (2, "")
-        assert "the journal is damaged: row 1 of 3 is not what was written" in err
+        assert "the row of mission North is not as this version knows it" in err
 
 
 def test_a_decision_is_put_down_in_a_journal_at_rest(journal: Write, command: Command) -> None:

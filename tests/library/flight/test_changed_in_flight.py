@@ -32,7 +32,7 @@ def test_what_has_not_flown_is_flown_as_it_was_changed() -> None:
     living.at(3.0, lambda: change(living, trip("3", 4), trip("new", 6), replaces=["2", "3"]))
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.completed"), "trip") == ["1", "3", "new"]
-    done = living.life.recorder.records.missions["a"]["done"]
+    done = living.life.recorder.standing.missions["a"]["done"]
     assert [one["target"][0] for one in done] == [3.0, 4.0, 6.0]
     assert living.named("trip.interrupted") == []
     assert violations(living.events, {}) == []
@@ -51,7 +51,7 @@ def test_a_change_goes_on_after_the_app_dies() -> None:
     done = [(one["mission"], one["trip"]) for one in living.named("trip.completed")]
     assert sorted(done) == [("a", "1"), ("a", "3"), ("b", "1"), ("b", "2")]
     assert done.index(("b", "2")) < done.index(("b", "1"))
-    assert living.life.recorder.records.missions["b"]["done"][0]["target"][0] == 8.0
+    assert living.life.recorder.standing.missions["b"]["done"][0]["target"][0] == 8.0
     assert violations(living.events, {}) == []
 
 
@@ -129,6 +129,6 @@ def test_an_item_aboard_is_not_sent_farther_than_the_battery_reaches() -> None:
     living.navigation.bodies["cf1"].restore(
         {**living.navigation.bodies["cf1"].data, "charge": [0.25, 3.0, -1 / 420]}
     )
-    item = living.life.recorder.records.missions["a"]["todo"][-1]["item"]
+    item = living.life.recorder.standing.missions["a"]["todo"][-1]["item"]
     with pytest.raises(BadInput, match=r"cf1 has 25 % in its battery, and needs \d+ % for what it"):
         change(living, {**trip("r", 18), "action": "release_item", "item": item})

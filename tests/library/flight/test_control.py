@@ -62,9 +62,9 @@ def test_what_a_person_says_before_the_first_drone_is_remembered_by_a_later_life
     living.at(2.0, lambda: living.life.control.prioritise("b", "3", 7))
     living.crash(3.0)
     assert living.run() == ["COMPLETED", "COMPLETED"]
-    assert names(living.named("mission.created"), "mission") == ["a", "b", "b"]
-    assert [trip["name"] for trip in living.life.recorder.records.missions["b"]["gone"]] == ["1"]
-    last = living.life.recorder.records.missions["b"]["done"][-1]
+    assert names(living.named("mission.created"), "mission") == ["a", "b"]
+    assert [trip["name"] for trip in living.life.recorder.standing.missions["b"]["gone"]] == ["1"]
+    last = living.life.recorder.standing.missions["b"]["done"][-1]
     assert (last["name"], last["fields"]["priority"]) == ("3", 7)
     assert violations(living.events, {}) == []
 

@@ -77,4 +77,4 @@ def test_a_command_that_was_carried_out_is_known_by_its_name_in_a_later_life() -
     living.at(2.0, lambda: living.life.control.remember("x1", "skip"))
     living.crash(3.0)
     living.run()
-    assert living.life.recorder.records.commands == ["x1"]
+    assert living.life.recorder.standing.commands == ["x1"]

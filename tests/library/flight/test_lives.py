@@ -19,9 +19,11 @@ from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
+from pluto_fleet.journal.copies import newest_whole
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.place import commands_note
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.reader import Reader
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.world import World
@@ -104,8 +106,8 @@ class Tried:
 
     @property
     def journal(self) -> list[dict[str, Any]]:
-        with closing(Store.open(self.path)) as store:
-            return list(store.read().events)
+        with closing(Reader(self.path)) as reader:
+            return [event for _, event in reader.events()][1:]
 
 
 @pytest.fixture
@@ -119,9 +121,9 @@ def durable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     kinds: list[str] = []
     append = Store.append
 
-    def noted(store: Store, rows: list[str]) -> None:
-        append(store, rows)
-        kinds.extend(event["event"] for row in rows for event in json.loads(row))
+    def noted(store: Store, entries: list[Entry]) -> None:
+        append(store, entries)
+        kinds.extend(event["event"] for one in entries for event in json.loads(one.events))
 
     monkeypatch.setattr(Store, "append", noted)
     return kinds
@@ -141,14 +143,14 @@ def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
     tried: Tried, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    append, rows_left = Store.append, [2]
+    append, left = Store.append, [2]
 
-    def full(store: Store, rows: list[str]) -> None:
-        rows_left[0] -= len(rows)
-        if rows_left[0] < 0:
+    def full(store: Store, entries: list[Entry]) -> None:
+        left[0] -= len(entries)
+        if left[0] < 0:
             store.failure = JournalError("the disk is full")
             raise store.failure
-        append(store, rows)
+        append(store, entries)
 
     monkeypatch.setattr(Store, "append", full)
     with pytest.raises(JournalError, match="the disk is full"):
@@ -160,16 +162,13 @@ def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
     assert "the disk is full" in str(written[-1]["text"])
 
 
-def test_a_snapshot_is_taken_now_and_then(tried: Tried, monkeypatch: pytest.MonkeyPatch) -> None:
-    """And the next life goes on from there."""
-    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_EVERY", 5)  # within a life
-    monkeypatch.setattr("pluto_fleet.flight.live_flight.SNAPSHOT_AT_END", 0)
+def test_the_journal_is_copied_at_the_start_and_each_copy_is_whole(tried: Tried) -> None:
+    """It can be put in the journal's place, and the flight goes on from there."""
     stops = Stops()
     tried.on("trip.completed", lambda: stops.stop(Down.LAND))
     asyncio.run(tried.live(stops))
-    with closing(Store.open(tried.path)) as store:
-        read = store.read()
-        assert read.snapshot is not None
-        assert read.after > 0
+    whole = newest_whole(tried.path)
+    assert whole is not None
+    tried.path.write_bytes(whole[0].read_bytes())
     lived = asyncio.run(tried.live())
     assert [mission.status for mission in lived.missions] == [Status.COMPLETED]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 from typing import Any
 
@@ -10,7 +9,7 @@ import pytest
 
 from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.reports import DroneReport
-from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.standing import Standing
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.shared.domain.model import Drone
@@ -33,8 +32,8 @@ def drone(living: Living, id: str = "cf1") -> Drone:
     return next(one for one in living.life.drones if one.id == id)
 
 
-def records(living: Living) -> Records:
-    return living.life.recorder.records
+def records(living: Living) -> Standing:
+    return living.life.recorder.standing
 
 
 def flights_of(living: Living, id: str) -> list[float]:
@@ -94,7 +93,6 @@ def test_where_every_drone_is_lost_nothing_begins() -> None:
     fleet.die()
     lost = {"cf1": {"reason": "cf1 crashed at (1, 2)", "at": [1.0, 2.0, 0.0]}}
     fleet.memory = Memory({"t": 0.0, "event": "journal.begun", "lost": lost})
-    fleet.memory.append([json.dumps([{"t": 0.0, "event": "journal.begun", "lost": lost}])])
     fleet.live_on()
     passes(fleet, 10.0)
     assert fleet.life.control.whole is not None

@@ -9,7 +9,6 @@ from dataclasses import replace
 import pytest
 
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.shared.domain.model import Drone, Results, Trip
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
@@ -126,15 +125,15 @@ def test_a_mission_whose_action_is_gone_is_held_and_can_only_be_cancelled() -> N
     assert living.run() == ["CANCELLED"]
 
 
-def test_the_records_of_a_life_are_what_its_journal_says() -> None:
+def test_the_rows_of_a_journal_are_what_its_brain_says() -> None:
     living = delivering()
     living.crash(30.0)
     living.run()
-    records = Records()
-    for event in living.memory.read().events:
-        records.take(event)
-    assert records.data == living.life.recorder.records.data
-    assert json.loads(json.dumps(records.data)) == records.data
+    written = living.memory.standing().data
+    assert written == json.loads(json.dumps(living.life.recorder.standing.data))
+    brain = json.loads(json.dumps(living.life.brain.standing()))
+    assert written["missions"] == brain["missions"]
+    assert written["results"] == brain["results"]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Appends rows to a journal until it is killed, and says on standard output what was acknowledged.
+"""Appends entries to a journal until it is killed, and says on standard output what was acknowledged.
 
 `python -m tests.library.journal.appender J`
 """
@@ -11,7 +11,7 @@ from itertools import count
 from pathlib import Path
 
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.journal.writer import Writer
 
 
@@ -24,18 +24,22 @@ def say(word: object) -> None:
 
 
 def fill(writer: Writer, number: int) -> None:
-    """Add a row, and now and then wait for the disk, or keep a snapshot."""
-    writer.add(text(number))
+    """Add an entry, and now and then wait for the disk, or copy the journal."""
+    writer.add(Entry(text(number)))
     if number % 7 == 0:
         writer.flush()
     if number % 500 == 0:
-        writer.snapshot(f"state {number}")
+        writer.copy()
 
 
 if __name__ == "__main__":
     path = Path(sys.argv[1])
     failures: list[JournalError] = []
-    store = Store.open(path) if path.exists() else Store.create(path, {"event": "header"})
+    store = (
+        Store.open(path)
+        if path.exists()
+        else Store.create(path, {"t": 0.0, "event": "journal.begun"})
+    )
     writer = Writer(store, say, failures.append)
     for number in count(store.seq + 1):
         fill(writer, number)

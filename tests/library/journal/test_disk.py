@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Callable
+from contextlib import closing
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -17,10 +18,10 @@ import pytest
 from pluto_fleet.journal import place
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.reader import Reader
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.journal.writer import Writer
 from tests.library.journal.appender import fill, text
-from tests.library.journal.damage import ROWS, closed, full_disk, killed
+from tests.library.journal.damage import HEADER, TEXTS, closed, full_disk, killed
 from tests.paths import ROOT
 
 PAGE = 4096
@@ -37,17 +38,12 @@ def appender(path: Path) -> subprocess.Popen[str]:
     )
 
 
-def rows_of(path: Path, *, torn: bool = False) -> list[str]:
-    """Return all rows but the header, and assert that nothing is damaged.
-
-    Where rows had no room, what was not told to a reader may still lie there: then they are torn.
-    """
-    reader = Reader(path)
-    rows = [row.text for row in reader.rows()][1:]
-    reader.close()
-    assert reader.damaged is None
-    assert torn or reader.torn is None
-    return rows
+def texts_of(path: Path) -> list[str]:
+    """Return all events but the header, and assert that nothing is damaged."""
+    with closing(Reader(path)) as reader:
+        texts = [instant.text for instant in reader.instants()][1:]
+        assert reader.damaged is None
+    return texts
 
 
 @pytest.mark.process
@@ -61,7 +57,7 @@ def test_nothing_that_was_acknowledged_is_lost_by_a_kill(tmp_path: Path) -> None
         process.kill()
         said = process.communicate()[0].splitlines()
         durable = int(said[-1]) if said and said[-1].isdigit() else durable
-        rows = rows_of(path)
+        rows = texts_of(path)
         assert len(rows) >= durable
         assert rows == [text(number) for number in range(1, len(rows) + 1)]
     store = Store.open(path)
@@ -75,7 +71,7 @@ def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
 ) -> None:
     """Once there is room again, the journal goes on."""
     path, told, failures = tmp_path / "J", [0], list[JournalError]()
-    store = Store.create(path, {"event": "header"})
+    store = Store.create(path, HEADER)
     writer = Writer(store, told.append, failures.append)
     with full_disk(room), pytest.raises(JournalError):
         for number in count(1):
@@ -83,7 +79,7 @@ def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
     assert store.last_words(WHY)
     writer.close()
     store.close()
-    *rows, last = rows_of(path, torn=True)
+    *rows, last = texts_of(path)
     assert last == WHY
     assert told[-1] <= len(rows)
     assert rows == [text(number) for number in range(1, len(rows) + 1)]
@@ -92,9 +88,9 @@ def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
     assert f"What was written before, {len(rows)} rows, is safe" in why
     assert not place.beside(path, ".reserve").exists()
     store = Store.open(path)
-    store.append(['["more"]'])
+    store.append([Entry('["more"]')])
     store.close()
-    assert rows_of(path) == [*rows, WHY, '["more"]']
+    assert texts_of(path) == [*rows, WHY, '["more"]']
 
 
 @pytest.mark.parametrize("room", [1, 8_192, 100_000, 256 * 1024 - 1])
@@ -103,30 +99,29 @@ def test_where_there_is_too_little_room_no_part_of_a_journal_is_made(
 ) -> None:
     path = tmp_path / "J"
     with full_disk(room), pytest.raises(JournalError, match="cannot be made: the disk"):
-        Store.create(path, {})
+        Store.create(path, HEADER)
     assert os.listdir(tmp_path) == []
-    Store.create(path, {}).close()
+    Store.create(path, HEADER).close()
     with full_disk(room), pytest.raises(JournalError, match="cannot be opened: the disk"):
         Store.open(path)
     assert os.listdir(tmp_path) == ["J"]
 
 
-def test_on_a_disk_that_stays_full_neither_a_snapshot_nor_a_last_word_is_taken(
+def test_on_a_disk_that_stays_full_neither_a_copy_nor_a_last_word_is_taken(
     tmp_path: Path,
 ) -> None:
     """Nothing that the journal took before is lost, and once there is room the last word is heard."""
     path = tmp_path / "J"
-    store = Store.create(path, {"event": "header"})
-    store.append([text(1)])
+    store = Store.create(path, HEADER)
+    store.append([Entry(text(1))])
     with full_disk():
-        for _ in range(2):
-            with pytest.raises(JournalError, match="cannot be written: the disk"):
-                store.snapshot("state")
+        with pytest.raises((OSError, sqlite3.Error)):
+            store.copy()
         assert not store.last_words(WHY)
     assert store.last_words(WHY)
-    assert store.read().snapshot is None
     store.close()
-    assert rows_of(path) == [text(1), WHY]
+    assert texts_of(path) == [text(1), WHY]
+    assert os.listdir(tmp_path) == ["J"]
 
 
 Refuses = Callable[[str], None]
@@ -156,7 +151,7 @@ def test_a_new_journal_that_cannot_be_opened_leaves_nothing_behind(
 ) -> None:
     refuses("?mode=rw")
     with pytest.raises(JournalError, match="cannot be made: it may not be opened"):
-        Store.create(tmp_path / "J", {})
+        Store.create(tmp_path / "J", HEADER)
     assert os.listdir(tmp_path) == []
 
 
@@ -173,7 +168,7 @@ def test_where_nothing_may_be_written_all_rows_are_read_and_nothing_is_left(
     monkeypatch.setattr(tempfile, "tempdir", str(copies))
     refuses("/J?mode=ro")
     reader = Reader(path, follows=True)
-    assert [row.text for row in reader.rows()] == ROWS
+    assert [instant.text for instant in reader.instants()] == TEXTS
     reader.close()
     assert (reader.damaged, os.listdir(copies)) == (None, [])
     with full_disk(PAGE):
@@ -194,7 +189,7 @@ def test_where_files_cannot_be_linked_a_journal_takes_the_place_of_none_either(
     monkeypatch.setattr(os, "link", link)
     if meanwhile:
         with pytest.raises(JournalError, match="there is a journal already"):
-            Store.create(tmp_path / "J", {})
+            Store.create(tmp_path / "J", HEADER)
     else:
-        Store.create(tmp_path / "J", {}).close()
+        Store.create(tmp_path / "J", HEADER).close()
     assert os.listdir(tmp_path) == ([] if meanwhile else ["J"])

@@ -6,6 +6,7 @@ import json
 import os
 import sqlite3
 from collections.abc import Iterator
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -15,16 +16,25 @@ import pytest
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.lock import holder
 from pluto_fleet.journal.reader import Reader
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 
-HEADER = {"event": "journal.begun", "app": "alfalfa", "missions": '[[mission]]\nname = "Ä"'}
+HEADER = {
+    "t": 0.0,
+    "event": "journal.begun",
+    "app": "alfalfa",
+    "missions": '[[mission]]\nname = "Ä"',
+}
 
 FULL = 2
 """Of SQLite's `synchronous`: a commit returns when the disk has it."""
 
 
-def row(number: int) -> str:
+def text(number: int) -> str:
     return json.dumps([{"t": float(number), "event": "log", "text": f"number {number}"}])
+
+
+def entry(number: int) -> Entry:
+    return Entry(text(number), [("drone", ("cf1",), {"trips": number})])
 
 
 @pytest.fixture
@@ -40,16 +50,15 @@ def store(place: Path) -> Iterator[Store]:
 
 
 def test_what_was_appended_is_read_in_another_life(store: Store, place: Path) -> None:
-    store.append([row(1), row(2)])
-    store.append([row(3)])
+    store.append([entry(1), entry(2)])
+    store.append([entry(3)])
     store.close()
     again = Store.open(place)
-    read = again.read()
-    assert [(found.seq, found.wall, found.text) for found in read.rows] == [
-        (number, 1000.25, row(number)) for number in (1, 2, 3)
-    ]
-    assert (read.damaged, read.snapshot, again.header) == (None, None, HEADER)
+    assert (again.header, again.written, again.standing().flown) == (HEADER, 1000.25, {"cf1": 3})
     again.close()
+    with closing(Reader(place)) as reader:
+        found = [(one.seq, one.wall, one.text) for one in reader.instants()][1:]
+    assert found == [(number, 1000.25, text(number)) for number in (1, 2, 3)]
 
 
 class Watched(sqlite3.Connection):
@@ -71,10 +80,9 @@ def test_all_that_is_committed_is_on_the_disk_by_then(
     Watched.waits.clear()
     monkeypatch.setattr(sqlite3, "connect", partial(sqlite3.connect, factory=Watched))
     store = Store.create(place, HEADER)
-    store.append([row(1)])
-    store.snapshot("state")
+    store.append([entry(1)])
     store.close()
-    assert Watched.waits == [True] * 4
+    assert Watched.waits == [True] * 3
 
 
 def test_the_epoch_grows_at_each_opening_even_if_nothing_is_written(place: Path) -> None:
@@ -86,17 +94,6 @@ def test_the_epoch_grows_at_each_opening_even_if_nothing_is_written(place: Path)
         store = Store.open(place)
     store.close()
     assert epochs == [1, 2, 3]
-
-
-def test_only_what_follows_the_newest_snapshot_is_read(store: Store) -> None:
-    for number in range(1, 10):
-        store.append([row(number)])
-        if number % 3 == 0:
-            store.snapshot(f"state {number}")
-    read = store.read()
-    assert (read.snapshot, read.after, list(read.rows)) == ("state 9", 9, [])
-    store.append([row(10)])
-    assert [found.seq for found in store.read().rows] == [10]
 
 
 def test_a_second_writer_is_told_who_the_first_one_is(store: Store, place: Path) -> None:
@@ -111,35 +108,18 @@ def test_a_second_writer_is_told_who_the_first_one_is(store: Store, place: Path)
     assert holder(place) is None
 
 
-def test_it_is_known_when_the_last_thing_that_is_read_was_written(place: Path) -> None:
-    now = [10.0]
-    store = Store.create(place, HEADER, clock=lambda: now[0])
-    assert store.read().written is None
-    now[0] = 20.0
-    store.append([row(1)])
-    now[0] = 30.0
-    store.snapshot("state")
-    assert store.read().written == 30.0
-    now[0] = 40.0
-    store.append([row(2)])
-    read = store.read()
-    assert len(list(read.events)) == 1
-    assert read.written == 40.0
-    store.close()
-
-
 def test_a_reader_that_stops_in_the_middle_keeps_no_one_from_tidying_up(
     store: Store, place: Path
 ) -> None:
-    store.append([row(number) for number in range(3_000)])
+    store.append([entry(number) for number in range(3_000)])
     reader = Reader(place)
-    rows = reader.rows()
-    next(rows)
-    store.append([row(3_000)])
+    instants = reader.instants()
+    next(instants)
+    store.append([entry(3_000)])
     store.close()
     assert place.with_name(f"{place.name}-wal").stat().st_size == 0
-    assert sum(1 for _ in rows) == 3_000  # what was there when it began
-    assert sum(1 for _ in reader.more()) == 1
+    assert sum(1 for _ in instants) == 3_000  # what was there when it began
+    assert sum(1 for _ in reader.instants()) == 1
     reader.close()
 
 
@@ -149,7 +129,7 @@ def test_a_journal_that_was_deleted_takes_nothing_more(
     suffix: str, replaced: bool, store: Store, place: Path
 ) -> None:
     """Also when another file has its name by now, and though nothing is being written."""
-    store.append([row(1)])
+    store.append([entry(1)])
     gone = place.with_name(place.name + suffix)
     gone.unlink()
     if replaced:
@@ -157,7 +137,7 @@ def test_a_journal_that_was_deleted_takes_nothing_more(
     with pytest.raises(JournalError, match=f"{gone}: it was deleted"):
         store.look()
     with pytest.raises(JournalError, match="it was deleted"):
-        store.append([row(2)])
+        store.append([entry(2)])
 
 
 @pytest.mark.parametrize("text", ["", "something else"])
@@ -165,18 +145,18 @@ def test_a_journal_that_was_emptied_or_written_over_takes_nothing_more(
     text: str, store: Store, place: Path
 ) -> None:
     """It is the same file still, and the database goes on writing beside it."""
-    store.append([row(1)])
+    store.append([entry(1)])
     place.write_text(text)
     with pytest.raises(JournalError, match=f"{place}: it was cut short or written over"):
         store.look()
     with pytest.raises(JournalError, match="cut short"):
-        store.append([row(2)])
+        store.append([entry(2)])
 
 
 def test_a_journal_that_was_renamed_is_called_by_its_new_name(store: Store, place: Path) -> None:
     moved = place.rename(place.with_name("elsewhere"))
     with pytest.raises(JournalError, match=f"^{moved}: .* moved away from {place}: move it back"):
-        store.append([row(1)])
+        store.append([entry(1)])
     moved.rename(place)
     store.close()
     Store.open(place).close()

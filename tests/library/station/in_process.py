@@ -252,7 +252,7 @@ class Flown(Asked):
         found: list[dict[str, Any]] = []
         for journal in self.journals():
             with closing(Reader(journal)) as reader:
-                found += [event for row in reader.rows() for event in json.loads(row.text)]
+                found += [event for _, event in reader.events()]
         return [event for event in found if event["event"] == kind]
 
     def completes_all_once(self) -> None:

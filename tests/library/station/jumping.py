@@ -9,7 +9,7 @@ from concurrent.futures import Executor
 from typing import Any, TypeVar
 
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 
 T = TypeVar("T")
 
@@ -94,29 +94,29 @@ class AtOnce:
         on_failure: Callable[[JournalError], object],
     ) -> None:
         self._store, self._on_durable, self._on_failure = store, on_durable, on_failure
-        self._rows: list[str] = []
+        self._entries: list[Entry] = []
         self._added = store.seq
 
-    def add(self, row: str) -> int:
-        """Add a row and return its number."""
-        if not self._rows:
+    def add(self, entry: Entry) -> int:
+        """Add an entry and return its number."""
+        if not self._entries:
             asyncio.get_running_loop().call_soon(self._write)
-        self._rows.append(row)
+        self._entries.append(entry)
         self._added += 1
         return self._added
 
-    def snapshot(self, state: str) -> None:
-        """Store a snapshot of the rows added so far."""
+    def copy(self) -> None:
+        """Copy the journal."""
         self.flush()
-        self._store.snapshot(state)
+        self._store.copy()
 
     def flush(self) -> None:
-        """Make all added rows durable; raise a `JournalError` if that fails."""
-        rows, self._rows = self._rows, []
+        """Make all added entries durable; raise a `JournalError` if that fails."""
+        entries, self._entries = self._entries, []
         if self._store.failure is not None:
             raise self._store.failure
-        if rows:
-            self._store.append(rows)
+        if entries:
+            self._store.append(entries)
             self._on_durable(self._added)
 
     def _write(self) -> None:

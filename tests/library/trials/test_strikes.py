@@ -92,7 +92,6 @@ def test_bad_weather_is_borne(weather: Weather, what: str) -> None:
     [
         (Weather(jump=100.0), "clock jump"),
         (Weather(jump=-50.0), "clock jump"),
-        (Weather(snapshot=1.0), "snapshot"),
         (Weather(down=60.0), "failsafe"),
     ],
 )

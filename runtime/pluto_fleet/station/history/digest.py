@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 from ...flight.mission_status import all_over
 from ...journal.header import check
+from ...journal.standing import Standing
 from ...shared.domain.errors import BadInput
 from .airborne import FleetWork, Work
 from .reading import JournalText
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...journal.fold import Records
     from ..wire import FlightEnd, FlightSummary
 
 
@@ -34,9 +34,9 @@ def digest_of(id: str, text: JournalText, app: App) -> Digest:
     by: str | None = None
     simulated: bool | None = None
     said, results, seconds = "", 0, 0.0
-    for instant in text.instants():
+    for instant, events in text.instants():
         last_at = round(instant.wall * 1000)
-        for event in instant.events:
+        for event in events:
             kind, seconds = event["event"], max(seconds, float(event["t"]))
             work.take(event)
             if kind == "journal.begun":
@@ -49,8 +49,9 @@ def digest_of(id: str, text: JournalText, app: App) -> Digest:
         if said:
             break
     work.end()
+    records = Standing() if said else text.standing()
     said = said or text.damaged
-    records, known = text.records, not said
+    known = not said
     statuses = [record["status"] for record in records.missions.values() if record["ended"]]
     end = end_of(records) if known else "unknown"
     return Digest(
@@ -77,7 +78,7 @@ def digest_of(id: str, text: JournalText, app: App) -> Digest:
     )
 
 
-def end_of(records: Records) -> FlightEnd:
+def end_of(records: Standing) -> FlightEnd:
     """Return how a flight has ended that does not fly any more."""
     if all_over(records):
         return "over"

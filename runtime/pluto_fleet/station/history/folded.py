@@ -9,20 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 from ...flight.control import PRIORITY
 from ...flight.lives import fleet_in
-from ...flight.mission_status import aside, in_order
+from ...flight.mission_status import aside
 from ...gateway.sightings import Sighting
-from ...journal.fold import BROKEN
+from ...journal import errors
+from ...journal.facts import BROKEN
 from ...shared.domain.errors import BadInput
 from ...shared.domain.status import IN_THE_AIR
 from ..rows import drone_at, living_row, recorded_row
-from .digest import end_of
 from .frames import Frame
 from .reading import JournalText
+from .told import Told
 from .tracks import Tracks
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...journal.fold import Record
+    from ...journal.standing import Record
     from .reading import Event
 
 STEP = 0.5
@@ -56,8 +57,8 @@ def folded_frames(app: App, read: Callable[[], JournalText]) -> Iterator[Frame]:
     """
     tracks = Tracks()
     last = 0.0
-    for instant in read().instants():
-        for event in instant.events:
+    for _, events in read().instants():
+        for event in events:
             tracks.take(event)
             last = max(last, float(event["t"]))
     return _Folding(app, read(), tracks, max(STEP, last / MOST_STEPS)).frames()
@@ -66,6 +67,7 @@ def folded_frames(app: App, read: Callable[[], JournalText]) -> Iterator[Frame]:
 class _Folding:
     def __init__(self, app: App, journal: JournalText, tracks: Tracks, step: float) -> None:
         self._app, self._journal, self._tracks = app, journal, tracks
+        self._told = Told()
         self._step = step
         self._statuses: dict[str, str] = {}
         """By drone."""
@@ -84,18 +86,25 @@ class _Folding:
     def frames(self) -> Iterator[Frame]:
         """Yield the frames."""
         last, epoch = 0.0, 0
-        for instant in self._journal.instants():
-            t = max(last, float(instant.events[-1]["t"]))
+        for instant, events in self._journal.instants():
+            t = max(last, float(events[-1]["t"]))
             yield from self._on_the_way(last, t)
             if instant.epoch != epoch and self._missions:
                 yield self._left(last)
-            for event in instant.events:
-                self._take(event)
+            try:
+                for event in events:
+                    self._take(event)
+            except BROKEN:
+                self._journal.damaged = (
+                    f"{self._journal.path}: {errors.does_not_follow(instant.seq)}"
+                )
+                break
             last, epoch = t, instant.epoch
             yield self._changed(t)
         yield self._left(last)
 
     def _take(self, event: Event) -> None:
+        self._told.take(event)
         match event["event"]:
             case "journal.begun":
                 try:
@@ -113,7 +122,10 @@ class _Folding:
 
     def _left(self, t: float) -> Frame:
         """Return the frame of a run that has ended: all that it knew of flights is not known now."""
-        phase = end_of(self._journal.records)
+        missions = self._told.missions.values()
+        is_over = bool(missions) and all(record["ended"] for record in missions)
+        was_stopped = self._state["phase"] == "stopping"
+        phase = "over" if is_over else "stopped" if was_stopped else "interrupted"
         self._state = {**self._state, "phase": phase, "busy": "", "how": None}
         for drone, status in self._statuses.items():
             if status in _ALOFT:
@@ -122,7 +134,8 @@ class _Folding:
 
     def _changed(self, t: float) -> Frame:
         """Return a frame of what is another now."""
-        rows = [self._mission(*one, t) for one in in_order(self._journal.records)]
+        known = sorted(self._told.missions.items(), key=lambda item: int(item[1]["index"]))
+        rows = [self._mission(*one, t) for one in known]
         missions = [row for row in rows if self._missions.get(row["name"]) != row]
         self._missions.update((row["name"], row) for row in missions)
         return self._frame(t, missions, [self._drone(id, t) for id in self._statuses])
@@ -165,16 +178,15 @@ class _Folding:
         first = [
             one
             for one in record["promises"].get("after", ())
-            if not self._journal.records.missions.get(one, record)["ended"]
+            if not self._told.missions.get(one, record)["ended"]
         ]
         return living_row(
             name, record, where, self._app.resumes, self._priority, t, lambda *_: None, first
         )
 
     def _drone(self, id: str, t: float) -> Any:
-        records, known = self._journal.records, self._tracks.at(id, t)
-        lost = records.lost.get(id)
-        why = str(lost["reason"]) if lost is not None else "" if known.at else NOT_TOLD
+        told, known = self._told, self._tracks.at(id, t)
+        why = told.lost.get(id, "" if known.at else NOT_TOLD)
         seen = None
         if known.at is not None:
             # `when` is any time at all: that is told by the frame, and taken out of the row below
@@ -183,8 +195,8 @@ class _Folding:
             id,
             self._statuses[id],
             seen,
-            records.flown.get(id, 0),
-            id in records.retired,
+            told.flown.get(id, 0),
+            id in told.retired,
             why,
         )
         row = {**row, "mission": self._work(id)}
@@ -197,7 +209,7 @@ class _Folding:
 
     def _work(self, drone: str) -> str | None:
         """Return the mission for which a drone flies."""
-        for name, record in self._journal.records.missions.items():
+        for name, record in self._told.missions.items():
             flight = record["flight"]
             if flight is not None and flight["drone"] == drone and flight["outcome"] is None:
                 return name

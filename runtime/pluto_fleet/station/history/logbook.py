@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ...journal.fold import BROKEN
+from ...journal.facts import BROKEN
 from ..feed import Feed
 from ..results.meaning import SIMULATED_UNITS
 from ..results.rows import NameOf, nowhere
@@ -42,8 +42,8 @@ def logbook(
     ahead = next(others, None)
     told = 0
     """The lines of the journal so far."""
-    for instant in journal.instants():
-        for event in instant.events:
+    for _, events in journal.instants():
+        for event in events:
             if book is None:
                 units = SIMULATED_UNITS if event.get("sim") else {}
                 book = Logbook(Feed(app, units, journal.path.stem, name_of))

@@ -4,28 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ...journal import errors
-from ...journal.database import Row
+from ...journal.database import Instant
 from ...journal.errors import JournalError
-from ...journal.fold import Records
-from ...journal.reader import Reader
+from ...journal.facts import check
+from ...journal.reader import Reader, standing_of
+from ...journal.standing import Standing
 
 Event = dict[str, Any]
-
-
-@dataclass(frozen=True, slots=True)
-class Instant:
-    """The events of one row of a journal."""
-
-    wall: float
-    """When it was written, in seconds since 1970."""
-    epoch: int
-    """How often the journal had been opened by then."""
-    events: list[Event]
 
 
 @dataclass(slots=True)
@@ -35,30 +25,32 @@ class JournalText:
     path: Path
     damaged: str = ""
     """What is wrong with it, after all that can be read; empty: nothing."""
-    records: Records = field(default_factory=Records)
-    """What is so after the instant that was read last."""
 
-    def instants(self) -> Iterator[Instant]:
-        """Yield its rows, the header first, after each has been taken into the records."""
-        for row in self._rows():
-            try:
-                events = row.events
-                for event in events:
-                    self.records.read(event)
-                    if event["event"] == "trip.completed":
-                        event["did"] = self.records.flown_last(event["mission"])
-            except ValueError as error:
-                self.damaged = f"{self.path}: {errors.unfit(row.seq, error)}"
-                return
-            if events:
-                yield Instant(row.wall, row.epoch, events)
-
-    def _rows(self) -> Iterator[Row]:
+    def instants(self) -> Iterator[tuple[Instant, list[Event]]]:
+        """Yield its instants and their events, the header first, as far as they are as they must be."""
         try:
             reader = Reader(self.path)
         except JournalError as error:
             self.damaged = str(error)
             return
         with closing(reader):
-            yield from reader.rows()
-            self.damaged = reader.damaged or ""
+            for instant in reader.instants():
+                try:
+                    events = instant.events
+                    for event in events:
+                        check(event)
+                except ValueError as error:
+                    self.damaged = f"{self.path}: {errors.unfit(instant.seq, error)}"
+                    return
+                if events:
+                    yield instant, events
+            if reader.damaged is not None:
+                self.damaged = str(errors.damaged(self.path, reader.damaged))
+
+    def standing(self) -> Standing:
+        """Return where everything stands; nothing of a journal whose rows cannot be read."""
+        try:
+            return standing_of(self.path)
+        except JournalError as error:
+            self.damaged = self.damaged or str(error)
+            return Standing()

@@ -151,8 +151,8 @@ class Past:
 def measured_levels(journal: JournalText) -> dict[str, list[list[float]]]:
     """Return pairs of time and level of each drone, at the ends of its commands."""
     found: dict[str, list[list[float]]] = {}
-    for instant in journal.instants():
-        for event in instant.events:
+    for _, events in journal.instants():
+        for event in events:
             level = event.get("battery") if event["event"].startswith("drone.") else None
             if isinstance(level, list):
                 level = level[-1]

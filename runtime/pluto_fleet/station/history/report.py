@@ -14,7 +14,7 @@ from .logbook import logbook
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...journal.fold import Record
+    from ...journal.standing import Record
     from ..wire import (
         FlightReport,
         Incident,
@@ -47,15 +47,15 @@ def report_of(
     trips = _Trips()
     incidents: list[Incident] = []
     commanded: list[tuple[Event, float]] = []
-    for instant in journal.instants():
-        for event in instant.events:
+    for instant, events in journal.instants():
+        for event in events:
             trips.take(event)
             kind = _KINDS.get(event["event"])
             if kind is not None:
                 incidents.append(_incident(kind, event))
             if event["event"] == "commanded":
                 commanded.append((event, instant.wall))
-    records = journal.records
+    records = journal.standing()
     return {
         "flight": digest.summary,
         "missions": [_mission(name, record, trips) for name, record in in_order(records)],

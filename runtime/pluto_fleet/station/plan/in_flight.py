@@ -21,10 +21,15 @@ from .text import trip_shape
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...journal.fold import Record
+    from ...journal.standing import Record
     from ...shared.domain.airspace import Airspace
 
-_OF_FLIGHTS = ("index", "attempt", "added", "status", "reason", "start_time", "end_time")
+_OF_FLIGHTS = frozenset(
+    (
+        *("index", "attempt", "added", "status", "reason", "start_time", "end_time"),
+        *("round", "drone", "number", "rank"),
+    )
+)
 """What a flight's record has of a trip and a plan has not."""
 
 

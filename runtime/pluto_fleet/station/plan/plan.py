@@ -25,7 +25,7 @@ from .unfinished import unfinished_shapes
 if TYPE_CHECKING:
     from ...app import App
     from ...files.fleet import FleetFile
-    from ...journal.fold import Record
+    from ...journal.standing import Record
     from ...shared.domain.model import Mission
 
 _NOTHING: Mapping[str, Sequence[Shape]] = {}

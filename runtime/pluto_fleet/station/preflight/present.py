@@ -14,7 +14,7 @@ from ..words import words
 if TYPE_CHECKING:
     from ...files.drones import DroneEntry
     from ...gateway.sightings import Sighting
-    from ...journal.fold import Records
+    from ...journal.standing import Standing
     from ...shared.domain.model import Category, Point
     from ..wire import Words
 
@@ -39,7 +39,7 @@ def at_rest(
     entry: DroneEntry,
     kind: Category,
     seen: Sighting | None,
-    records: Records,
+    records: Standing,
     *,
     now: float,
     simulated: bool,
@@ -78,7 +78,7 @@ def at_rest(
     return Present(id=entry.id, at=seen.at, battery=level, out=out, assumed=assumed)
 
 
-def _out(id: str, seen: Sighting | None, records: Records) -> Words | None:
+def _out(id: str, seen: Sighting | None, records: Standing) -> Words | None:
     if id in records.lost:
         why = str(records.lost[id]["reason"])
         return words("preflight.lost", f"lost: {why}" if why else "lost", why=why)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...journal.fold import Records, taken
 from ...journal.place import ENDING, written
 from ...journal.reader import Reader
 from ...shared.domain.errors import BadInput
@@ -79,10 +78,10 @@ class ResultsOfFlights:
         return known[1]
 
     def _read(self, journal: Path) -> FlightResults:
-        records, found = Records(), list[Brought]()
+        found = list[Brought]()
         rows = self._rows(journal.stem, sim=False)
         with closing(Reader(journal)) as reader:
-            for row, event in taken(journal, reader.rows(), records):
+            for instant, event in reader.events():
                 if event["event"] == "journal.begun":
                     if event.get("app") != self._app.name:
                         raise BadInput(f"flight {quoted(journal.stem)} is of another app")
@@ -92,7 +91,7 @@ class ResultsOfFlights:
                     result, value = brought
                     if result["number"] <= len(found):
                         continue  # the same row, which says more now
-                    found.append(Brought(result=result, wall=row.wall, value=value))
+                    found.append(Brought(result=result, wall=instant.wall, value=value))
         return FlightResults(
             flight=journal.stem, journal=journal, rows=tuple(found), pictures=rows.pictures
         )

@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from pluto_fleet.gateway.sightings import SEEN
-from pluto_fleet.journal.fold import Records
 from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.standing import Standing, inherited
 from pluto_fleet.station.between_flights import BACK, COMES_DOWN, HOVERED, NEVER, IdleDrones
 from pluto_fleet.station.wire import DroneRow
 from tests.library.station.plan.drawing import FLEET
@@ -22,7 +22,7 @@ AGO = 60.0
 
 def shown(folder: Path, seen: list[Any] | None, **known: Any) -> DroneRow:
     """Return the row of a drone; what was seen is whether it has landed, how long ago, and what failed."""
-    journal, records = folder / "a.journal", Records()
+    journal, records = folder / "a.journal", Standing(inherited(known))
     if seen is not None:
         landed, ago, failure, why = (*seen, "", "")[:4]
         told = {
@@ -35,9 +35,6 @@ def shown(folder: Path, seen: list[Any] | None, **known: Any) -> DroneRow:
         }
         gateway_folder(journal).mkdir(parents=True)
         (gateway_folder(journal) / SEEN).write_text(json.dumps({ENTRY.id: told}))
-    records.lost |= known.get("lost", {})
-    records.mended += known.get("mended", [])
-    records.retired += known.get("retired", [])
     [row] = IdleDrones([ENTRY], journal).rows(records)
     return row
 

@@ -16,13 +16,15 @@ from typing import Any
 import pytest
 from mcap.reader import make_reader
 
-from pluto_fleet.journal.store import Store
+from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.past import PastFlights
 from pluto_fleet.station.history.recording import Recording
+from pluto_fleet.station.history.told import Told
+from tests.kit.journals import entry
 from tests.library.files.an_app import APP, POLLINATE
 from tests.library.station.plan.drawing import FLEET
 
@@ -43,9 +45,10 @@ def kept(folder: Path, id: str, *, measured: bool = True) -> Path:
     (began, header), *rows = map(json.loads, ROWS.read_text("utf-8").splitlines())
     times = iter([began, *(time for time, *_ in rows)])
     store = Store.create(path, header, times.__next__)
+    told = Told()
     for _, *events in rows:
-        if left := [one for one in events if measured or one["event"] != "drone.flew"]:
-            store.append([json.dumps(left)])
+        left = [one for one in events if measured or one["event"] != "drone.flew"]
+        store.append([entry(left, told)])
     store.close()
     return path
 
@@ -105,7 +108,8 @@ def test_a_journal_is_read_once_and_again_when_it_has_grown(tmp_path: Path) -> N
     kept_file.write_text(json.dumps(told))
     assert past_of(tmp_path).flights() == [{**before, "by": "what only the file says"}]
     store = Store.open(journal)
-    store.append(['[{"t": 900.0, "event": "drone.lost", "drone": "scout1", "reason": "it fell"}]'])
+    fell = '[{"t": 900.0, "event": "drone.lost", "drone": "scout1", "reason": "it fell"}]'
+    store.append([Entry(fell)])
     store.close()
     [after] = past_of(tmp_path).flights()
     assert (after["by"], after["lost"], after["seconds"]) == (None, ["scout1"], 900.0)
@@ -171,7 +175,7 @@ def test_who_commanded_what_is_told_by_journal_and_log(tmp_path: Path) -> None:
     commanded = [
         {"t": 500.0, "event": "commanded", "id": id, "command": "pause"} for id in ("one", "two")
     ]
-    store.append([json.dumps(commanded)])
+    store.append([Entry(json.dumps(commanded))])
     store.close()
     lines = [
         {"do": "/api/plan", "given": {}, "status": 200, "said": ""},
@@ -275,7 +279,7 @@ def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: P
     try:
         assert past.flights()[0]["end"] == "flying"
         for t in (700.0, 701.0):
-            store.append([f'[{{"t": {t}, "event": "drone.lost", "drone": "scout1"}}]'])
+            store.append([Entry(f'[{{"t": {t}, "event": "drone.lost", "drone": "scout1"}}]')])
             assert past.flights()[0]["seconds"] == t
         assert past.replay(NEW, 0.0)["frames"]
         assert past.report(NEW)["flight"]["lost"] == ["scout1"]

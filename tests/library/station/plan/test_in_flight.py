@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.journal.fold import Record, Records
+from pluto_fleet.journal.standing import Record
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.hooks.plain_data import mission_data
+from pluto_fleet.station.history.told import Told
 from pluto_fleet.station.plan.in_flight import DrawnChange, drawn_change
 from pluto_fleet.station.plan.plan import MissionPlan
 from tests.library.files.an_app import APP
@@ -23,13 +24,13 @@ def flies(done: int = 1) -> tuple[MissionPlan, Json, Record]:
     plan = drawn(mission(NAME, *(trip(key, target=[i, 3]) for i, key in enumerate(KEYS, 2))))
     (one,), keys = plan.launchable()
     plan.launched(keys)
-    records, data = Records(), mission_data(APP, one)
+    records, data = Told(), mission_data(APP, one)
     told: dict[str, Any] = {"t": 1.0, "mission": NAME, "drone": "cf1", "round": 0, "attempt": 1}
     records.take({**told, "event": "mission.created", "plan": data})
     for number in range(1, done + 2):
         records.take({**told, "event": "trip.launched", "trip": str(number)})
         if number <= done:
-            records.take({**told, "event": "trip.completed", "trip": str(number), "result": None})
+            records.take({**told, "event": "trip.completed", "trip": str(number), "did": {}})
     return plan, trips_of(plan), records.missions[NAME]
 
 

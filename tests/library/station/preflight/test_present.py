@@ -8,7 +8,7 @@ from math import inf
 import pytest
 
 from pluto_fleet.gateway.sightings import Sighting
-from pluto_fleet.journal.fold import Records
+from pluto_fleet.journal.standing import Standing
 from pluto_fleet.station.charging import level_after, ready_in, to_fly
 from pluto_fleet.station.preflight.present import Present, at_rest
 from tests.library.files.an_app import APP
@@ -27,13 +27,13 @@ def heard(
 
 def present(
     seen: Sighting | None,
-    records: Records | None = None,
+    records: Standing | None = None,
     *,
     simulated: bool = True,
     speed: float = 1.0,
 ) -> Present:
     return at_rest(
-        ENTRY, KIND, seen, records or Records(), now=NOW, simulated=simulated, speed=speed
+        ENTRY, KIND, seen, records or Standing(), now=NOW, simulated=simulated, speed=speed
     )
 
 
@@ -57,10 +57,10 @@ def test_what_is_supposed_of_a_real_drone_is_said() -> None:
 
 
 def test_lost_retired_and_hovering_drones_fly_nothing_and_say_why() -> None:
-    lost, retired, mended = Records(), Records(), Records()
-    lost.lost[ENTRY.id] = {"reason": "it fell", "at": None}
-    retired.retired.append(ENTRY.id)
-    mended.mended.append(ENTRY.id)
+    lost, retired, mended = Standing(), Standing(), Standing()
+    lost.lose(ENTRY.id, "it fell", None)
+    retired.with_drone(ENTRY.id, retired=True)
+    mended.with_drone(ENTRY.id, mended=True)
     found = [
         present(heard(), lost),
         present(heard(), retired),

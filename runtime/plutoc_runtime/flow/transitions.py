@@ -4,37 +4,68 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ..domain.keeper import current_of, drop_trip, keeper_of, put, put_trips, trips_of
-from ..domain.model import put_back
+from ..domain.fields import Entity
+from ..domain.keeper import (
+    current_of,
+    drop_trip,
+    keeper_of,
+    plain_again,
+    put,
+    put_trips,
+    trips_of,
+)
+from ..domain.model import Result, put_back
 from ..domain.status import COMPLETED, FAILED, RUNNING, STANDBY, UNEXECUTED, TripStatus
 from ..domain.text import bounded, shown
+from ..hooks.plain_data import fields_of, mission_data, trip_data, value_data
 
 if TYPE_CHECKING:
+    from ..domain.app import App
     from ..domain.model import Drone, Mission, ResultStore, Trip
     from ..domain.status import Status
     from ..domain.trace import Trace
     from ..time.kernel import Kernel
+    from .changes import Changes
 
 LONGEST = 3_000  # characters of a reason; longer than any that a hook may give
 
 
 class Transitions:
-    """All changes of status."""
+    """All changes of status: each changes rows, and notes one event."""
 
-    def __init__(self, kernel: Kernel, trace: Trace, results: ResultStore) -> None:
-        self._kernel, self._trace, self._results = kernel, trace, results
+    def __init__(
+        self, app: App, kernel: Kernel, trace: Trace, results: ResultStore, changes: Changes
+    ) -> None:
+        self._app = app
+        self._kernel = kernel
+        self._trace = trace
+        self._results = results
+        self._changes = changes
+
+    def promise(self, mission: Mission[Any]) -> None:
+        """Note what the plan promises of a mission."""
+        for trip in trips_of(mission):
+            self._changes.trip(mission, trip)
+        facts = {"plan": mission_data(self._app, mission)} if self._changes.kept else {}
+        self._note("mission.promised", mission, **plain_again(mission.promises), **facts)
 
     def create(self, mission: Mission[Any]) -> None:
         """Create a mission with the user's trips."""
         put(mission, status=UNEXECUTED)
+        for trip in trips_of(mission):
+            self._changes.trip(mission, trip)
+        facts = {"plan": mission_data(self._app, mission)} if self._changes.kept else {}
         if self._trace.live:
-            self._note("mission.created", mission, trips=[trip.name for trip in trips_of(mission)])
+            names = [trip.name for trip in trips_of(mission)]
+            self._note("mission.created", mission, trips=names, **facts)
 
     def allocate(
         self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
     ) -> None:
         """Give a trip its drone; `at` is the block where it resumes after an interruption."""
         put(trip, drone=drone)
+        self._changes.trip(mission, trip)
+        self._changes.moved_on(mission)
         if self._trace.live:
             self._note(
                 "trip.allocated", mission, trip=trip.name, drone=drone.id, why=why, resumes_at=at
@@ -46,28 +77,51 @@ class Transitions:
         put(trip, start_time=self._kernel.now, end_time=None)
         put(mission, status=RUNNING, reason="", attempts=mission.attempts + 1)
         put(drone, trips=drone.trips + 1)
+        self._changes.trip(mission, trip)
+        self._changes.drone(drone)
         if self._trace.live:
             self._note_trip("trip.launched", mission, trip, drone)
 
-    def complete(self, mission: Mission[Any], trip: Trip, value: object) -> None:
-        """Complete a trip, and store its result."""
-        put(trip, status=_COMPLETED, end_time=self._kernel.now)
+    def complete(
+        self, mission: Mission[Any], trip: Trip, value: object, *, found_out: bool = False
+    ) -> None:
+        """Complete a trip, and store its result; `found_out`: only after an interruption."""
+        now = self._kernel.now
+        put(trip, status=_COMPLETED, end_time=now)
         drop_trip(mission, trip)
+        place = None if trip.drone is None else trip.drone.location
+        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
         put(
             mission,
             completed_trips=(*mission.completed_trips, trip),
             status=STANDBY if trips_of(mission) else COMPLETED,
-            last_result=self._results.add(mission, trip, mission.round, trip.attempt, value),
+            last_result=self._results.add(result),
         )
+        self._changes.trip(mission, trip)
+        facts: dict[str, object] = {"value": shown(value)}
+        if self._changes.kept:
+            facts["result"] = value_data(value)
+            facts["did"] = trip_data(self._app, trip)
+        if found_out:
+            facts["found_out"] = True
         if self._trace.live:
-            self._note_trip("trip.completed", mission, trip, trip.drone, value=shown(value))
+            self._note_trip("trip.completed", mission, trip, trip.drone, **facts)
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
         reason = bounded(reason, LONGEST)
         put(trip, status=_FAILED, end_time=self._kernel.now, reason=reason)
         put(mission, status=FAILED, reason=reason)
+        self._changes.trip(mission, trip)
         self._note_trip("trip.failed", mission, trip, trip.drone, reason=trip.reason)
+
+    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
+        """Take back a flight whose action was not done: it counts as no attempt."""
+        put(trip, status=TripStatus.WAITING, drone=None, start_time=None, end_time=None)
+        put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
+        self._changes.trip(mission, trip)
+        self._changes.moved_on(mission)
+        self._note("trip.interrupted", mission, trip=trip.name)
 
     def _note_trip(
         self, event: str, mission: Mission[Any], trip: Trip, drone: Drone | None, **facts: object
@@ -80,7 +134,35 @@ class Transitions:
         trip = current_of(mission)
         put_back(trip)
         put(mission, status=STANDBY, reason="")
-        self._note("trip.reset", mission, trip=trip.name, attempt=trip.attempt)
+        self._changes.trip(mission, trip)
+        self._changes.moved_on(mission)
+        facts = {"fields": fields_of(self._app, Entity.TRIP, trip)} if self._changes.kept else {}
+        self._note("trip.reset", mission, trip=trip.name, attempt=trip.attempt, **facts)
+
+    def skip(self, mission: Mission[Any], trip: Trip) -> None:
+        """Take away a trip that shall not be flown."""
+        drop_trip(mission, trip)
+        self._changes.leave(mission, (trip,))
+        self._note("trip.skipped", mission, trip=trip.name)
+
+    def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
+        """Set the priority of a trip."""
+        put(trip, priority=priority)
+        self._changes.trip(mission, trip)
+        self._note("trip.prioritised", mission, trip=trip.name, priority=priority)
+
+    def replan(self, mission: Mission[Any], trips: list[Trip]) -> None:
+        """Put these in place of all trips to do."""
+        names = {trip.name for trip in trips}
+        left = [trip for trip in trips_of(mission) if trip.name not in names]
+        put_trips(mission, trips)
+        for trip in trips:
+            self._changes.trip(mission, trip)
+        self._changes.leave(mission, left)
+        todo = [trip_data(self._app, trip) for trip in trips]
+        done = [trip_data(self._app, trip) for trip in mission.completed_trips]
+        fields = fields_of(self._app, Entity.MISSION, mission)
+        self._note("mission.replanned", mission, todo=todo, done=done, fields=fields)
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
         """Give a finished mission trips to repeat, and new ones."""
@@ -89,22 +171,32 @@ class Transitions:
         done = tuple(one for one in mission.completed_trips if one not in trips)
         put_trips(mission, [*trips_of(mission), *trips, *added])
         put(mission, completed_trips=done, status=STANDBY, reason="")
-        again, new = [trip.name for trip in trips], [trip.name for trip in added]
-        self._note("mission.extended", mission, redo=again, add=new)
+        for trip in (*trips, *added):
+            self._changes.trip(mission, trip)
+        self._changes.moved_on(mission)
+        facts: dict[str, object] = {}
+        if self._changes.kept:
+            facts["trips"] = [trip_data(self._app, trip) for trip in added]
+        again = [trip.name for trip in trips]
+        new = [trip.name for trip in added]
+        self._note("mission.extended", mission, redo=again, add=new, **facts)
 
     def begin_again(self, mission: Mission[Any]) -> None:
         """Start a further round of a finished mission, with the user's own trips."""
         own = [trip for trip in mission.completed_trips if not trip.added]
+        self._changes.leave(mission, [trip for trip in mission.completed_trips if trip.added])
         for trip in own:
             put_back(trip)
         trips = sorted([*trips_of(mission), *own], key=lambda trip: trip.index)
         for trip in trips:
             if trip.status is TripStatus.WAITING:
                 put(trip, attempt=1)
+            self._changes.trip(mission, trip)
         put_trips(mission, trips)
         put(mission, round=mission.round + 1, completed_trips=(), status=STANDBY, reason="")
         if (keeper := keeper_of(mission)) is not None:
             keeper.names = dict.fromkeys((trip.name for trip in trips), 1)
+        self._changes.moved_on(mission)
         self._note("mission.repeated", mission, round=mission.round)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
@@ -114,6 +206,8 @@ class Transitions:
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """Set the status that a modifier returned."""
         put(mission, status=status, reason=bounded(reason, LONGEST))
+        if status in (STANDBY, UNEXECUTED):
+            self._changes.moved_on(mission)
         self._note("mission.modified", mission, status=status.value, reason=mission.reason)
 
     def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
@@ -126,7 +220,12 @@ class Transitions:
         put(mission, status=FAILED, reason=bounded(reason, LONGEST))
         self._note("mission.judged", mission, reason=mission.reason)
 
+    def note(self, event: str, mission: Mission[Any], **facts: object) -> None:
+        """Note an event of a mission whose row has changed."""
+        self._note(event, mission, **facts)
+
     def _note(self, event: str, mission: Mission[Any], **facts: object) -> None:
+        self._changes.mission(mission.name)
         if self._trace.live:
             self._trace.note(event, mission=mission.name, **facts)
 

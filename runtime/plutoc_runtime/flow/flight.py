@@ -13,7 +13,7 @@ from ..time.kernel import EventKind, Future, Kernel, Timer
 
 if TYPE_CHECKING:
     from ..domain.actions import Action
-    from ..domain.model import Drone, Mission, Trip
+    from ..domain.model import Drone, Mission, Point, Trip
     from ..time.kernel import Key, Task
 
 
@@ -21,8 +21,19 @@ class Flight(Future[Status]):
     """As a future it is set to the mission's status when the trip has ended."""
 
     __slots__ = (
-        *("action", "called_off", "flier", "launched_at"),
-        *("mission", "own_action", "retry", "trip"),
+        "action",
+        "attempt",
+        "begun",
+        "beside",
+        "called_off",
+        "flier",
+        "heard",
+        "launched_at",
+        "mission",
+        "own_action",
+        "retry",
+        "round",
+        "trip",
     )
 
     def __init__(
@@ -35,19 +46,29 @@ class Flight(Future[Status]):
         retry: bool,
     ) -> None:
         super().__init__()
-        self.mission, self.trip, self.flier, self.action = mission, trip, flier, action
+        self.mission = mission
+        self.trip = trip
+        self.flier = flier
+        self.action = action
         self.launched_at = launched_at
         self.retry = retry  # the mission's previous flight was of the same trip, and failed
+        self.round = mission.round
+        self.attempt = trip.attempt
         self.own_action: Task[None] | None = None
         """The task of an action of the app's own, once it has begun."""
         self.called_off: str | None = None
         """None: it flies; empty: it was broken off; else why it fails once its drone has answered."""
+        self.begun = False
+        """Whether an action of the app's own has begun: from then on it may have been done."""
+        self.beside: Point | None = None
+        """Where the action is done, if that is not at the trip's target."""
+        self.heard = False
+        """Whether the mission's graph has gone on from its end."""
 
     @property
     def id(self) -> str:
         """`mission/trip/round/attempt`: a flight has the same id in every run."""
-        mission, trip = self.mission, self.trip
-        return f"{mission.name}/{trip.name}/{mission.round}/{trip.attempt}"
+        return f"{self.mission.name}/{self.trip.name}/{self.round}/{self.attempt}"
 
     @property
     def drone(self) -> str:

@@ -1,1 +1,0 @@
-"""One trip: its flight, its time-outs, its changes of status."""
