@@ -23,14 +23,19 @@ def listening(host: str, port: int) -> socket.socket:
     if not 0 <= port < _PORTS:
         raise BadInput(f"--port {port}: a port is a number from 0 to {_PORTS - 1}")
     try:
-        family, _, _, _, address = socket.getaddrinfo(
+        family, kind, protocol, _, address = socket.getaddrinfo(
             host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
         )[0]
+        # not `create_server`: without its protocol asyncio leaves Nagle's algorithm on, 40 ms an answer
+        listener = socket.socket(family, kind, protocol)
     except (OSError, ValueError):  # ValueError: an invalid host name
         raise BadInput(f"--host {quoted(host)}: there is no such address") from None
     try:
-        listener = socket.create_server(address, family=family, backlog=_BACKLOG)
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind(address)
+        listener.listen(_BACKLOG)
     except OSError as error:
+        listener.close()
         raise BadInput(_why(error, host, port)) from None
     listener.setblocking(False)
     not_for_children(listener.fileno())

@@ -181,6 +181,7 @@ async def test_it_ends_at_once_with_clients_connected() -> None:
 def test_a_port_is_taken_once_and_free_again_at_once() -> None:
     taken = pytest.raises(BadInput, match="is taken, perhaps by another station")
     with listening("127.0.0.1", 0) as first:
+        assert first.proto == socket.IPPROTO_TCP  # else asyncio lets each answer wait for 40 ms
         port = port_of(first)
         with taken:
             listening("127.0.0.1", port)
