@@ -6,8 +6,7 @@ No-fly areas and other drones are not considered here: see `gateway/executor.py`
 from __future__ import annotations
 
 from collections.abc import Coroutine, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 if TYPE_CHECKING:
     from ..shared.domain.actions import Plain
@@ -40,32 +39,27 @@ class FleetDrone(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class TakeOff:
+class TakeOff(NamedTuple):
     """Take off straight up to a height; nothing for a drone that flies."""
 
     height: float
 
 
-@dataclass(frozen=True, slots=True)
-class GoTo:
+class GoTo(NamedTuple):
     """Fly straight to a point."""
 
     target: Point
 
 
-@dataclass(frozen=True, slots=True)
-class Land:
+class Land(NamedTuple):
     """Land here; nothing for a drone that stands on the ground."""
 
 
-@dataclass(frozen=True, slots=True)
-class Hold:
+class Hold(NamedTuple):
     """Hover, for as long as an action of the app's own takes; it never ends by itself."""
 
 
-@dataclass(frozen=True, slots=True)
-class Act:
+class Act(NamedTuple):
     """Do a built-in action here; what comes of it is its result."""
 
     action: str
@@ -75,23 +69,20 @@ class Act:
     """The job that it is done for, by the id of its flight."""
 
 
-@dataclass(frozen=True, slots=True)
-class Read:
+class Read(NamedTuple):
     """Return a sensor or variable, for an action of the app's own."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
-class Write:
+class Write(NamedTuple):
     """Set a parameter, for an action of the app's own."""
 
     name: str
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Cut:
+class Cut(NamedTuple):
     """Switch its motors off now, wherever it is; only ever on a user's explicit command.
 
     A command in progress raises `FlightFailed`, and the drone takes no commands until `mended`.

@@ -153,23 +153,7 @@ class SimulatedNavigation:
 
     def do(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
         """Return what carries out a command."""
-        match command:
-            case TakeOff(height):
-                return self._take_off(drone, height)
-            case GoTo(target):
-                return self._go_to(drone, target)
-            case Land():
-                return self._land(drone)
-            case Hold():
-                return self._hold(drone)
-            case Act(action, parameters, item, flight):
-                return self._act(drone, action, parameters, item, flight)
-            case Read(name):
-                return self._read(drone, name)
-            case Write(name, value):
-                return self._write(drone, name, value)
-            case Cut():
-                return self._cut(drone)
+        return CARRIES_OUT[type(command)](self, drone, *command)
 
     async def _take_off(self, drone: str, height: float) -> None:
         """Take off to a height; one that flies stays where it is."""
@@ -320,6 +304,18 @@ class SimulatedNavigation:
 
 
 _MISHAPS = {"lost": Failure.LINK, "crash": Failure.CRASH, "battery": Failure.BATTERY}
+
+
+CARRIES_OUT: dict[type[Command], Callable[..., Coroutine[Any, Any, Any]]] = {
+    TakeOff: SimulatedNavigation._take_off,
+    GoTo: SimulatedNavigation._go_to,
+    Land: SimulatedNavigation._land,
+    Hold: SimulatedNavigation._hold,
+    Act: SimulatedNavigation._act,
+    Read: SimulatedNavigation._read,
+    Write: SimulatedNavigation._write,
+    Cut: SimulatedNavigation._cut,
+}
 
 
 def broken_off(drone: str) -> FlightFailed:

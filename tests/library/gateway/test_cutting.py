@@ -8,10 +8,12 @@ import pytest
 
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.gateway.process import LEDGER
+from pluto_fleet.jobs.controls import Cut
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
+from pluto_fleet.simulation.drones import CARRIES_OUT
 from tests.library.gateway.flights import THERE, Field, Task
 from tests.library.gateway.processes import InsideBrain, played_inside
 from tests.library.simulation.flights import failure, fly
@@ -142,7 +144,7 @@ def test_it_is_on_record_before_it_is_done(tmp_path: Path, monkeypatch: pytest.M
     link = field.link(1)
     fly(field.kernel, link.goes("cf1", THERE))
     with monkeypatch.context() as patch:
-        patch.setattr(type(field.navigation), "_cut", killed)
+        patch.setitem(CARRIES_OUT, Cut, killed)
         cut(field)
     assert on_record == [["cf1"]]
     field.is_killed()
@@ -164,7 +166,7 @@ def test_who_could_not_be_told_is_as_before(
 
     field = Kept(tmp_path)
     cut(field, "cf1")
-    monkeypatch.setattr(type(field.navigation), "_cut", unreachable)
+    monkeypatch.setitem(CARRIES_OUT, Cut, unreachable)
     assert cut(field, "cf1") == "cf1 cannot be reached"
     assert cut(field, "cf2") == "cf2 cannot be reached"
     for epoch in (1, 2):
@@ -190,10 +192,10 @@ def test_one_that_flies_in_spite_of_a_cut_is_landed_though_it_could_not_be_told_
     field = Kept(tmp_path)
     fly(field.kernel, field.link(1).goes("cf1", THERE))
     with monkeypatch.context() as patch:
-        patch.setattr(type(field.navigation), "_cut", killed)
+        patch.setitem(CARRIES_OUT, Cut, killed)
         cut(field)
         field.is_killed()
-        patch.setattr(type(field.navigation), "_cut", unreachable)
+        patch.setitem(CARRIES_OUT, Cut, unreachable)
         assert cut(field) == "cf1 cannot be reached"
     assert field.problems(2) == ()
     fly(field.kernel, field.link(3).bring_down(Down.LAND))
