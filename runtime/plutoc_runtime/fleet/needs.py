@@ -39,15 +39,11 @@ class Request(Future["Drone"]):
         self.since = since
         self.trips = trips_of(mission)
         self.trip: Trip = self.trips[0]
+        self.goal: Point = self.trip.source or self.trip.target  # where its drone flies to first
         self.why = ""  # why its drone was chosen
         self.hurries = False  # its mission waits for a limited time only
         self._bounds: dict[Category, Bounds] = {}
         self._levels: dict[tuple[Category, Point, Point], float] = {}
-
-    @property
-    def goal(self) -> Point:
-        """Where its drone flies to first."""
-        return self.trip.source or self.trip.target
 
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
@@ -74,12 +70,13 @@ class Request(Future["Drone"]):
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
-        upright, a_metre, _ = self.takes(drone.category)
+        upright, a_metre, _ = self._bounds.get(drone.category) or self.takes(drone.category)
         x, y, _ = self.goal
-        metres = hypot(x - here[0], y - here[1]) + hypot(x - drone.home[0], y - drone.home[1])
-        if here[2] > 0.0:
-            return max(0.0, a_metre * metres)  # it has taken off already
-        return max(0.0, upright + a_metre * metres)  # not below 0 where a number is none
+        a, b, z = here
+        c, d, _ = drone.home
+        level = a_metre * (hypot(x - a, y - b) + hypot(x - c, y - d))
+        # one in the air has taken off already; and no bound is below 0 where it leads is not a number
+        return max(0.0, upright + level if z <= 0.0 else level)
 
     def takes(self, category: Category) -> Bounds:
         """Return bounds of what one trip takes of a battery."""

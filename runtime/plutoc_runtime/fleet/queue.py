@@ -168,6 +168,8 @@ class Queue:
         if place and self.ready:
             below: tuple[float, int] = self.requests[place - 1].rank
             for request in self._suited():
+                if not self.ready:
+                    return
                 if request.rank <= below:
                     place = self._ask(self._place(request))
                     below = self.requests[place - 1].rank if place else (-inf, 0)
