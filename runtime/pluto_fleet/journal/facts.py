@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from typing import Any, Literal, NotRequired, TypedDict
+from typing import Annotated, Any, Literal, NotRequired, TypedDict
+
+from msgspec import Meta, MsgspecError
+from msgspec.json import Decoder
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
 from ..process.untrusted import LATEST, Test, fits, parsed
@@ -82,8 +84,26 @@ class LossFacts(TypedDict):
     at: Point | None
 
 
-class FlightFacts(TypedDict):
-    """The last flight of a mission."""
+class TakesFacts(TypedDict):
+    """How long plans reckon that an action takes, and the parameter that may say otherwise."""
+
+    seconds: float
+    parameter: NotRequired[str]
+
+
+Metres = Annotated[list[float], Meta(min_length=3, max_length=3)]
+"""A place, as rows have it."""
+
+
+class ItemRow(TypedDict):
+    """What a mission carries."""
+
+    name: str
+    mass: float
+
+
+class FlightRow(TypedDict):
+    """The latest flight of a mission."""
 
     trip: str
     drone: str
@@ -92,16 +112,9 @@ class FlightFacts(TypedDict):
     since: float
     retry: bool
     begun: bool
-    outcome: Status | None
+    beside: Metres | None
+    outcome: str | None
     heard: bool
-    beside: NotRequired[Point | None]
-
-
-class TakesFacts(TypedDict):
-    """How long plans reckon that an action takes, and the parameter that may say otherwise."""
-
-    seconds: float
-    parameter: NotRequired[str]
 
 
 class MissionRow(TypedDict):
@@ -109,18 +122,18 @@ class MissionRow(TypedDict):
 
     index: int
     fields: dict[str, Any]
-    status: Status
+    status: str
     reason: str
     round: int
     attempts: int
     at: str | None
-    delay: tuple[Place, float, float] | None
-    waited: list[Place]
+    delay: list[Any] | None
+    waited: list[list[str | int]]
     first_start: float | None
     last_action_end: float | None
-    flight: FlightFacts | None
+    flight: FlightRow | None
     carrier: str | None
-    carries: ItemFacts | None
+    carries: ItemRow | None
     judged: int
     interrupted: bool
     ended: bool
@@ -129,30 +142,52 @@ class MissionRow(TypedDict):
     held: str | None
     answer: str | None
     accepted: str | None
-    promises: PromiseFacts
+    promises: dict[str, Any]
     late: bool
     replanned: bool
     changed: bool
 
 
-class TripRow(TripFacts):
+class TripRow(TypedDict):
     """How a trip stands."""
 
+    name: str
+    action: str
+    target: Metres
+    index: int
     number: int
     rank: int
+    source: NotRequired[Metres]
+    fields: NotRequired[dict[str, Any]]
+    parameters: NotRequired[dict[str, Any]]
+    item: NotRequired[ItemRow]
+    added: NotRequired[bool]
+    attempt: NotRequired[int]
+    status: NotRequired[str]
+    reason: NotRequired[str]
+    start_time: NotRequired[float]
+    end_time: NotRequired[float]
+    round: NotRequired[int]
     drone: NotRequired[str]
+
+
+class LossRow(TypedDict):
+    """Why a drone is lost, and where."""
+
+    reason: str
+    at: Metres | None
 
 
 class DroneRow(TypedDict):
     """How a drone stands; of one that has not been seen yet only what earlier flights know."""
 
     status: NotRequired[str]
-    at: NotRequired[Point]
+    at: NotRequired[Metres]
     battery: NotRequired[float]
     trips: NotRequired[int]
     retired: NotRequired[bool]
     mended: NotRequired[bool]
-    lost: NotRequired[LossFacts | None]
+    lost: NotRequired[LossRow | None]
 
 
 class ResultRow(TypedDict):
@@ -165,10 +200,10 @@ class ResultRow(TypedDict):
     attempt: int
     value: Any
     time: float
-    place: Point | None
+    place: Metres | None
 
 
-class ClockFacts(TypedDict):
+class ClockRow(TypedDict):
     """When the app first began, and how far the clock of the hours has drifted since."""
 
     began: float | None
@@ -382,34 +417,56 @@ _LONGEST = 80
 """Characters of what is quoted."""
 
 
-_ROWS: Mapping[str, Test] = {
-    "mission": fits(MissionRow),
-    "trip": fits(TripRow),
-    "drone": fits(DroneRow),
-    "result": fits(ResultRow),
+_ROWS: Mapping[str, Decoder[Any]] = {
+    "mission": Decoder(MissionRow),
+    "trip": Decoder(TripRow),
+    "drone": Decoder(DroneRow),
+    "result": Decoder(ResultRow),
 }
-_APP: Mapping[str, Test] = {
-    "epoch": fits(int),
-    "clock": fits(ClockFacts),
-    "stopped": fits(float | None),
-    "commands": fits(list[str]),
-    "joined": fits(list[dict[str, Any]]),
+_APP: Mapping[str, Decoder[Any]] = {
+    "epoch": Decoder(dict[Literal["is"], int]),
+    "clock": Decoder(dict[Literal["is"], ClockRow]),
+    "stopped": Decoder(dict[Literal["is"], float | None]),
+    "commands": Decoder(dict[Literal["is"], list[str]]),
+    "joined": Decoder(dict[Literal["is"], list[dict[str, Any]]]),
 }
+_DELAY = fits(tuple[Place, float, float])
+_WAITED = fits(Place)
+_PROMISES = fits(PromiseFacts)
+_STATUSES = {status.value for status in Status}
+_TRIPS = {status.value for status in TripStatus}
 
 
 def row_of(table: str, key: Sequence[object], text: str) -> dict[str, Any]:
     """Return what a row holds; raise `ValueError` if it is not as this version writes it."""
+    decoder = _APP.get(str(key[0])) if table == "app" else _ROWS[table]
     try:
-        row = json.loads(text)
-    except (RecursionError, TypeError, ValueError):
-        row = None
-    if table == "app":
-        test = _APP.get(str(key[0]))
-        sound = isinstance(row, dict) and "is" in row and test is not None and test(row["is"])
-    else:
-        sound = _ROWS[table](row)
-    if not sound or (table == "result" and not _is_value(row["value"])):
+        row: dict[str, Any] = {} if decoder is None else decoder.decode(text)
+        sound = _is_sound(table, row)
+    except (MsgspecError, RecursionError, TypeError):
+        sound = False
+    if not sound:
         name = printable(bounded(" ".join(map(str, key)), _LONGEST))
         raise ValueError(f"the row of {table} {name} is not as this version knows it")
-    found: dict[str, Any] = row
-    return found
+    return row
+
+
+def _is_sound(table: str, row: Mapping[str, Any]) -> bool:
+    """Return whether a row of the right type says what can be."""
+    match table:
+        case "mission":
+            flight, delay = row["flight"], row["delay"]
+            return (
+                row["status"] in _STATUSES
+                and (flight is None or flight["outcome"] in {*_STATUSES, None})
+                and (delay is None or _DELAY(delay))
+                and all(map(_WAITED, row["waited"]))
+                and _PROMISES(row["promises"])
+            )
+        case "trip":
+            return row.get("status", "WAITING") in _TRIPS
+        case "result":
+            return _is_value(row["value"])
+        case "app":
+            return "is" in row
+    return True
