@@ -122,17 +122,13 @@ class Queue:
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
         for drone in self.drones:
-            if drone in self.low and any(one.never(drone) is None for one in self.waiters()):
+            if drone in self.low and any(one.never(drone) is None for one in self.requests):
                 yield drone
 
     def ready_at(self, drone: Drone) -> float | None:
         """Return until when a drone is put aside; None: until something else happens."""
         until, _ = self.low.get(drone, (inf, inf))
         return until if until < inf else None
-
-    def waiters(self) -> Iterator[Request]:
-        """Yield the waiting requests."""
-        return reversed(self.requests)
 
     # Serving
 
@@ -223,7 +219,7 @@ class Queue:
     def _refuse_what_cannot_be(self) -> None:
         """Refuse requests that no drone can serve: new ones, and all after a loss, or where none is charged."""
         again = self._one_is_lost or self._reach.app.categories[0].charge_time == inf
-        asked = tuple(self.waiters()) if again else self._fresh
+        asked = tuple(reversed(self.requests)) if again else self._fresh
         self._one_is_lost = False
         for request in asked:
             if not request.is_set and (why := self._never(request)) is not None:
