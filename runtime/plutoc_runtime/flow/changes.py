@@ -62,7 +62,8 @@ class Changes:
         if state.flight is not None:
             state.flight.heard = True
         state.judged = state.evaluated
-        self.mission(mission.name)
+        if self.kept:
+            self.missions[mission.name] = None
 
     def leave(self, mission: Mission[Any], trips: Iterable[Trip]) -> None:
         """Note that a mission has these trips no more; in its round their names are taken."""

@@ -39,7 +39,9 @@ class Run(Generic[M]):
         Not within a fork, and not with a drone allocated: an interruption takes both away.
         """
         state = self.state
-        if not self._depth and state.allocated is None and block in self.core.app.resumes:
+        if self._depth or state.allocated is not None or state.at == block:
+            return
+        if block in self.core.app.resumes:
             state.at = block
             self.core.changes.mission(self.mission.name)
 

@@ -41,6 +41,7 @@ class Transitions:
         self._trace = trace
         self._results = results
         self._changes = changes
+        self._kept = changes.kept
 
     def promise(self, mission: Mission[Any]) -> None:
         """Note what the plan promises of a mission."""
@@ -64,7 +65,8 @@ class Transitions:
     ) -> None:
         """Give a trip its drone; `at` is the block where it resumes after an interruption."""
         put(trip, drone=drone)
-        self._changes.trip(mission, trip)
+        if self._kept:
+            self._changes.trip(mission, trip)
         self._changes.moved_on(mission)
         if self._trace.live:
             self._note(
@@ -77,8 +79,9 @@ class Transitions:
         put(trip, start_time=self._kernel.now, end_time=None)
         put(mission, status=RUNNING, reason="", attempts=mission.attempts + 1)
         put(drone, trips=drone.trips + 1)
-        self._changes.trip(mission, trip)
-        self._changes.drone(drone)
+        if self._kept:
+            self._changes.trip(mission, trip)
+            self._changes.drone(drone)
         if self._trace.live:
             self._note_trip("trip.launched", mission, trip, drone)
 
@@ -97,15 +100,17 @@ class Transitions:
             status=STANDBY if trips_of(mission) else COMPLETED,
             last_result=self._results.add(result),
         )
-        self._changes.trip(mission, trip)
+        if self._kept:
+            self._changes.trip(mission, trip)
+        if not self._trace.live:
+            return
         facts: dict[str, object] = {"value": shown(value)}
-        if self._changes.kept:
+        if self._kept:
             facts["result"] = value_data(value)
             facts["did"] = trip_data(self._app, trip)
         if found_out:
             facts["found_out"] = True
-        if self._trace.live:
-            self._note_trip("trip.completed", mission, trip, trip.drone, **facts)
+        self._note_trip("trip.completed", mission, trip, trip.drone, **facts)
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
@@ -225,7 +230,8 @@ class Transitions:
         self._note(event, mission, **facts)
 
     def _note(self, event: str, mission: Mission[Any], **facts: object) -> None:
-        self._changes.mission(mission.name)
+        if self._kept:
+            self._changes.mission(mission.name)
         if self._trace.live:
             self._trace.note(event, mission=mission.name, **facts)
 

@@ -9,6 +9,7 @@ from functools import partial, wraps
 
 import pytest
 
+from pluto_fleet.jobs.controls import Read
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed, Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Drone
@@ -16,7 +17,7 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.hooks.context import Context, LiveDrone, can_wait
 from pluto_fleet.shared.time.kernel import Future
-from pluto_fleet.simulation.drones import SimulatedNavigation
+from pluto_fleet.simulation.drones import CARRIES_OUT, SimulatedNavigation
 from tests.kit import apps, in_real_time
 
 Hook = Callable[..., object]
@@ -85,7 +86,7 @@ def test_a_drone_that_has_it_not_fails_the_action(
         except ActionFailed:
             return None
 
-    monkeypatch.setattr(SimulatedNavigation, "_read", refuse)
+    monkeypatch.setitem(CARRIES_OUT, Read, refuse)
     expected = "has no log variable range.front"
     said = reason(grip, real=real, apart=0.5)
     assert said.endswith(expected)
@@ -173,7 +174,7 @@ def unanswered(
             over.append(name)
         return 0.0
 
-    monkeypatch.setattr(SimulatedNavigation, "_read", never)
+    monkeypatch.setitem(CARRIES_OUT, Read, never)
     return over
 
 
