@@ -145,7 +145,7 @@ class Fleet:
     def _become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
             put(drone, status=status)
-            if status in _SETTLED:
+            if self.mended and status in _SETTLED:
                 self.mended.discard(drone)
             if status is DroneStatus.LOST:
                 x, y, z = (round(metres, 3) for metres in drone.location)

@@ -45,17 +45,19 @@ class Transitions:
 
     def promise(self, mission: Mission[Any]) -> None:
         """Note what the plan promises of a mission."""
+        facts = self._plan_of(mission) if self._kept else {}
+        self._note("mission.promised", mission, **plain_again(mission.promises), **facts)
+
+    def _plan_of(self, mission: Mission[Any]) -> dict[str, object]:
+        """Return what a journal must have of a new mission, whose trips have rows from now on."""
         for trip in trips_of(mission):
             self._changes.trip(mission, trip)
-        facts = {"plan": mission_data(self._app, mission)} if self._changes.kept else {}
-        self._note("mission.promised", mission, **plain_again(mission.promises), **facts)
+        return {"plan": mission_data(self._app, mission)}
 
     def create(self, mission: Mission[Any]) -> None:
         """Create a mission with the user's trips."""
         put(mission, status=UNEXECUTED)
-        for trip in trips_of(mission):
-            self._changes.trip(mission, trip)
-        facts = {"plan": mission_data(self._app, mission)} if self._changes.kept else {}
+        facts = self._plan_of(mission) if self._kept else {}
         if self._trace.live:
             names = [trip.name for trip in trips_of(mission)]
             self._note("mission.created", mission, trips=names, **facts)
