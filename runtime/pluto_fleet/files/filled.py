@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -63,16 +63,16 @@ def _filled(template: str, row: Mapping[str, str]) -> str:
     return found
 
 
-def cells_in(value: object) -> list[Filled]:
-    """Return the texts in a value into which values of a row were put."""
-    if isinstance(value, Filled):
-        return [value]
-    inner: Sequence[object] = ()
+def values_in(value: object) -> Iterator[object]:
+    """Yield a value, and all that is within it."""
+    yield value
+    inner: Iterable[object] = ()
     if isinstance(value, list):
         inner = value
     elif isinstance(value, dict):
-        inner = [*value.values()]
-    return [cell for one in inner for cell in cells_in(one)]
+        inner = value.values()
+    for one in inner:
+        yield from values_in(one)
 
 
 def is_number(text: str) -> bool:

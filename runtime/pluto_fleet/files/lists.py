@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 import csv
 import re
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from io import StringIO
@@ -19,18 +20,18 @@ from .filled import (
     Filled,
     as_numbers,
     as_texts,
-    cells_in,
     columns_of,
     filled,
     is_number,
+    values_in,
 )
 from .reading import PlanTable, listed, near, text_of
 
 if TYPE_CHECKING:
     from ..shared.domain.values import KeyPath, Read
 
-MOST_ROWS = 10_000
-"""The most missions that the lists of a file make."""
+MOST = {"missions": 10_000, "values": 1_000_000, "characters": 10_000_000}
+"""What all lists of a file make at most; it is counted before it is made."""
 MOST_COLUMNS = 1_000
 
 _LONGEST_VALUE = csv.field_size_limit()  # in characters
@@ -63,7 +64,7 @@ class RowTable(PlanTable):
         value: Any = self.data
         for part in inside:
             value = value.get(part) if isinstance(value, dict) else None
-        cells = [] if text.startswith("unknown key") else cells_in(value)
+        cells = [] if text.startswith("unknown key") else _cells_in(value)
         path = (*self.path, *inside)
         if not cells and any(one.path == path and one.text == text for one in self.problems):
             return
@@ -85,6 +86,11 @@ def _as_wanted(read: Read, value: object) -> object:
         return read(as_numbers(value))
 
 
+def _cells_in(value: object) -> list[Filled]:
+    """Return the texts in a value into which values of a row were put."""
+    return [one for one in values_in(value) if isinstance(one, Filled)]
+
+
 def _of_cells(cells: Sequence[Filled]) -> str:
     """Say whose values stand in a text; only those that are no numbers, if any are not."""
     odd = [cell for cell in cells if not is_number(cell)] or cells
@@ -102,17 +108,15 @@ def _of_cells(cells: Sequence[Filled]) -> str:
 
 def each_row(top: PlanTable) -> Iterator[PlanTable]:
     """Yield the missions' tables; of one with `each` a table for each row of its list."""
-    left = MOST_ROWS
+    left = {**MOST}
     for table in top.tables("mission", needed=True):
-        if "each" not in table.data:
+        if "each" in table.data:
+            yield from _of_rows(table, left)
+        else:
             yield table
-            continue
-        for made in _of_rows(table, left):
-            yield made
-            left -= 1
 
 
-def _of_rows(table: PlanTable, left: int) -> Iterator[PlanTable]:
+def _of_rows(table: PlanTable, left: dict[str, int]) -> Iterator[PlanTable]:
     document = table.document
     template = {key: value for key, value in table.data.items() if key != "each"}
     document.is_made = True
@@ -124,7 +128,7 @@ def _of_rows(table: PlanTable, left: int) -> Iterator[PlanTable]:
         table.problem(f"each {quoted(list_)} {said}, --missions M.toml", "each")
         return
     try:
-        rows, odd = _rows(document.folder / list_, left)
+        rows, odd = _rows(document.folder / list_, left["missions"])
     except _Unusable as wrong:
         rows, odd = [], [f"{wrong}"]
     for wrong_row in odd:
@@ -136,6 +140,12 @@ def _of_rows(table: PlanTable, left: int) -> Iterator[PlanTable]:
         said = "name is the same for every row, and names must differ: put a column into it"
         table.problem(f"{said}, such as {such}", "name")
         return
+    for what, count in _size(template, rows).items():
+        left[what] -= count
+        if left[what] < 0:
+            said = f"makes too much: {_at_most(what)}"
+            table.problem(f"each {quoted(list_)} {said}", "each")
+            return
     for number, row in rows:
         data: Any = {key: filled(value, row) for key, value in template.items()}
         known = quoted(data["name"]) if values.is_name(data.get("name")) else number
@@ -143,6 +153,19 @@ def _of_rows(table: PlanTable, left: int) -> Iterator[PlanTable]:
         of_row.row = f"{list_}, row {number}"
         of_row.who = f"mission {known} ({of_row.row})"
         yield of_row
+
+
+def _size(template: Mapping[str, object], rows: Sequence[Row]) -> dict[str, int]:
+    """Return how much becomes of a template with these rows, without making it."""
+    each = [*values_in(template)]
+    characters = len(rows) * sum(len(one) for one in each if isinstance(one, str))
+    for column, times in Counter(column for _, column in columns_of(template) if column).items():
+        characters += times * sum(len(row[column]) for _, row in rows)
+    return {"missions": len(rows), "values": len(rows) * len(each), "characters": characters}
+
+
+def _at_most(what: str) -> str:
+    return f"all lists of a file make at most {MOST[what]:,} {what}"
 
 
 def _beside(value: object) -> str:
@@ -214,8 +237,7 @@ def _rows(path: Path, left: int) -> tuple[list[Row], list[str]]:
                 )
             rows.append((number, dict(zip(columns, stripped, strict=False))))
             if len(rows) > left:
-                said = f"all lists of a file make at most {MOST_ROWS:,} missions"
-                raise _Unusable(f"has too many rows: {said}")
+                raise _Unusable(f"has too many rows: {_at_most('missions')}")
     except csv.Error as error:
         said = _SAID.get(str(error), str(error))
         raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None

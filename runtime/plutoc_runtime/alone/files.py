@@ -62,6 +62,7 @@ def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]
     for index, table in enumerate(top.tables("mission", needed=True)):
         for key in filter(table.data.__contains__, LIBRARY):
             table.problem(needs_library(key, LIBRARY[key]), key)
+            top.refuse_if_bad(f"{path}")  # once: the library reads the rest
         missions.append(app.mission(**read_mission(table, index, app, airspace, names)))
     top.refuse_if_bad(f"{path}")
     return missions

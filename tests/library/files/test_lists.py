@@ -225,6 +225,7 @@ def test_of_each_wrong_value_the_row_and_the_column_are_told(tmp_path: Path) -> 
 ALL = "all lists of a file make at most"
 TWICE = BEDS + BEDS.replace("Bed", "Old bed")
 MANY = LIST + "".join(f"{n},1,1\n" for n in range(100, 10_098))
+MUCH = BEDS.replace("Bed {nr}", "{nr}" * 8_000)
 
 
 @pytest.mark.parametrize(
@@ -232,12 +233,16 @@ MANY = LIST + "".join(f"{n},1,1\n" for n in range(100, 10_098))
     [
         (BEDS, MANY + "9,1,1\n", f"has too many rows: {ALL} 10,000 missions"),
         (TWICE, MANY, f"has too many rows: {ALL} 10,000 missions"),
+        (MUCH, LIST + f"{'9' * 400},1,1\n" * 500, f"makes too much: {ALL} 10,000,000 characters"),
+        (f"{BEDS}x = [{'1,' * 100}]\n", MANY, f"makes too much: {ALL} 1,000,000 values"),
         (BEDS, ",".join(map("c{}".format, range(1_001))) + "\n1\n", "has more than 1,000 columns"),
         (BEDS, "n" * 200_000 + "\n1\n", "cannot be read in row 1: a value is longer than 131,072"),
         (BEDS, "n" * 201 + "\n1\n", "is longer than 200 characters"),
     ],
 )  # fmt: skip
-def test_lists_make_only_so_much(tmp_path: Path, text: str, rows: str, sentence: str) -> None:
+def test_lists_make_only_so_much_and_it_is_counted_before(
+    tmp_path: Path, text: str, rows: str, sentence: str
+) -> None:
     """In sum."""
     told = [one for one in said(tmp_path, text, rows) if "another mission" not in one]
     assert len(told) == 1 and sentence in told[0]
