@@ -23,6 +23,7 @@ from .reconcile import (
 )
 
 if TYPE_CHECKING:
+    from ..jobs.reports import Entry
     from ..journal.standing import Record
     from .recorded_brain import RecordedBrain
 
@@ -86,12 +87,18 @@ class Suspending:
         what = outcome_of(entry, self._run.repeat_of(record), bool(flight["begun"]))
         if what is Outcome.UNKNOWN:
             what = await self.probe(name, record)
-        del self._steps_out[name]
+        with self._half_done():
+            del self._steps_out[name]
+            self._take_outcome(name, record, what, entry, then)
+
+    def _take_outcome(
+        self, name: str, record: Record, what: Outcome, entry: Entry | None, then: Then
+    ) -> None:
+        """Have the brain know what came of a flight that was broken off, and go on with its mission."""
         if self._run.record(name)["ended"]:
             return  # it has ended meanwhile
         if what is Outcome.UNKNOWN:
             self.doubt(name, record)
-            self._run.look_for_the_end()
             return
         if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
             told = result_data(reported_result(entry))
@@ -101,7 +108,6 @@ class Suspending:
         record = self._run.record(name)
         if not record["ended"]:
             then(name, record)
-        self._run.look_for_the_end()
 
     def _settle(self, name: str, record: Record, what: Outcome) -> None:
         """Record whether the action of an interrupted flight was done."""
