@@ -178,7 +178,7 @@ def _flies(pupil: Pupil) -> None:
     before, after = delayed.replace(line, ""), missions.read_text(encoding="utf-8")
     assert before in after
     missions.write_text(after.replace(before, delayed), encoding="utf-8")
-    pupil.runs("3 of 3 missions completed in 6 min 10 s.", 0.45)
+    pupil.runs("3 of 3 missions completed in 6 min 4 s.", 0.45)
     pupil.shows("run")
     pupil.press("Compile")
     _writes_it(pupil)
@@ -261,12 +261,12 @@ def hooks_of(pupil: Pupil) -> str:
 
 def _sees_it_at_work(pupil: Pupil) -> None:
     page = pupil.page
-    pupil.runs("3 of 3 missions completed in 6 min 10 s.", 0.9)
+    pupil.runs("3 of 3 missions completed in 6 min 4 s.", 0.9)
     value = page.locator('.field[data-field="limit"] input')
     value.fill("20 s")
     value.press("Enter")
     pupil.saved("limit: 20 s")
-    pupil.runs("0 of 3 missions completed in 1 min 21 s.", 0.5)
+    pupil.runs("0 of 3 missions completed in 1 min 22 s.", 0.5)
     pupil.shows("called-back")
     page.keyboard.press("Control+z")
     pupil.saved("limit: 3 min")
