@@ -10,10 +10,12 @@ import os
 import sqlite3
 import stat
 import struct
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+from msgspec.json import encode
 
 from . import errors
 from .errors import TROUBLE
@@ -183,9 +185,16 @@ def put_rows(database: sqlite3.Connection, rows: Iterable[Row]) -> None:
     """Put rows in place of those with the same keys; within a transaction."""
     by_table: dict[str, list[tuple[object, ...]]] = {}
     for table, key, row in rows:
-        by_table.setdefault(table, []).append((*key, json.dumps(row)))
+        by_table.setdefault(table, []).append((*key, _written(row)))
     for table, found in by_table.items():
         database.executemany(PUT[table], found)
+
+
+def _written(row: Mapping[str, Any]) -> str:
+    try:
+        return encode(row).decode()
+    except (OverflowError, TypeError, ValueError):  # more than 64 bits, or half of a character
+        return json.dumps(row, ensure_ascii=False).encode(errors="replace").decode()
 
 
 def standing_in(path: Path, database: sqlite3.Connection) -> Standing:

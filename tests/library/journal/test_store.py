@@ -160,3 +160,13 @@ def test_a_journal_that_was_renamed_is_called_by_its_new_name(store: Store, plac
     moved.rename(place)
     store.close()
     Store.open(place).close()
+
+
+def test_what_is_no_text_and_what_is_a_very_long_number_are_kept_in_rows(place: Path) -> None:
+    """Half of a character is no text: it becomes a question mark."""
+    store = Store.create(place, HEADER)
+    drone = {"lost": {"reason": "half \ud800", "at": None}, "trips": 2**80}
+    store.append([Entry(text(1), [("drone", ("cf1",), drone)])])
+    assert store.standing().lost == {"cf1": {"reason": "half ?", "at": None}}
+    assert store.standing().flown == {"cf1": 2**80}
+    store.close()
