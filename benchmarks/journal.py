@@ -58,7 +58,9 @@ def writing(folder: Path, seconds: float) -> Iterator[tuple[int, float]]:
     """Give the size of a group, and durable rows a second."""
     for group in GROUPS:
         store = Store.create(folder / f"{group}.journal", HEADER)
-        entries, count, begun = [ENTRY] * group, 0, time.perf_counter()
+        entries = [ENTRY] * group
+        count = 0
+        begun = time.perf_counter()
         while time.perf_counter() - begun < seconds:
             store.append(entries)
             count += group
@@ -102,7 +104,9 @@ def flying(folder: Path, missions: int) -> tuple[float, float]:
 
 def written(path: Path, missions: int) -> int:
     """Write the journal of a plan that was flown, and return the number of its events."""
-    store, kernel, entries = Store.create(path, HEADER), VirtualTime(), list[Entry]()
+    store = Store.create(path, HEADER)
+    kernel = VirtualTime()
+    entries = list[Entry]()
 
     class Sink:
         def add(self, entry: Entry) -> int:
@@ -153,7 +157,8 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
         size = path.stat().st_size / 1e6
         say(f"\n{'going on':30}{'s':>16}{'of CPU':>16}{'events':>16}{'MB':>16}")
         took, used = going_on(path, given.rounds)
-        told["seconds to go on"], told["of CPU, to go on"] = took, used
+        told["seconds to go on"] = took
+        told["of CPU, to go on"] = used
         say(f"{'from its rows':30}{took:16.2f}{used:16.2f}{events:16,}{size:16.1f}")
     return told
 

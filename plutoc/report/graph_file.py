@@ -28,7 +28,8 @@ _TEXT = """\
 
 def graph_file(checked: Checked) -> str:
     """Return the text of `graph.json`; what is not true of a block or an edge is left out."""
-    drawn, nodes = picture(checked), checked.graph.nodes
+    drawn = picture(checked)
+    nodes = checked.graph.nodes
     names = [node.name for node in nodes]
     spots = laid_out(names, [(one.source, one.target) for one in drawn.arrows], {})
     kinds = {node.block.name: first_line(node.block) for node in nodes}

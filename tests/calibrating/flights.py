@@ -60,7 +60,9 @@ def flown(
     for index, mission in enumerate(missions):
         mission.index = index
     planned, app = app, moving(app, motion or fleet.motion)
-    kernel, disk, drones = VirtualTime(), _Disk(), simulated(app, fleet)
+    kernel = VirtualTime()
+    disk = _Disk()
+    drones = simulated(app, fleet)
     world = World(seed, fleet.airspace, fleet.world)
     controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed)
     if around is not None:

@@ -23,7 +23,7 @@ def no_worker_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 def _is_gone(child: int) -> bool:
-    """Return whether a child has ended and was waited for; it is left to whoever does that."""
+    """Return whether a child has ended and was waited for; it is left for its parent to wait for."""
     try:
         os.waitid(os.P_PID, child, os.WEXITED | os.WNOHANG | os.WNOWAIT)
     except ChildProcessError:

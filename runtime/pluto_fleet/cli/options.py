@@ -44,7 +44,8 @@ ACTIONS = (
 ANSWERS = ("done", "not-done", "go-on", "cancel")
 """The answers of `decide` for a mission that waits."""
 
-HOST, PORT = "127.0.0.1", 8765
+HOST = "127.0.0.1"
+PORT = 8765
 
 
 @dataclass

@@ -55,7 +55,8 @@ def check_flight(app: App, fleet: FleetFile, options: Options) -> None:
     """Raise `BadInput` if what `fly` or `serve` is to fly are real drones that cannot be flown."""
     if not options.is_real:
         return
-    where, stand_ins = str(options.fleet or app.name), options.crtp_sim is not None
+    where = str(options.fleet or app.name)
+    stand_ins = options.crtp_sim is not None
     check_real(app, fleet, where, stand_ins=stand_ins, instead=OR_SIMULATED)
     if not stand_ins and not options.supervised:
         warn_of_the_radio(fleet, where)

@@ -25,7 +25,8 @@ from ..station.operation import JSON, Operation
 from ..station.wire import LiveMessage
 from .timely import TimelyResponse
 
-OK, CONFLICT = 200, 409
+OK = 200
+CONFLICT = 409
 
 LARGEST = 1024 * 1024 * 1024
 """Bytes of an answer."""

@@ -35,13 +35,11 @@ from .equipment import camera, port_of
 from .flight_log import FileLog, Point
 from .server import HOST, Server
 
-NOTE, DRONES, WORLD, LOCK, LOG = (
-    "crtp",
-    "crtp.json",
-    "crtp-world.json",
-    "crtp.lock",
-    "crtp.log",
-)
+NOTE = "crtp"
+DRONES = "crtp.json"
+WORLD = "crtp-world.json"
+LOCK = "crtp.lock"
+LOG = "crtp.log"
 """The files in its folder; NOTE has the address for `ask`."""
 COMMAND = "crtp"
 

@@ -162,7 +162,8 @@ def _by_wire(scheme: str, rest: str) -> str:
         return str(int(rest))
     if scheme == "serial":
         return rest
-    host, port = match["host"].lower(), int(match["port"])
+    host = match["host"].lower()
+    port = int(match["port"])
     if not 0 < port < 65536:
         raise ValueError(f"names no port, a number from 1 to 65535; write it like {such}")
     if scheme == "prrt" or not set(host) - set("0123456789."):

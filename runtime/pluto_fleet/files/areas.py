@@ -36,7 +36,8 @@ def trips_of_areas(
     mission: PlanTable, before: Sequence[Trip], app: App, airspace: Airspace
 ) -> list[Trip]:
     """Return the trips that the areas of a mission make, behind those before."""
-    found, areas = list[Any](), dict[str, Table]()
+    found = list[Any]()
+    areas = dict[str, Table]()
     paths = {trip.name: (*mission.path, "trip", trip.index) for trip in before}
     needed: Keys = {"polygon": None, "action": partial(values.one_of, app.actions), "spacing": None}
     others: Keys = {"name": values.name, "height": None, "parameters": None}

@@ -45,7 +45,8 @@ def drones_of(
     top: PlanTable, app: App, airspace: Airspace | None, flown_by: str
 ) -> tuple[DroneEntry, ...]:
     """Return the drones of a fleet; `flown_by`: how it is flown, where a drone says nothing of that."""
-    drones, uris = list[DroneEntry](), dict[str, Table]()
+    drones = list[DroneEntry]()
+    uris = dict[str, Table]()
     for table, given in read_drones(top, app, airspace):
         navigation = table.value("navigation", values.name)
         uri = table.value("uri", partial(_uri, navigation or flown_by))

@@ -106,7 +106,8 @@ def load_fleet(path: Path, app: App) -> FleetFile:
 def fleet_of(document: Document, app: App) -> FleetFile:
     """Return the fleet of a file's text, as `load_fleet` does."""
     whole = top(document, FLEET)
-    on_map, behaviour = whole.table("map"), whole.table("fleet")
+    on_map = whole.table("map")
+    behaviour = whole.table("fleet")
     airspace = read_map(on_map)
     given = {
         **read_behaviour(behaviour),

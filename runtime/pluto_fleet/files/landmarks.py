@@ -72,14 +72,16 @@ NO_LANDMARKS = Landmarks()
 KEYS = ("image", "north", "places", "zones")
 """Their keys in `[map]`."""
 
-MOST_PLACES, MOST_ZONES = 2_000, 500
+MOST_PLACES = 2_000
+MOST_ZONES = 500
 
 
 def read_landmarks(table: Table, airspace: Airspace | None) -> Landmarks:
     """Return the landmarks of `[map]`, and note what is wrong; `airspace`: None if it is invalid."""
     whole = airspace and replace(airspace, no_fly=())  # a closed room may have a name, too
     names: dict[str, Table] = {}
-    at, corners = partial(_at, whole), partial(_corners, whole)
+    at = partial(_at, whole)
+    corners = partial(_corners, whole)
     places = _tables(table, "places", MOST_PLACES, {"name": values.name, "at": at}, names)
     zones = _tables(table, "zones", MOST_ZONES, {"name": values.name, "corners": corners}, names)
     return Landmarks(

@@ -130,7 +130,8 @@ def _of_rows(table: PlanTable, left: dict[str, int]) -> Iterator[PlanTable]:
     try:
         rows, odd = _rows(document.folder / list_, left["missions"])
     except _Unusable as wrong:
-        rows, odd = [], [f"{wrong}"]
+        rows = []
+        odd = [f"{wrong}"]
     for wrong_row in odd:
         table.problem(f"each {quoted(list_)} {wrong_row}", "each")
     if not rows or odd or not _are_known(table, template, [*rows[0][1]]):

@@ -50,7 +50,8 @@ def read_missions(
     `known` are the missions that fly already.
     """
     tables = [*each_row(top(document, MISSIONS))]
-    missions, names = list[Any](), dict[str, Table]()
+    missions = list[Any]()
+    names = dict[str, Table]()
     for index, table in enumerate(tables):
         if isinstance(table, RowTable) and len(document.problems) > MOST_OF_LISTS:
             break  # the same is wrong in row after row

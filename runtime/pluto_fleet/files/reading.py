@@ -33,7 +33,9 @@ ELSEWHERE = {
 }
 """Fields that other apps have: the message says why this app has none."""
 
-_SOME, _MOST_LISTED, _LONGEST_HINT = 10, 100, 100
+_SOME = 10
+_MOST_LISTED = 100
+_LONGEST_HINT = 100
 """Words that are listed of too many, so many are too many; characters of one that is compared with others."""
 _LONG = re.compile(r"(?<![.\w])\d[\d_]{600}")  # a number that Python may refuse to read
 _PLACE = re.compile(r" \(at (?:line (\d+), column (\d+)|end of document)\)$")
@@ -69,7 +71,9 @@ class Document:
 
     def __init__(self, name: str, data: Mapping[str, Any], text: str = "") -> None:
         """`name`: of its file; empty: it is none."""
-        self.name, self.data, self.text = name, data, text
+        self.name = name
+        self.data = data
+        self.text = text
         self.problems: list[Problem] = []
         self.folder: Path | None = None
         """Where it lies; None: it is no file."""
@@ -109,7 +113,8 @@ class PlanTable(Table):
         self, document: Document, data: Mapping[str, Any], path: KeyPath = (), who: str = ""
     ) -> None:
         super().__init__(data, path, who)
-        self.document, self.problems = document, document.problems
+        self.document = document
+        self.problems = document.problems
 
     def where(self, key: str) -> str:
         """Say in which line a key is, as a message continues."""

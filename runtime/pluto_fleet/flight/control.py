@@ -99,7 +99,7 @@ class Control(Suspending):
         if unwanted is record["todo"][0]:  # it may fly, or be waited for
             self._step_out(mission, record, partial(self._skip, unwanted["name"]))
         else:
-            self._command("skip", mission=mission, trip=unwanted["name"])
+            self._run.command("skip", mission=mission, trip=unwanted["name"])
         return f"mission {quoted(mission)}: trip {quoted(unwanted['name'])} is skipped"
 
     def cancel(self, mission: str | None = None) -> str:
@@ -119,7 +119,7 @@ class Control(Suspending):
             raise BadInput(f"mission {quoted(mission)} is {status.value}: {asked}")
         if answer == "go-on" and not (record["todo"] or record["done"]):
             raise BadInput(f"mission {quoted(mission)} cannot go on in this app: cancel it")
-        self._command("decide", mission=mission, answer=answer)
+        self._run.command("decide", mission=mission, answer=answer)
         if answer == "cancel":
             self._cancel(mission)
         elif answer == "go-on":
@@ -155,14 +155,14 @@ class Control(Suspending):
 
     def _change(self, mission: str, record: Record, change: TripChange) -> None:
         if aside(record) is not None:
-            self._command("change-trips", mission=mission, trips=change.todo)
+            self._run.command("change-trips", mission=mission, trips=change.todo)
         elif change.in_place:
-            self._command("change-trips", mission=mission, trips=change.todo[1:])
+            self._run.command("change-trips", mission=mission, trips=change.todo[1:])
         else:
             self._step_out(mission, record, partial(self._change_and_resume, change.todo))
 
     def _change_and_resume(self, todo: Sequence[Record], name: str, record: Record) -> None:
-        self._command("change-trips", mission=name, trips=todo)
+        self._run.command("change-trips", mission=name, trips=todo)
         self._resume(name, record)
 
     def prioritise(self, mission: str, trip: str, priority: int) -> str:
@@ -171,7 +171,7 @@ class Control(Suspending):
         if not any(field.name == PRIORITY for field in self._run.app.fields):
             raise BadInput("the trips of this app have no priority")
         _trip_to_do(mission, record, trip)
-        self._command("prioritise", mission=mission, trip=trip, priority=priority)
+        self._run.command("prioritise", mission=mission, trip=trip, priority=priority)
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def retire(self, drone: str) -> str:
@@ -180,7 +180,7 @@ class Control(Suspending):
         if drone in self._run.records.retired:
             return f"{drone} is retired already"
         self._run.note("drone.retired", drone=drone)
-        self._command("retire", drone=drone)
+        self._run.command("retire", drone=drone)
         return f"{drone} is retired" + (
             ", once its trip is over" if known["status"] == "BUSY" else ""
         )
@@ -224,7 +224,7 @@ class Control(Suspending):
         if not asked and drone not in self._run.records.retired:
             return f"{drone} is neither retired nor lost"
         self._run.note("drone.brought_back", drone=drone, lost=lost)
-        self._command("bring-back", drone=drone)
+        self._run.command("bring-back", drone=drone)
         return f"{drone} is asked whether it is well" if asked else f"{drone} is back"
 
     def remember(self, id: str, command: str) -> None:
@@ -248,14 +248,14 @@ class Control(Suspending):
         return paused or (self._run.patient and any(one is not None for one in waiting))
 
     def _paused(self, name: str, _: Record) -> None:
-        self._command("pause", mission=name)
+        self._run.command("pause", mission=name)
 
     def _skip(self, unwanted: str, name: str, record: Record) -> None:
         if any(trip["name"] == unwanted for trip in record["todo"]):
-            self._command("skip", mission=name, trip=unwanted)
+            self._run.command("skip", mission=name, trip=unwanted)
             record = self._run.record(name)
         if not record["todo"] and unheard(record) is None:
-            self._command("cancel", mission=name, status=Status.COMPLETED.value, reason="")
+            self._run.command("cancel", mission=name, status=Status.COMPLETED.value, reason="")
         elif record["paused"] is None:
             self._resume(name, record)
 
@@ -263,7 +263,7 @@ class Control(Suspending):
         work = self._steps_out.pop(name, None)
         if work is not None:
             work.cancel()
-        self._command("cancel", mission=name, status=Status.CANCELLED.value, reason=CANCELLED)
+        self._run.command("cancel", mission=name, status=Status.CANCELLED.value, reason=CANCELLED)
         self._run.look_for_the_end()
 
     # Which missions and drones

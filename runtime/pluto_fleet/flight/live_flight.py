@@ -18,7 +18,7 @@ from ..files.fleet import with_joined
 from ..jobs.link import UNCERTAIN
 from ..jobs.reports import Down
 from ..journal.copies import EVERY
-from ..journal.errors import JournalError
+from ..journal.errors import TROUBLE, JournalError
 from ..journal.writer import Writer
 from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
@@ -64,6 +64,8 @@ class LiveFlight:
         self._failure: JournalError | None = None
         self._copied = time.monotonic()
         """When the journal was copied last."""
+        self._copying: asyncio.Future[None] | None = None
+        """The copy being made, by a thread of its own, since it may take long."""
         self._kept: asyncio.Future[bool] = self._loop.create_future()
         """Set at the end: whether all commands have taken effect and are durable."""
 
@@ -153,6 +155,8 @@ class LiveFlight:
         self._writer.close()
         if self._link is not None:
             await self._link.close()
+        if self._copying is not None:
+            await self._copying
 
     def _stop(self, how: Down) -> None:
         """Stop, unless everything has ended."""
@@ -189,7 +193,11 @@ class LiveFlight:
 
     def _copy(self) -> None:
         self._copied = time.monotonic()
-        self._writer.copy()
+        self._copying = self._loop.run_in_executor(None, self._copy_now)
+
+    def _copy_now(self) -> None:
+        with suppress(OSError, *TROUBLE):  # a full disk: the journal itself is what counts
+            self._store.copy()
 
     def _drifted(self) -> float | None:
         """Return how far the clock of the hours has drifted, and record it, if that is news."""

@@ -50,7 +50,8 @@ class Recovery:
 
     def restore(self) -> None:
         """Give the brain all rows; delays that a Stop interrupted keep their remaining time."""
-        run, known = self._run, self._run.records
+        run = self._run
+        known = self._run.records
         missions = {}
         for name, record in known.missions.items():
             missions[name] = record

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..jobs.reports import reported_result, result_data
 from ..shared.domain.errors import BadInput
@@ -42,16 +42,13 @@ class Suspending:
         self._probes: dict[str, Future[bool | None]] = {}
         """The flights whose outcomes the app is asked for, by their ids."""
 
-    def _command(self, command: str, **request: Any) -> None:
-        self._run.command(command, **request)
-
     def _step_out(self, name: str, record: Record, then: Then) -> None:
         """Suspend a mission; continue when the outcome of its flight is known."""
         self._refuse_while_it_steps_out(name)
         flight, was_aside = in_flight(record), aside(record) is not None
         with self._half_done():
             if not was_aside:
-                self._command("leave", mission=name)
+                self._run.command("leave", mission=name)
             if flight is None or was_aside:
                 then(name, record)
             else:
@@ -66,7 +63,8 @@ class Suspending:
     @contextmanager
     def _half_done(self) -> Iterator[None]:
         """Let nothing end meanwhile."""
-        was_busy, self._busy = self._busy, True
+        was_busy = self._busy
+        self._busy = True
         try:
             yield
         finally:
@@ -102,7 +100,7 @@ class Suspending:
             return
         if what is Outcome.FLIES_ON and entry is not None:  # it has just ended
             told = result_data(reported_result(entry))
-            self._command("settle", mission=name, done=True, **told)
+            self._run.command("settle", mission=name, done=True, **told)
         else:
             self._settle(name, record, what)
         record = self._run.record(name)
@@ -112,13 +110,13 @@ class Suspending:
     def _settle(self, name: str, record: Record, what: Outcome) -> None:
         """Record whether the action of an interrupted flight was done."""
         if what is Outcome.DONE:
-            self._command("settle", mission=name, done=True)
+            self._run.command("settle", mission=name, done=True)
         else:
             self._run.interrupted(name, record["flight"])
 
     def _resume(self, name: str, record: Record) -> None:
         with self._half_done():
-            self._command("resume", mission=name)
+            self._run.command("resume", mission=name)
             self._go_on(name)
 
     def _go_on(self, name: str) -> None:
@@ -132,7 +130,7 @@ class Suspending:
         answer: Future[bool | None] = Future()
         id = id_of(name, record["flight"])
         self._probes[id] = answer
-        self._command("probe", mission=name)
+        self._run.command("probe", mission=name)
         return PROBED[await answer]
 
     def probed(self, flight: str, answer: bool | None) -> None:
@@ -145,7 +143,7 @@ class Suspending:
         """Record that only the user can say whether the action of a suspended mission was done."""
         flight, trip = record["flight"], trip_of(record, record["flight"])
         assert trip is not None
-        self._command("doubt", mission=name, reason=question(trip, flight["drone"]))
+        self._run.command("doubt", mission=name, reason=question(trip, flight["drone"]))
 
     def doubt_in_flight(self, name: str, id: str) -> None:
         """Suspend a mission whose flight was called off, and whose action may be done."""
@@ -156,5 +154,5 @@ class Suspending:
         if name in self._steps_out or record["ended"]:
             return
         with self._half_done():
-            self._command("leave", mission=name)
+            self._run.command("leave", mission=name)
             self.doubt(name, record)

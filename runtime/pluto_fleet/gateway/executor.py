@@ -109,8 +109,11 @@ class Executor:
         report(result)
 
     async def _flown(self, order: Order, begins: Callable[[], object]) -> object:
-        controls, airspace = self._controls, self._airspace
-        drone, flight, action = order["drone"], order["flight"], order["action"]
+        controls = self._controls
+        airspace = self._airspace
+        drone = order["drone"]
+        flight = order["flight"]
+        action = order["action"]
         stops = [point_of(stop) for stop in order["stops"]]
         self._refuse_if_cut(drone)
         if action is not None:  # refuse what the hardware cannot do before it takes off
@@ -316,7 +319,8 @@ class Executor:
         return True
 
     async def _follow(self, section: Section) -> None:
-        traffic, drone = self._traffic, section.drone
+        traffic = self._traffic
+        drone = section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
         if section.stands:
             with self._leaving(drone):

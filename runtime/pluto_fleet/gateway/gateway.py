@@ -65,7 +65,8 @@ class Line(Link):
 
     def __init__(self, gateway: Gateway, lost: Callable[[], object] | None) -> None:
         super().__init__()
-        self.gateway, self._lost = gateway, lost
+        self.gateway = gateway
+        self._lost = lost
         self._is_heard = gateway.descent is None
         self.under_way: dict[object, Task[Any]] = {}
         """The orders that are answered when they are done, by their ids."""
@@ -82,7 +83,8 @@ class Line(Link):
 
     def send(self, order: Order) -> None:
         """Obey an order, unless another brain is obeyed; raise `Busy` if its drone does something else."""
-        do, gateway = order["do"], self.gateway
+        do = order["do"]
+        gateway = self.gateway
         if gateway.is_commanded_by(self):
             gateway.heard = gateway.kernel.now
         if not self._is_obeyed(do):
@@ -114,7 +116,9 @@ class Line(Link):
 
     def _begin(self, order: Order, answered: Answered) -> None:
         """Begin what is answered when it is done."""
-        do, drone, gateway = order["do"], order.get("drone", ""), self.gateway
+        do = order["do"]
+        drone = order.get("drone", "")
+        gateway = self.gateway
         if do in _ONE_AT_A_TIME:
             if drone in self._busy or gateway.jobs.is_flown_by(drone):
                 raise Busy(f"{drone} was told to do something while it does something else")
@@ -129,7 +133,9 @@ class Line(Link):
         task.over = partial(self._ended, order)
 
     def _ended(self, order: Order, task: Task[Any]) -> None:
-        do, number, error = order["do"], order["id"], task.error
+        do = order["do"]
+        number = order["id"]
+        error = task.error
         del self.under_way[number]
         if do in _ONE_AT_A_TIME:
             self._busy.pop(order["drone"], None)
@@ -200,7 +206,8 @@ class Gateway:
         leaving: Leaving | None = None,
         measures: bool = False,
     ) -> None:
-        self.kernel, self.controls = kernel, controls
+        self.kernel = kernel
+        self.controls = controls
         self.take_in: TakeIn = _take_in_none
         """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
         self.rehearse: Rehearse | None = None
@@ -263,7 +270,8 @@ class Gateway:
 
     def cut(self) -> None:
         """Cut the line of the brain. Jobs go on; the brain's single commands are aborted."""
-        line, self.commander = self.commander, None
+        line = self.commander
+        self.commander = None
         if line is not None:
             self.jobs.mute()
             line.cut()

@@ -36,7 +36,8 @@ class Jobs:
         ledger: Ledger | None,
     ) -> None:
         self._kernel, self._fly, self._keys = kernel, fly, keys
-        self._airspace, self._ledger = airspace, ledger
+        self._airspace = airspace
+        self._ledger = ledger
         self._known: dict[str, Entry] = {}
         """By the ids of their flights."""
         if ledger is not None:
@@ -56,7 +57,8 @@ class Jobs:
 
     def fly(self, order: Order, report: Report) -> None:
         """Give a drone its job, unless its action was done before, or may have been."""
-        id, drone = order["flight"], order["drone"]
+        id = order["flight"]
+        drone = order["drone"]
         known = self._known.get(id)
         if known is None and id in self._remembered:
             known = self._known[id] = _done(id, self._remembered[id])
@@ -82,7 +84,7 @@ class Jobs:
             self.attach(known.id, report)
 
     def _problem(self, order: Order) -> str | None:
-        """Return why an order must not be obeyed, whatever the brain believes."""
+        """Return why an order must not be obeyed, as far as the gateway itself knows."""
         drone = order["drone"]
         other = self._current.get(drone)
         if other is not None and other.flies:
@@ -167,7 +169,8 @@ class Jobs:
         """Called with the outcome; if no action had begun, that need not be durable."""
         if not job.flies:
             return
-        job.flies, begun = False, job.state is JobState.BEGUN
+        job.flies = False
+        begun = job.state is JobState.BEGUN
         if isinstance(result, FlightFailed):
             job.state = JobState.FAILED
             job.failure = result.failure.name

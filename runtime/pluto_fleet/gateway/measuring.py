@@ -29,7 +29,9 @@ class Measuring:
         hear: Callable[[Flown], object],
     ) -> None:
         """`drones` is kept up to date by its owner."""
-        self._kernel, self._telemetry, self._drones = kernel, telemetry, drones
+        self._kernel = kernel
+        self._telemetry = telemetry
+        self._drones = drones
         self._hear = hear
         self.moving: set[str] = set()
         """The drones that carry out a command now."""
@@ -38,19 +40,25 @@ class Measuring:
         self, drone: str, command: Command, carried_out: Coroutine[Any, Any, T]
     ) -> T:
         """Carry out a command, and tell how that went, if it moves a flying drone, or acts with it."""
-        telemetry, category = self._telemetry[drone], self._drones[drone].category
+        telemetry = self._telemetry[drone]
+        category = self._drones[drone].category
         begun, start, level = self._kernel.now, telemetry.location, telemetry.battery_level
         more: dict[str, object] = {}
         match command:
             case TakeOff(height) if telemetry.landed:
-                what, end = TAKE_OFF, (*start[:2], height)
+                what = TAKE_OFF
+                end = (*start[:2], height)
                 more = {"flight_time": category.flight_time, "charge_time": category.charge_time}
             case GoTo(target) if not telemetry.landed:
-                what, end = LEG, target
+                what = LEG
+                end = target
             case Land() if not telemetry.landed:
-                what, end = LAND, (*start[:2], 0.0)
+                what = LAND
+                end = (*start[:2], 0.0)
             case Act(action) if not telemetry.landed:
-                what, end, more = ACTION, start, {"action": action}
+                what = ACTION
+                end = start
+                more = {"action": action}
             case _:
                 return await carried_out
 

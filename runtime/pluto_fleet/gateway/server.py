@@ -42,7 +42,9 @@ class Server:
     """All connections."""
 
     def __init__(self, gateway: Gateway, say: Say, on_goodbye: Callable[[], object]) -> None:
-        self.gateway, self.say, self.on_goodbye = gateway, say, on_goodbye
+        self.gateway = gateway
+        self.say = say
+        self.on_goodbye = on_goodbye
         self.connected: list[Connection] = []
         self.pass_at: Callable[[float], object] | None = None
         """Lets time pass at another speed; None: the drones are real."""
@@ -100,7 +102,8 @@ class Connection:
             self.hang_up()
 
     def _leave(self) -> None:
-        line, self.line = self.line, None
+        line = self.line
+        self.line = None
         if line is not None:
             line.hear = _ignore
             line.leave()
@@ -220,7 +223,8 @@ class Connection:
         if self.line is None:  # it has disconnected
             return
         self._server.say("the brain that commanded is cut off")
-        self.line, self._was_cut = None, True
+        self.line = None
+        self._was_cut = True
         self._tell({"lost": True})
 
     def _obey(self, line: Line, message: Message) -> None:
@@ -244,4 +248,4 @@ class Connection:
 
 
 def _ignore(_: Message) -> None:
-    """Nobody is left to be told."""
+    """Do nothing with a report: no brain is connected."""

@@ -149,7 +149,11 @@ class ForwardingControls:
     def __init__(self, controls: Controls) -> None:
         self._controls = controls
         self.telemetry = controls.telemetry
-        self.why_not, self.begins = controls.why_not, controls.begins
-        self.break_off, self.mended = controls.break_off, controls.mended
-        self.reach, self.fetched = controls.reach, controls.fetched
-        self.unload, self.drone_report = controls.unload, controls.drone_report
+        self.why_not = controls.why_not
+        self.begins = controls.begins
+        self.break_off = controls.break_off
+        self.mended = controls.mended
+        self.reach = controls.reach
+        self.fetched = controls.fetched
+        self.unload = controls.unload
+        self.drone_report = controls.drone_report

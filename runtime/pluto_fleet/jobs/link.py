@@ -97,8 +97,8 @@ class Link:
 
 
 def _ignore(_: Message) -> None:
-    """Nobody listens."""
+    """Do nothing with a report: no callback is set."""
 
 
 def _nothing() -> None:
-    """Nobody looks."""
+    """Do nothing: no callback is set."""

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import sqlite3
 import time
 from contextlib import closing, suppress
 from pathlib import Path
@@ -19,14 +17,20 @@ EVERY = 600.0
 """Seconds of real time between two copies."""
 
 
-def copy(path: Path, database: sqlite3.Connection) -> None:
-    """Copy a journal; the copy before is kept, too. Raises an error of the database or the disk."""
+def copy(path: Path) -> None:
+    """Copy a journal; the copy before is kept, too. Raises an error of the database or the disk.
+
+    It reads by a connection of its own, so that what is written meanwhile waits for nothing.
+    """
     newest, before = (beside(path, suffix) for suffix in KEPT)
-    part = beside(path, f".{os.getpid()}.copy-part")
+    part = beside(path, ".copy-part")
     part.unlink(missing_ok=True)
     try:
-        with closing(connect(part, "mode=rwc")) as made:
-            database.backup(made)
+        with (
+            closing(connect(path, "mode=ro")) as journal,
+            closing(connect(part, "mode=rwc")) as made,
+        ):
+            journal.backup(made)
             made.execute("PRAGMA journal_mode = DELETE")  # one file, which any program can open
         if newest.exists():
             newest.replace(before)

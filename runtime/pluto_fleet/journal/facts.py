@@ -95,13 +95,6 @@ Metres = Annotated[list[float], Meta(min_length=3, max_length=3)]
 """A place, as rows have it."""
 
 
-class ItemRow(TypedDict):
-    """What a mission carries."""
-
-    name: str
-    mass: float
-
-
 class FlightRow(TypedDict):
     """The latest flight of a mission."""
 
@@ -133,7 +126,7 @@ class MissionRow(TypedDict):
     last_action_end: float | None
     flight: FlightRow | None
     carrier: str | None
-    carries: ItemRow | None
+    carries: ItemFacts | None
     judged: int
     interrupted: bool
     ended: bool
@@ -160,7 +153,7 @@ class TripRow(TypedDict):
     source: NotRequired[Metres]
     fields: NotRequired[dict[str, Any]]
     parameters: NotRequired[dict[str, Any]]
-    item: NotRequired[ItemRow]
+    item: NotRequired[ItemFacts]
     added: NotRequired[bool]
     attempt: NotRequired[int]
     status: NotRequired[str]
@@ -455,7 +448,8 @@ def _is_sound(table: str, row: Mapping[str, Any]) -> bool:
     """Return whether a row of the right type says what can be."""
     match table:
         case "mission":
-            flight, delay = row["flight"], row["delay"]
+            flight = row["flight"]
+            delay = row["delay"]
             return (
                 row["status"] in _STATUSES
                 and (flight is None or flight["outcome"] in {*_STATUSES, None})

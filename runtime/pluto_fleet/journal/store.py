@@ -182,7 +182,7 @@ class Store:
 
     def copy(self) -> None:
         """Make a copy of the whole journal beside it; of earlier copies the newest is kept."""
-        copies.copy(self.path, self._database)
+        copies.copy(self.path)
 
     def close(self) -> None:
         """Close it and release the lock; everything acknowledged is durable already."""

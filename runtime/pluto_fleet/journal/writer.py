@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from threading import Condition, Thread
 from typing import TYPE_CHECKING
 
-from .errors import TROUBLE, JournalError
+from .errors import JournalError
 
 if TYPE_CHECKING:
     from .store import Entry, Store
@@ -27,7 +26,6 @@ class Writer:
         self._store, self._on_durable, self._on_failure = store, on_durable, on_failure
         self._changed = Condition()
         self._entries: list[Entry] = []
-        self._copy_wanted = False
         self._added = self._durable = store.seq
         self._over = False
         self._thread = Thread(target=self._work, name="journal", daemon=True)
@@ -41,12 +39,6 @@ class Writer:
             if len(self._entries) == 1:
                 self._changed.notify_all()
             return self._added
-
-    def copy(self) -> None:
-        """Copy the journal, as soon as what was added is written."""
-        with self._changed:
-            self._copy_wanted = True
-            self._changed.notify_all()
 
     def flush(self) -> None:
         """Wait until all added rows are durable; raise a `JournalError` if that fails."""
@@ -68,16 +60,15 @@ class Writer:
         changed = self._changed
         while True:
             with changed:
-                while not (self._entries or self._copy_wanted or self._over):
+                while not (self._entries or self._over):
                     changed.wait()
-                entries, self._entries = self._entries, []
-                copies, self._copy_wanted = self._copy_wanted, False
+                entries = self._entries
+                self._entries = []
                 over = self._over and not entries
             if over:
                 return
             try:
-                if entries:
-                    self._store.append(entries)
+                self._store.append(entries)
             except JournalError as failure:
                 with changed:
                     changed.notify_all()
@@ -86,11 +77,4 @@ class Writer:
             with changed:
                 self._durable += len(entries)
                 changed.notify_all()
-            if entries:
-                self._on_durable(self._durable)
-            if copies:
-                self._copy()
-
-    def _copy(self) -> None:
-        with suppress(OSError, *TROUBLE):  # a full disk: the journal itself is what counts
-            self._store.copy()
+            self._on_durable(self._durable)

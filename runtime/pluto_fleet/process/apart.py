@@ -113,7 +113,7 @@ def _wait(asks: socket.socket, asked: socket.socket, what: object) -> None:
     asks.close()
     os.setpgid(0, 0)
     hear_signals(signal.SIG_IGN)  # the first process says when they end
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # nobody asks how one has ended
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # how one has ended is of no use here
     os.nice(NICE)
     while pipes := socket.recv_fds(asked, 1, 1)[1]:
         forked(partial(_answer, asked, pipes[0], what))

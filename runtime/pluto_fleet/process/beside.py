@@ -44,7 +44,8 @@ async def in_a_copy(work: Callable[[], Iterable[R]]) -> AsyncGenerator[R, None]:
         while isinstance(message := await at_once(pipe.recv), _Found):
             yield cast(R, message.found)
     except (EOFError, OSError):
-        end, process = process, 0
+        end = process
+        process = 0
         os.kill(end, signal.SIGKILL)  # it may have closed its pipe and gone on
         raise Died(await at_once(partial(reaped, end))) from None
     finally:

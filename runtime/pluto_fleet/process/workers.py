@@ -131,7 +131,8 @@ def _work(
     """Do tasks, up to the first error."""
 
     def done(place: int) -> _Done:
-        out, err = StringIO(), StringIO()
+        out = StringIO()
+        err = StringIO()
         with redirect_stdout(out), redirect_stderr(err):
             result = work(tasks[place])
         return _Done(result, out.getvalue(), err.getvalue())

@@ -14,7 +14,9 @@ from typing import TextIO
 from ..shared import output
 from ..shared.domain.text import printable
 
-_AFTER, _EVERY, _EVERY_LINE = 1.0, 0.1, 10.0
+_AFTER = 1.0
+_EVERY = 0.1
+_EVERY_LINE = 10.0
 """Seconds of real time until a bar appears, between two updates of it, and between two lines instead of it."""
 
 _WIDTH = 30
@@ -77,7 +79,8 @@ class Progress:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """`stream` is the terminal, if there is one; `say` is called with a line where there is none."""
-        self._stream, self._clock = stream, clock
+        self._stream = stream
+        self._clock = clock
         self._say = say if stream is None else None
         self._next = clock() + (_EVERY_LINE if stream is None else _AFTER)
         self._is_drawn = False

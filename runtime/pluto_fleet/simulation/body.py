@@ -159,7 +159,9 @@ class SimulatedBody(Body):
     @property
     def data(self) -> dict[str, object]:
         """Everything of it as plain data, but for what it has done; all times are its clock's."""
-        leg, charge, down = self._legs[0], self._charge, self.down
+        leg = self._legs[0]
+        charge = self._charge
+        down = self.down
         return {
             "boot": self.boot,
             "carries": item_data(self.carries),
@@ -181,7 +183,8 @@ class SimulatedBody(Body):
         What it was told to do, it does to the end, and then it hovers.
         """
         self.boot, self.carries = data["boot"], item_of(data["carries"])
-        self.down, self.reachable_at = None, data["reachable_at"] + shift
+        self.down = None
+        self.reachable_at = data["reachable_at"] + shift
         if data["down"] is not None:
             failure, reason = data["down"]
             self.down = FlightFailed(Failure[failure], reason)
@@ -224,4 +227,4 @@ class Told:
 
 
 def _nothing() -> None:
-    """Nobody is told of a change."""
+    """Do nothing: no callback is set."""

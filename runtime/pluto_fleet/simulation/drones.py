@@ -56,7 +56,8 @@ class SimulatedNavigation:
         seed: int,
         record: Callable[[WorldAction], object] | None = None,
     ) -> None:
-        self._kernel, self._world = kernel, world
+        self._kernel = kernel
+        self._world = world
         self._faults, self._seed = faults, seed
         self.record = record
         """Called right before each action of a drone on the world."""

@@ -33,7 +33,8 @@ class Radio(ForwardingControls):
         """A future for each drone's command, which fails if the command is aborted."""
         self.late = 0
         """The number of delayed messages."""
-        self.break_off, self.reach = self._break_off, self._reach
+        self.break_off = self._break_off
+        self.reach = self._reach
         self.drone_report = self._drone_report
 
     def _late(self, what: str) -> float:

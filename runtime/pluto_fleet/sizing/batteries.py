@@ -56,7 +56,9 @@ def most_charging(
         if what == "trip.launched":
             flown[str(event["drone"])] = True
         elif what in _DOCKED and flown[(id := str(event["drone"]))]:
-            drone, now, level = drones[id], event["t"], event["battery"]
+            drone = drones[id]
+            now = event["t"]
+            level = event["battery"]
             if level >= FULL or not docked(tuple(event["at"]), drone.home):
                 continue
             flown[id] = False

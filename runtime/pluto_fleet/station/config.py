@@ -71,7 +71,8 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
 
     `server` is this run of the station; what was drawn on the map may change.
     """
-    graph, space = _graph(app), config.fleet.airspace
+    graph = _graph(app)
+    space = config.fleet.airspace
     return {
         "name": app.name,
         "title": config.title or app.title or app.name,

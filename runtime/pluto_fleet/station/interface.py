@@ -35,8 +35,12 @@ from .wire import (
 )
 from .wire_app import AppData, PlanData, PlanMission, PlanTrip
 
-TEXT, CSV, TOML = "text/plain", "text/csv", "application/toml"
-GEOJSON, ZIP, MCAP = "application/geo+json", "application/zip", "application/octet-stream"
+TEXT = "text/plain"
+CSV = "text/csv"
+TOML = "application/toml"
+GEOJSON = "application/geo+json"
+ZIP = "application/zip"
+MCAP = "application/octet-stream"
 
 Revision = Annotated[int, Meta(description="The revision of the plan that was looked at.")]
 Missions = Annotated[list[str] | None, Meta(description="The keys of missions; null: all.")]

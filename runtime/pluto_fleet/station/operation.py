@@ -216,7 +216,8 @@ def operation(
             if one.default is not one.empty and name != "id"
         }
         if answers is str and "media" not in about:  # a command
-            hints["id"], answers = CommandId, Said
+            hints["id"] = CommandId
+            answers = Said
         hints = {name: kind for name, kind in hints.items() if name not in ("body", "media")}
         all_in_query = method in ("GET", "DELETE") or bool(takes)
         query = {name: kind for name, kind in hints.items() if all_in_query or name in in_query}

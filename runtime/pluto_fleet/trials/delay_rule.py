@@ -51,7 +51,8 @@ class DelaysAreWaited:
         mission, trip = event["mission"], event["trip"]
         attempt = self._tries.get((mission, trip), 1)
         place = mission, event.get("block"), trip, self._round.get(mission, 0), attempt
-        until, now = event["until"], event["t"]
+        until = event["until"]
+        now = event["t"]
         over = event.get("over", until)
         last = self._delay.get(mission)
         if last is not None and last.place == place:
@@ -156,4 +157,5 @@ class _Delay:
     def run(self, event: Event) -> None:
         """Continue it."""
         if self.rest is not None:
-            self.over, self.rest = event["t"] + self.rest, None
+            self.over = event["t"] + self.rest
+            self.rest = None

@@ -83,7 +83,9 @@ class EndsOnce:
         self._set_out_by_now[event["mission"]] = None
 
     def _end(self, event: Event) -> None:
-        mission, status, reason = event["mission"], event["status"], event["reason"]
+        mission = event["mission"]
+        status = event["status"]
+        reason = event["reason"]
         self._ended[mission] += 1
         self._waits.pop(mission, None)
         if status not in ENDS:
@@ -167,7 +169,8 @@ class CompletedDidEverything:
                 own.append(name)
 
     def _replan(self, event: Event) -> None:
-        todo, done = event["todo"], event["done"]
+        todo = event["todo"]
+        done = event["done"]
         own = [str(trip["name"]) for trip in (*done, *todo) if not trip.get("added")]
         self._own[event["mission"]] = own
         self._to_do[event["mission"]] = Counter(trip["name"] for trip in todo)

@@ -151,9 +151,13 @@ class UnreliableLink(Link):
     ) -> None:
         """`sent` is called with each flight that is ordered, `report_is_lost` at each report of one."""
         super().__init__()
-        self._line, self._world, self._brain = line, line.gateway.kernel, brain
-        self._slow, self._fired = slow, fired
-        self._sent, self._report_is_lost = sent, report_is_lost
+        self._line = line
+        self._world = line.gateway.kernel
+        self._brain = brain
+        self._slow = slow
+        self._fired = fired
+        self._sent = sent
+        self._report_is_lost = report_is_lost
         self.alive = True
         self._flights: set[int] = set()
         line.hear = self._told

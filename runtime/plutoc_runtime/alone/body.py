@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class Body(KnownState):
-    """One drone, initially in its dock. Whoever commands it waits, until when it says."""
+    """One drone, initially in its dock. The caller waits, until when it says."""
 
     def __init__(self, drone: DroneData, category: Category, world: World, clock: Clock) -> None:
         super().__init__(clock, drone.home, varied(category.motion, world.seed))

@@ -1,7 +1,7 @@
 """What a person may write: values, and tables of them, with messages such as `delay "3 m" is a length, not a time`.
 
 Numbers have limits, so that nothing that is computed from them divides by zero or overflows. Each mistake is noted
-with the path of its key; whoever reads goes on, with None in its place, and refuses all of it in the end.
+with the path of its key; the reader goes on, with None in its place, and refuses all of it in the end.
 """
 
 from __future__ import annotations

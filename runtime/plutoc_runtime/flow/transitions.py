@@ -46,7 +46,7 @@ class Transitions:
     def promise(self, mission: Mission[Any]) -> None:
         """Note what the plan promises of a mission."""
         facts = self._plan_of(mission) if self._kept else {}
-        self._note("mission.promised", mission, **plain_again(mission.promises), **facts)
+        self.note("mission.promised", mission, **plain_again(mission.promises), **facts)
 
     def _plan_of(self, mission: Mission[Any]) -> dict[str, object]:
         """Return what a journal must have of a new mission, whose trips have rows from now on."""
@@ -60,7 +60,7 @@ class Transitions:
         facts = self._plan_of(mission) if self._kept else {}
         if self._trace.live:
             names = [trip.name for trip in trips_of(mission)]
-            self._note("mission.created", mission, trips=names, **facts)
+            self.note("mission.created", mission, trips=names, **facts)
 
     def allocate(
         self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
@@ -71,7 +71,7 @@ class Transitions:
             self._changes.trip(mission, trip)
         self._changes.moved_on(mission)
         if self._trace.live:
-            self._note(
+            self.note(
                 "trip.allocated", mission, trip=trip.name, drone=drone.id, why=why, resumes_at=at
             )
 
@@ -128,13 +128,13 @@ class Transitions:
         put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
         self._changes.trip(mission, trip)
         self._changes.moved_on(mission)
-        self._note("trip.interrupted", mission, trip=trip.name)
+        self.note("trip.interrupted", mission, trip=trip.name)
 
     def _note_trip(
         self, event: str, mission: Mission[Any], trip: Trip, drone: Drone | None, **facts: object
     ) -> None:
         flown = {"trip": trip.name, "drone": drone.id if drone else None}
-        self._note(event, mission, **flown, round=mission.round, attempt=trip.attempt, **facts)
+        self.note(event, mission, **flown, round=mission.round, attempt=trip.attempt, **facts)
 
     def put_back(self, mission: Mission[Any]) -> None:
         """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
@@ -144,19 +144,19 @@ class Transitions:
         self._changes.trip(mission, trip)
         self._changes.moved_on(mission)
         facts = {"fields": fields_of(self._app, Entity.TRIP, trip)} if self._changes.kept else {}
-        self._note("trip.reset", mission, trip=trip.name, attempt=trip.attempt, **facts)
+        self.note("trip.reset", mission, trip=trip.name, attempt=trip.attempt, **facts)
 
     def skip(self, mission: Mission[Any], trip: Trip) -> None:
         """Take away a trip that shall not be flown."""
         drop_trip(mission, trip)
         self._changes.leave(mission, (trip,))
-        self._note("trip.skipped", mission, trip=trip.name)
+        self.note("trip.skipped", mission, trip=trip.name)
 
     def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
         """Set the priority of a trip."""
         put(trip, priority=priority)
         self._changes.trip(mission, trip)
-        self._note("trip.prioritised", mission, trip=trip.name, priority=priority)
+        self.note("trip.prioritised", mission, trip=trip.name, priority=priority)
 
     def replan(self, mission: Mission[Any], trips: list[Trip]) -> None:
         """Put these in place of all trips to do."""
@@ -169,7 +169,7 @@ class Transitions:
         todo = [trip_data(self._app, trip) for trip in trips]
         done = [trip_data(self._app, trip) for trip in mission.completed_trips]
         fields = fields_of(self._app, Entity.MISSION, mission)
-        self._note("mission.replanned", mission, todo=todo, done=done, fields=fields)
+        self.note("mission.replanned", mission, todo=todo, done=done, fields=fields)
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
         """Give a finished mission trips to repeat, and new ones."""
@@ -186,7 +186,7 @@ class Transitions:
             facts["trips"] = [trip_data(self._app, trip) for trip in added]
         again = [trip.name for trip in trips]
         new = [trip.name for trip in added]
-        self._note("mission.extended", mission, redo=again, add=new, **facts)
+        self.note("mission.extended", mission, redo=again, add=new, **facts)
 
     def begin_again(self, mission: Mission[Any]) -> None:
         """Start a further round of a finished mission, with the user's own trips."""
@@ -204,34 +204,31 @@ class Transitions:
         if (keeper := keeper_of(mission)) is not None:
             keeper.names = dict.fromkeys((trip.name for trip in trips), 1)
         self._changes.moved_on(mission)
-        self._note("mission.repeated", mission, round=mission.round)
+        self.note("mission.repeated", mission, round=mission.round)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Record that an action of the app's own begins: from now on it may have been done."""
-        self._note("action.begun", mission, trip=trip.name, drone=drone.id)
+        self.note("action.begun", mission, trip=trip.name, drone=drone.id)
 
     def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """Set the status that a modifier returned."""
         put(mission, status=status, reason=bounded(reason, LONGEST))
         if status in (STANDBY, UNEXECUTED):
             self._changes.moved_on(mission)
-        self._note("mission.modified", mission, status=status.value, reason=mission.reason)
+        self.note("mission.modified", mission, status=status.value, reason=mission.reason)
 
     def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
         """End a mission."""
         put(mission, status=status, reason=bounded(reason, LONGEST))
-        self._note("mission.ended", mission, status=status.value, reason=mission.reason)
+        self.note("mission.ended", mission, status=status.value, reason=mission.reason)
 
     def judge_failed(self, mission: Mission[Any], reason: str) -> None:
         """Fail a finished mission that its evaluator did not accept."""
         put(mission, status=FAILED, reason=bounded(reason, LONGEST))
-        self._note("mission.judged", mission, reason=mission.reason)
+        self.note("mission.judged", mission, reason=mission.reason)
 
     def note(self, event: str, mission: Mission[Any], **facts: object) -> None:
         """Note an event of a mission whose row has changed."""
-        self._note(event, mission, **facts)
-
-    def _note(self, event: str, mission: Mission[Any], **facts: object) -> None:
         if self._kept:
             self._changes.mission(mission.name)
         if self._trace.live:

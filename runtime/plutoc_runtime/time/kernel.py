@@ -185,7 +185,7 @@ class Task(Future[T]):
             self.set(end.value)
         except KeyboardInterrupt:
             raise
-        except BaseException as raised:  # noqa: BLE001 - it is raised in whatever awaits this
+        except BaseException as raised:  # noqa: BLE001 - it is raised in the task that awaits this
             self._leave()
             if not (isinstance(raised, Cancelled) or self._watchers or self.over):
                 self._kernel.crash(raised)

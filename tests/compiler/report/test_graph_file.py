@@ -27,7 +27,9 @@ def test_a_package_has_the_picture_of_the_editor(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     kept = json.loads(graph_file(analyse(Source("app.pluto", text))[0]))
     shown = view(Document(path="app.pluto", text=text), {})
-    blocks, ends, edges = shown["blocks"], shown["ends"], shown["edges"]
+    blocks = shown["blocks"]
+    ends = shown["ends"]
+    edges = shown["edges"]
     assert isinstance(blocks, list) and isinstance(ends, dict) and isinstance(edges, list)
     spots = {one["name"]: [one["x"], one["y"]] for one in kept["blocks"]}
     assert spots == {one["name"]: [one["x"], one["y"]] for one in blocks} | ends

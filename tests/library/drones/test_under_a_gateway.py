@@ -62,7 +62,8 @@ def measuring(drone: str, there: Point) -> Task:
 async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_path: Path) -> None:
     """When it is back, and still not commanded, it lands, too."""
     async with commanded(tmp_path, 3, PATIENCE) as (flown, gateway):
-        link, lost = Commander(gateway.link(1)), flown.drones["cf2"]
+        link = Commander(gateway.link(1))
+        lost = flown.drones["cf2"]
         await flown.do(link.fleet_report())
         for id in flown.drones:
             link.heartbeat()
@@ -81,7 +82,8 @@ async def test_without_a_brain_all_land_and_a_silent_one_delays_no_other(tmp_pat
 async def test_while_the_gateway_is_held_up_its_brain_is_not_silent(tmp_path: Path) -> None:
     """What it said meanwhile is still to be read; a brain that says nothing after that is silent."""
     async with commanded(tmp_path, 1, PATIENCE) as (flown, gateway):
-        line, drone = gateway.link(1), flown.drones["cf1"]
+        line = gateway.link(1)
+        drone = flown.drones["cf1"]
         link = Commander(line)
         await flown.do(link.fleet_report())
         link.heartbeat()

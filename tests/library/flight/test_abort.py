@@ -14,7 +14,8 @@ from tests.kit.living import Living, enterable, names
 
 def delayed(living: Living, seconds: float) -> None:
     """Let reports of flights take some seconds to the brain."""
-    line, kernel = living.gateway.commander, living.kernel
+    line = living.gateway.commander
+    kernel = living.kernel
     assert line is not None
     hear = line.hear
 

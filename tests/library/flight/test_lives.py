@@ -143,7 +143,8 @@ def test_nothing_is_told_before_it_is_on_record(tried: Tried, durable: list[str]
 def test_on_a_full_disk_all_drones_land_and_nothing_more_is_told(
     tried: Tried, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    append, left = Store.append, [2]
+    append = Store.append
+    left = [2]
 
     def full(store: Store, entries: list[Entry]) -> None:
         left[0] -= len(entries)

@@ -63,7 +63,8 @@ class Commander:
     def __init__(self, link: Link) -> None:
         self.link = link
         self.telemetry = link.telemetry
-        self.fleet_report, self.drone_report = link.fleet_report, link.drone_report
+        self.fleet_report = link.fleet_report
+        self.drone_report = link.drone_report
         self.bring_down = link.bring_down
         self.flown: list[Flown] = []
         """What was told of commands that drones have flown."""

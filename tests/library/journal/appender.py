@@ -23,13 +23,13 @@ def say(word: object) -> None:
     print(word, flush=True)
 
 
-def fill(writer: Writer, number: int) -> None:
+def fill(store: Store, writer: Writer, number: int) -> None:
     """Add an entry, and now and then wait for the disk, or copy the journal."""
     writer.add(Entry(text(number)))
     if number % 7 == 0:
         writer.flush()
     if number % 500 == 0:
-        writer.copy()
+        store.copy()
 
 
 if __name__ == "__main__":
@@ -42,4 +42,4 @@ if __name__ == "__main__":
     )
     writer = Writer(store, say, failures.append)
     for number in count(store.seq + 1):
-        fill(writer, number)
+        fill(store, writer, number)

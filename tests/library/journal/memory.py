@@ -18,7 +18,8 @@ class Memory:
     """The same as a `Store`; what was added and not committed is lost in a crash."""
 
     def __init__(self, header: Event, clock: Callable[[], float] | None = None) -> None:
-        self.header, self.epoch = header, 1
+        self.header = header
+        self.epoch = 1
         self.failure: JournalError | None = None
         self.room: int | None = None
         """How many entries the disk still takes; None: as many as there will ever be."""
@@ -64,7 +65,8 @@ class Memory:
 
     def commit(self) -> int:
         """Make durable what was added; return the number of the last entry."""
-        entries, self._pending = self._pending, []
+        entries = self._pending
+        self._pending = []
         self.append(entries)
         return self.seq
 

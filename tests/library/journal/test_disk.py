@@ -75,7 +75,7 @@ def test_on_a_full_disk_nothing_is_acknowledged_and_the_last_words_still_fit(
     writer = Writer(store, told.append, failures.append)
     with full_disk(room), pytest.raises(JournalError):
         for number in count(1):
-            fill(writer, number)
+            fill(store, writer, number)
     assert store.last_words(WHY)
     writer.close()
     store.close()

@@ -39,7 +39,8 @@ def pass_time(kernel: VirtualTime) -> None:
 
 def test_a_measurement_waits_for_the_next_entry() -> None:
     """So it costs no write of its own, and no order waits for it."""
-    kernel, disk = VirtualTime(), Disk()
+    kernel = VirtualTime()
+    disk = Disk()
     recorder = Recorder(kernel, disk, Standing(), none_changed)
     recorder.measure(event("drone.flew"))
     pass_time(kernel)
@@ -61,7 +62,8 @@ def test_a_call_that_waits_is_not_kept_waiting_by_a_measurement() -> None:
 
 
 def test_what_is_left_at_the_end_is_written_then() -> None:
-    kernel, disk = VirtualTime(), Disk()
+    kernel = VirtualTime()
+    disk = Disk()
     recorder = Recorder(kernel, disk, Standing(), none_changed)
     recorder.measure(event("drone.flew"))
     recorder.finish()
@@ -69,7 +71,9 @@ def test_what_is_left_at_the_end_is_written_then() -> None:
 
 
 def test_the_rows_of_an_instant_are_written_with_its_events() -> None:
-    kernel, disk, standing = VirtualTime(), Disk(), Standing()
+    kernel = VirtualTime()
+    disk = Disk()
+    standing = Standing()
     changed: list[Row] = [("drone", ("cf1",), {"trips": 1})]
 
     def rows() -> list[Row]:

@@ -105,14 +105,10 @@ class AtOnce:
         self._added += 1
         return self._added
 
-    def copy(self) -> None:
-        """Copy the journal."""
-        self.flush()
-        self._store.copy()
-
     def flush(self) -> None:
         """Make all added entries durable; raise a `JournalError` if that fails."""
-        entries, self._entries = self._entries, []
+        entries = self._entries
+        self._entries = []
         if self._store.failure is not None:
             raise self._store.failure
         if entries:

@@ -185,7 +185,8 @@ class _Folding:
         )
 
     def _drone(self, id: str, t: float) -> Any:
-        told, known = self._told, self._tracks.at(id, t)
+        told = self._told
+        known = self._tracks.at(id, t)
         why = told.lost.get(id, "" if known.at else NOT_TOLD)
         seen = None
         if known.at is not None:

@@ -78,7 +78,8 @@ def _late(record: Record, event: Event) -> None:
 
 
 def _changed(record: Record, event: Event) -> None:
-    at, gone = event["at"], len(event["gone"])
+    at = event["at"]
+    gone = len(event["gone"])
     _replace(record, [*record["todo"][:at], *event["put"], *record["todo"][at + gone :]])
     record["fields"] = event["fields"]
 

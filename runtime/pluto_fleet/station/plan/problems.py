@@ -97,7 +97,8 @@ def read(
     app: App, airspace: Airspace, missions: Sequence[Shape], known: Collection[str] = ()
 ) -> tuple[list[Mission[Any]], list[PlanProblem]]:
     """Return the missions to fly, as far as valid, and their problems; `known` are other missions."""
-    document, names = Document("", {"mission": [*map(as_in_a_file, missions)]}), own_names(app)
+    document = Document("", {"mission": [*map(as_in_a_file, missions)]})
+    names = own_names(app)
     found = read_missions(document, app, airspace, known) if missions else []
     problems = [
         _problem(missions, one.path, sentence(one.text, names), sentence(one.sentence, names))

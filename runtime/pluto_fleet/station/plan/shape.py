@@ -26,7 +26,8 @@ Shape = dict[str, object]
 """A mission or a trip as JSON."""
 
 MOST_MISSIONS, MOST_TRIPS = 1_000, 10_000
-COMPLETED, BROKEN_OFF = "COMPLETED", "BROKEN_OFF"
+COMPLETED = "COMPLETED"
+BROKEN_OFF = "BROKEN_OFF"
 MOMENTS = ("opens", "deadline")
 """When a mission may begin, and when it is due: in a file they are its window, or its deadline."""
 

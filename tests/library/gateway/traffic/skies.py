@@ -139,7 +139,8 @@ class Restless:
         ]
 
     async def _one(self, drone: str) -> None:
-        chance, link = self.chance, self.sky.commander
+        chance = self.chance
+        link = self.sky.commander
         for _ in range(self.trips):
             await self.sky.pause(chance.choice([0.0, 0.0, 1.0, 7.0]))
             stops = chance.choices(self.targets, k=chance.choice([1, 1, 2]))

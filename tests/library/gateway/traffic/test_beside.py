@@ -75,7 +75,8 @@ def test_a_brain_that_comes_while_the_action_is_done_is_told_once_more() -> None
         sky.advance(0.1)
         assert sky.kernel.now < 120
     sky.commander = sky.link(2)
-    second, reported = sky.commander.flown, list[object]()
+    second = sky.commander.flown
+    reported = list[object]()
     there = sky.sends(sky.commander.fleet_report())
     assert sky.until(there, 1)
     sky.commander.attach("M/A/0/1", reported.append)

@@ -22,7 +22,8 @@ AGO = 60.0
 
 def shown(folder: Path, seen: list[Any] | None, **known: Any) -> DroneRow:
     """Return the row of a drone; what was seen is whether it has landed, how long ago, and what failed."""
-    journal, records = folder / "a.journal", Standing(inherited(known))
+    journal = folder / "a.journal"
+    records = Standing(inherited(known))
     if seen is not None:
         landed, ago, failure, why = (*seen, "", "")[:4]
         told = {

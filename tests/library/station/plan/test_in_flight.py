@@ -24,7 +24,8 @@ def flies(done: int = 1) -> tuple[MissionPlan, Json, Record]:
     plan = drawn(mission(NAME, *(trip(key, target=[i, 3]) for i, key in enumerate(KEYS, 2))))
     (one,), keys = plan.launchable()
     plan.launched(keys)
-    records, data = Told(), mission_data(APP, one)
+    records = Told()
+    data = mission_data(APP, one)
     told: dict[str, Any] = {"t": 1.0, "mission": NAME, "drone": "cf1", "round": 0, "attempt": 1}
     records.take({**told, "event": "mission.created", "plan": data})
     for number in range(1, done + 2):

@@ -57,7 +57,9 @@ def test_what_is_supposed_of_a_real_drone_is_said() -> None:
 
 
 def test_lost_retired_and_hovering_drones_fly_nothing_and_say_why() -> None:
-    lost, retired, mended = Standing(), Standing(), Standing()
+    lost = Standing()
+    retired = Standing()
+    mended = Standing()
     lost.lose(ENTRY.id, "it fell", None)
     retired.with_drone(ENTRY.id, retired=True)
     mended.with_drone(ENTRY.id, mended=True)

@@ -71,7 +71,7 @@ function revertedList(before, after, now) {
     });
   const here = byKey(items);
   const inBoth = (/** @type {Keyed[]} */ all) => all.map(({ key }) => key).filter((key) => was.has(key) && is.has(key) && here.has(key));
-  if (isSame(inBoth(items), inBoth(after))) { // nobody has moved them since
+  if (isSame(inBoth(items), inBoth(after))) { // their order is unchanged since
     const next = inBoth(before).values();
     items = items.map((one) => (was.has(one.key) && is.has(one.key) ? here.get(next.next().value ?? "") ?? one : one));
   }
