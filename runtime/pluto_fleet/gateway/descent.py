@@ -1,38 +1,36 @@
 """Bringing all drones down at once, where they are or each at home, and apart from one another.
 
-A drone that goes home does so even if it is on the ground elsewhere, with what it carries.
+Each asks traffic for a way, as for any flight, and gets the best one that is free. To land, the lowest asks
+first: layer after layer. A drone that goes home does so even if it is on the ground elsewhere, with what it carries.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Sequence
+from collections.abc import Sequence
 from functools import partial
 from itertools import islice
-from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from operator import itemgetter
+from typing import TYPE_CHECKING
 
 from ..jobs.reports import Down
 from ..shared.domain.errors import FlightFailed
 from ..shared.fleet.reach import docked
 from ..shared.time.kernel import FLEET, Kernel, Task
-from .traffic.choosing import DescendingDrone
-from .traffic.courses import Course, course
-from .traffic.timetable import Timetable, timetable
+from .traffic.reservations import meets
 from .traffic.ways import ways_home
 
 if TYPE_CHECKING:
     from ..jobs.controls import FleetDrone
     from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
     from .executor import Executor
     from .traffic.traffic import Traffic
     from .traffic.ways import Section
 
-_LOOK = 0.1
-"""The polling interval while others are to pass first, in seconds."""
 _NEAR = 60
-"""How many ways to the ground are considered, other than straight below."""
-
-_Command = Callable[[], Coroutine[Any, Any, None]]
+"""How many ways to the ground are considered, straight below first."""
+_HINDERS = 5.0
+"""Seconds that a drone flies longer rather than where another is, or is to land."""
 
 
 class Descent:
@@ -48,63 +46,55 @@ class Descent:
     ) -> None:
         self._kernel, self._pilots, self._airspace = kernel, pilots, airspace
         self._drones, self._traffic = drones, traffic
-        self._places = {drone.id: drone.index for drone in drones}
-        self._tasks: list[Task[bool]] = []
-        self._plan = Timetable()
-        self._at: dict[str, tuple[int, int]] = {}
-        """The drones' progress: the piece of its course that each left last, and its next stop."""
 
     async def down(self, how: Down) -> None:
         """Bring them down; if cancelled, they hover."""
+        order = sorted(self._drones, key=lambda drone: self._turn(drone, how))
+        tasks: list[Task[None]] = []
         try:
-            goers = self._goers(how)
-            if self._traffic is None:
-                self._at_once(goers)
-            else:
-                now, later = self._split(goers, self._traffic)
-                self._in_turn(timetable(now, self._traffic.limit), later)
-            for task in self._tasks:
+            for rank, drone in enumerate(order, start=1):
+                comes = self._comes(drone, how)
+                tasks.append(self._kernel.spawn(comes, FLEET + rank, f"{drone.id} comes down"))
+            for task in tasks:
                 await task
         finally:
-            for task in self._tasks:
+            for task in tasks:
                 task.cancel()
 
-    # The plan
+    def _turn(self, drone: FleetDrone, how: Down) -> float:
+        """Return what orders the drones: who has the longest way home asks first, or the shortest way down."""
+        ways = self._ways(drone, how)
+        seconds = ways[0].seconds(drone.category) if ways else 0.0
+        return seconds if how is Down.LAND else -seconds
 
-    def _goers(self, how: Down) -> list[DescendingDrone]:
-        """Return the drones that are to come down, with their courses: home, or near to where they are.
+    async def _comes(self, drone: FleetDrone, how: Down) -> None:
+        """Bring one down; where it has to land aside to let others pass, it goes home from there."""
+        ways: list[Section] = []
 
-        The one with the longest way home chooses first: the others have time. One that lands below others
-        chooses before them.
-        """
-        found = []
-        for drone in self._drones:
-            ways = self._ways_home(drone) if how is Down.HOME else []
-            if not ways and not self._pilots.telemetry[drone.id].landed:
-                ways = self._ways_down(drone)
-            if ways:
-                courses = sorted((self._course(drone, way) for way in ways), key=attrgetter("cost"))
-                found.append(DescendingDrone(drone.id, courses))
-        sign = 1 if how is Down.LAND else -1
-        return sorted(found, key=lambda goer: sign * goer.courses[0].seconds)
+        def plan() -> Section:
+            ways[:] = self._ways(drone, how)
+            return ways[0]
 
-    def _split(
-        self, goers: Sequence[DescendingDrone], traffic: Traffic
-    ) -> tuple[list[DescendingDrone], list[DescendingDrone]]:
-        """Return the drones that go by the plan, and those that go when there is room.
+        try:
+            while self._ways(drone, how):
+                begins = partial(self._pilots.begins, drone.id)
+                await self._pilots.travels(
+                    drone.id, plan, begins, ways=lambda _: ways, anywhere=True
+                )
+        except FlightFailed:
+            pass  # it is lost, or has fallen
 
-        With a limit of drones in the air, none of these may have to wait for one on the ground.
-        """
-        stand = [goer for goer in goers if traffic.is_limited and goer.courses[0].section.stands]
-        return [goer for goer in goers if goer not in stand], stand
-
-    def _ways_down(self, drone: FleetDrone) -> list[Section]:
-        if self._traffic is None:
-            return [self._pilots.way_down(drone.id)]
-        return [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
+    def _ways(self, drone: FleetDrone, how: Down) -> list[Section]:
+        """Return the ways to where a drone is to be, the best first; none if it is there, or stays where it stands."""
+        ways = self._ways_home(drone) if how is Down.HOME else []
+        if ways or self._pilots.telemetry[drone.id].landed:
+            return ways
+        if self._traffic is not None:
+            ways = [*islice(self._traffic.ground.ways_down(drone.id), _NEAR)]
+        return ways or [self._pilots.way_down(drone.id)]
 
     def _ways_home(self, drone: FleetDrone) -> list[Section]:
-        """Return courses home; none if it is there, or cannot get there."""
+        """Return ways home; none if it is there, or cannot get there."""
         telemetry, traffic = self._pilots.telemetry[drone.id], self._traffic
         if telemetry.landed and docked(telemetry.location, drone.home):
             return []
@@ -112,104 +102,24 @@ class Descent:
             return []  # another stands there
         step = 0.0 if traffic is None else traffic.step
         here = self._pilots.place(drone.id)
-        ways = ways_home(self._airspace, drone, here, telemetry.landed, step)
-        kind = drone.category
-        enough = telemetry.battery_level * kind.endurance
-        return [way for way in ways if self._course(drone, way).seconds < enough]
+        enough = telemetry.battery_level * drone.category.endurance
+        places = self._places(drone.id)
+        found: list[tuple[float, Section]] = []
+        for way in ways_home(self._airspace, drone, here, telemetry.landed, step):
+            seconds = way.seconds(drone.category)
+            if seconds < enough:
+                hinders = sum(meets(way.points, place, step) for place in places)
+                found.append((seconds + _HINDERS * hinders, way))
+        return [way for _, way in sorted(found, key=itemgetter(0))]
 
-    def _course(self, drone: FleetDrone, way: Section) -> Course:
-        return course(way, drone.category.speed, drone.category.motion)
-
-    # Flying it
-
-    def _at_once(self, goers: Sequence[DescendingDrone]) -> None:
-        """Fly all by the quickest way: they are not kept apart."""
-        for goer in goers:
-            self._send(goer.drone, partial(self._flies, goer.drone, goer.courses[0].section))
-
-    def _in_turn(self, plan: Timetable, later: Sequence[DescendingDrone]) -> None:
-        """Fly all by the plan, and then those without a planned course."""
-        self._plan = plan
-        self._at = dict.fromkeys(plan.courses, (0, 0))
-        for drone in plan.courses:
-            self._send(drone, partial(self._follows, drone))
-        for goer in (*plan.without, *later):
-            ways = [one.section for one in goer.courses]
-            self._send(goer.drone, partial(self._flies, goer.drone, *ways))
-
-    async def _flies(self, drone: str, *ways: Section) -> None:
-        begins = partial(self._pilots.begins, drone)
-        await self._pilots.travels(
-            drone, lambda: ways[0], begins, ways=lambda _: ways, anywhere=True
-        )
-
-    async def _follows(self, drone: str) -> None:
-        """Fly stretch by stretch to the end, each time as far as those that go first have passed."""
-        last = len(self._plan.courses[drone].pieces) - 1
-        telemetry, at = self._pilots.telemetry[drone], 0
-        try:
-            self._pilots.begins(drone)
-            while at < last:
-                to = self._free(drone, at)
-                if to == at:
-                    await self._kernel.sleep(_LOOK)
-                    continue
-                self._at[drone] = at, to
-                await self._pilots.travels(
-                    drone, partial(self._stretch, drone), ways=_no_other, anywhere=True
-                )
-                if telemetry.landed:
-                    return
-                at = to
-                self._at[drone] = at, at
-            if not telemetry.landed:  # it was stopped while it left its dock: that is no way to fly
-                await self._pilots.land(drone)
-        finally:
-            del self._at[drone]
-
-    def _stretch(self, drone: str) -> Section:
-        """Return a drone's next stretch, from where it is: it may have been stopped on the way."""
-        (first, last), one = self._at[drone], self._plan.courses[drone]
-        telemetry = self._pilots.telemetry[drone]
-        here = self._pilots.place(drone)
-        first = max(first, one.piece_at(here, first, last) - 1)
-        return one.stretch(here, telemetry.landed, first, last)
-
-    def _free(self, drone: str, at: int) -> int:
-        """Return its next resting place; the present one, if another has to pass first."""
-        last = len(self._plan.courses[drone].pieces) - 1
-        waits = [
-            piece for piece, other, its in self._plan.after[drone] if not self._left(other, its)
-        ]
-        free = min((piece - 1 for piece in waits if piece > at), default=last)
-        return self._plan.rest_after(drone, at, free)
-
-    def _left(self, drone: str, piece: int) -> bool:
-        """Return whether a drone has left a piece of its course."""
-        if drone not in self._at:
-            return True  # it is down, or fails
-        if self._traffic is not None and self._traffic.touches_down(drone):
-            return True
-        first, last = self._at[drone]
-        if last <= piece and first == last:
-            return False
-        here = self._pilots.telemetry[drone].location
-        return self._plan.courses[drone].piece_at(here, first, last) > piece
-
-    def _send(self, drone: str, command: _Command) -> None:
-        key = FLEET + 1 + self._places[drone]
-        self._tasks.append(self._kernel.spawn(_well(command), key, f"{drone} comes down"))
-
-
-async def _well(command: _Command) -> bool:
-    """Return whether a command succeeded; a failure does not hold up other drones."""
-    try:
-        await command()
-    except FlightFailed:
-        return False
-    return True
-
-
-def _no_other(section: Section) -> Sequence[Section]:
-    """No alternative: the plan of all others relies on this course."""
-    return (section,)
+    def _places(self, drone: str) -> list[tuple[Point, ...]]:
+        """Return where the others hover that are to come down, and where they will land."""
+        places: list[tuple[Point, ...]] = []
+        if self._traffic is None:
+            return places
+        for other in self._drones:
+            if other.id != drone and not self._pilots.telemetry[other.id].landed:
+                x, y, _ = other.home
+                places.append((self._pilots.place(other.id),))
+                places.append(((x, y, 0.0), (x, y, self._airspace.cruise_height)))
+        return places

@@ -139,11 +139,6 @@ class Space:
                 return claim
         return None
 
-    def touches_down(self, drone: str) -> bool:
-        """Return whether a real drone is about to be on the ground: it reports to fly for seconds more."""
-        claim = self.claims.get(drone)
-        return self._is_real and claim is not None and claim.touches_down(self._kernel.now)
-
     def lost(self, drone: str) -> None:
         """Called when a drone's position is unknown: it is down when its battery is empty at the latest."""
         self._silent[drone] = self._kernel.now + self._drones[drone].category.endurance

@@ -80,7 +80,6 @@ class Traffic:
         )
         self._space.changed = self._waiting.changed
         self._claims = self._space.claims
-        self.touches_down = self._space.touches_down
         self.place = self._space.place
         self.lost, self.found = self._space.lost, self._space.found
         self._free: dict[str, None] = {}
@@ -247,7 +246,7 @@ class Traffic:
             obstacle = self._obstacle_on(wait, index)
             if obstacle is None and not self._is_kept(wait, index):
                 obstacle = self._obstacle(way)  # where all are now, also if not on their routes
-                if obstacle is None:
+                if obstacle is None and (not way.lands or self.ground.may_land(way)):
                     return way
             wait.obstacles[index] = obstacle
             due = min(due, now + HOVERS if obstacle is None else obstacle.due)
@@ -302,8 +301,9 @@ class Traffic:
         """Return a free section to a place beside the target, which another drone has taken."""
         if not self._space.has_room(section):
             return None
+        category = self._drones[section.drone].category
         target = section.points[-1]
-        best, least, soon = None, inf, self._seconds(section)
+        best, least, soon = None, inf, section.seconds(category)
         holder = self._space.holder(target, section.drone)
         holders = holder.points if holder is not None and holder.moves else None
         angle = best_angle(section.points, holders)
@@ -316,10 +316,10 @@ class Traffic:
             if self._is_shut(section.drone, place):
                 continue
             way = self._to_beside(section, place)
-            if way is None or self._seconds(way) + far >= least:
+            if way is None or way.seconds(category) + far >= least:
                 continue  # so it is at other heights, where it takes longer still
             for one in sections(way, self.level, self._airspace):
-                cost = max(soon, self._seconds(one)) + far
+                cost = max(soon, one.seconds(category)) + far
                 is_free = cost < least and self._space.blocker(one) is None
                 if is_free and not self._elder(one, since):
                     best, least = one, cost
@@ -328,13 +328,6 @@ class Traffic:
     def _is_shut(self, drone: str, place: Point) -> bool:
         """Whether a drone cannot be at a place now, for another is there, or will come by."""
         return self._space.blocker(Section(drone, (place,), True, False)) is not None
-
-    def _seconds(self, way: Section) -> float:
-        """Return how long a way takes that ends in the air."""
-        category = self._drones[way.drone].category
-        points = way.points[1 if way.stands else 0 :]
-        stages = category.motion.stages(points, category.speed, way.stands, False)
-        return sum(before + flies + after for _, before, flies, after in stages)
 
     def _is_taken(self, section: Section, since: float) -> bool:
         """Whether another drone hovers at a section's end or will, or an older one waits for it."""

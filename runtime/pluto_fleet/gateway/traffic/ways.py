@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ...jobs.controls import FleetDrone
     from ...jobs.telemetry import Telemetry
     from ...shared.domain.airspace import Airspace
-    from ...shared.domain.model import Point
+    from ...shared.domain.model import Category, Point
     from .reservations import Box
 
 
@@ -55,6 +55,12 @@ class Section:
         whole = (*self.points, *self.tail) if self.tail else self.points
         object.__setattr__(self, "whole", whole)
         object.__setattr__(self, "box", box_of(whole))
+
+    def seconds(self, category: Category) -> float:
+        """Return how long a drone of this category takes for it."""
+        way = self.points[1 if self.stands else 0 : -1 if self.lands else None] or self.points
+        stages = category.motion.stages(way, category.speed, self.stands, self.lands)
+        return sum(before + flies + after for _, before, flies, after in stages)
 
     def bent(self, offset: float) -> Section:
         """Return the section with the middle of its only leg raised, which costs next to nothing."""
@@ -225,6 +231,14 @@ class Ground:
             if other != drone and telemetry.landed
         )
         return [*docks, *standing]
+
+    def may_land(self, section: Section) -> bool:
+        """Return whether a section's end is still free, or no place is: another may have landed there meanwhile."""
+        drone = section.drone
+        return (
+            self.below(drone, section.points[-1]) is not None
+            or next(self.ways_down(drone), None) is None
+        )
 
     def way_down(self, drone: str) -> Section:
         """Return the best way to the ground; straight down if none is free."""

@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
 from math import dist
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.gateway.traffic.courses import course, near
 from pluto_fleet.gateway.traffic.legs import between
 from pluto_fleet.gateway.traffic.reservations import box_of, meets, nearest
 from pluto_fleet.gateway.traffic.ways import Section, sections
 from pluto_fleet.shared.domain.airspace import Airspace
-from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
 
 metres = st.one_of(st.floats(-3, 3), st.integers(-2, 2).map(float))
 points = st.tuples(metres, metres, metres)
@@ -55,41 +52,6 @@ def test_ways_meet_where_they_are_nearer_than_that(
         assert meets(one, other, limit) == (exact < limit)
     x, y, z, most_x, most_y, most_z = box_of(one)
     assert all(x <= p[0] <= most_x and y <= p[1] <= most_y and z <= p[2] <= most_z for p in one)
-
-
-@settings(max_examples=60)
-@given(ways, ways)
-def test_pieces_that_are_near_are_found(
-    one: tuple[tuple[float, float, float], ...], other: tuple[tuple[float, float, float], ...]
-) -> None:
-    """However the ways are cut; and each piece begins where the one before ends."""
-    first, second = (
-        course(Section("cf1", (*way, way[-1]), False, False), 0.5, STRAIGHT) for way in (one, other)
-    )
-    found = {(i, j) for i, least, most in near(first, second, 0.5) for j in range(least, most + 1)}
-    for i, a in enumerate(first.pieces):
-        for j, b in enumerate(second.pieces):
-            assert ((i, j) in found) == (between(a.start, a.end, b.start, b.end) < 0.5)
-    for before, after in pairwise(first.pieces):
-        assert before.end == after.start
-
-
-@settings(max_examples=60)
-@given(ways, st.sampled_from([STRAIGHT, CRAZYFLIE]), st.floats(0.1, 2))
-def test_a_drone_leaves_the_pieces_of_a_course_one_after_the_other(
-    way: tuple[tuple[float, float, float], ...], motion: Motion, speed: float
-) -> None:
-    """In one go or with rests on the way, which never takes less than the least."""
-    points = (*way, (way[-1][0], way[-1][1], way[-1][2] - 1.0))
-    one = course(Section("cf1", points, False, True), speed, motion)
-    end = len(one.pieces) - 1
-    assert one.rests[0] == 0 and one.rests[-1] == end
-    for first, last in [(0, end), *pairwise(one.rests)]:
-        times = one.times(first, last)
-        assert len(times) == last - first + 1
-        assert times[0] >= 0.0 and list(times) == sorted(times)
-    rested = sum(one.times(first, last)[-1] for first, last in pairwise(one.rests))
-    assert one.least[0] <= rested + 1e-9
 
 
 def test_other_heights_are_below_the_ceiling_and_not_below_where_drones_fly_anyway() -> None:
