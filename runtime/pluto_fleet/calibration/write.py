@@ -11,6 +11,7 @@ import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
 from ..files.reading import PlanTable, parsed
+from ..process.whole_file import write_whole
 from ..shared.alone.files import read_motion
 from ..shared.domain.errors import BadInput
 from .report import in_file
@@ -62,13 +63,7 @@ def _changed(path: Path, text: str, values: dict[str, str]) -> tuple[dict[str, o
 def _replace(path: Path, text: str) -> None:
     """Write the file as a whole, or not at all."""
     file = Path(os.path.realpath(path))
-    part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
-        try:
-            part.write_bytes(text.encode())
-            part.chmod(file.stat().st_mode & 0o777)
-            part.replace(file)
-        finally:
-            part.unlink(missing_ok=True)
+        write_whole(file, text, mode=file.stat().st_mode & 0o777)
     except OSError as error:
         raise BadInput(f"{path}: it cannot be written: {error.strerror or error}") from None

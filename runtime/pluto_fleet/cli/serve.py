@@ -24,14 +24,13 @@ from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..station.config import StationConfig
 from ..station.flight_files import FlightFiles
-from ..station.map.pictures import floor_plan
+from ..station.map.pictures import floor_plan, logo_of, title_of
 from ..station.plan.plan import MissionPlan
 from ..station.session import Phase
-from ..station.sign import logo_of, title_of
 from ..station.station import Station
 from ..station.web.audit import Audit
 from ..station.web.guard import Guard, needs_token, proper_name
-from ..station.web.listening import address, listening, port_of
+from ..station.web.server import address, listening, port_of
 from .interrupts import Interrupts
 from .plans import load_fleet
 from .preflight import check_flight

@@ -25,6 +25,7 @@ import msgspec
 from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
+from ..process.whole_file import write_whole
 from ..shared.alone.world import World
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
@@ -277,7 +278,5 @@ def _kept(folder: Path) -> dict[str, dict[str, Any]]:
 
 
 def _write(folder: Path, drones: Mapping[str, Mapping[str, object]]) -> None:
-    part = folder / f".{DRONES}.part"
     with suppress(OSError):
-        part.write_text(json.dumps(drones), encoding="utf-8")
-        part.replace(folder / DRONES)
+        write_whole(folder / DRONES, json.dumps(drones))

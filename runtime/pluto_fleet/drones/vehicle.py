@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import os
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -15,6 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import place
@@ -55,13 +55,8 @@ class Cargo:
             del self._aboard[drone]
         else:
             self._aboard[drone] = item
-        part = self._file.with_name(f".{NAME}.part")
         try:
-            with part.open("w", encoding="utf-8") as file:
-                json.dump(self._aboard, file)
-                file.flush()
-                os.fsync(file.fileno())
-            part.replace(self._file)
+            write_whole(self._file, json.dumps(self._aboard), durable=True)
         except OSError as error:
             self._say(f"{self._file} cannot be written: {error}")
 

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import msgspec
 
 from ..jobs.telemetry import Subscription
+from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure
 from ..shared.domain.model import Point
 
@@ -134,9 +135,7 @@ def at_home(folder: Path, homes: Mapping[str, Point]) -> None:
 
 
 def _keep(path: Path, drones: Mapping[str, Sighting]) -> None:
-    part = path.with_name(f".{path.name}.part")
-    part.write_bytes(msgspec.json.encode(drones))
-    part.replace(path)
+    write_whole(path, msgspec.json.encode(drones))
 
 
 def _kept(path: Path) -> dict[str, Sighting]:

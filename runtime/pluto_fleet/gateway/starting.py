@@ -16,6 +16,7 @@ from ..jobs.reports import Down
 from ..process import locks, respawn
 from ..process.ipc import ask
 from ..process.ipc import connect as open_connection
+from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
 from .process import ANOTHER_RUNS, LOCK, LOG, NO_ROOM, NOTE, SETTINGS
 from .remote import GATEWAY_TIMEOUT, RemoteLink
@@ -60,7 +61,7 @@ async def connect(
             pass  # there is no gateway yet
         else:
             if speed_in(folder) != settings.speed:
-                _write(folder, settings)
+                write_whole(folder / SETTINGS, json.dumps(data_of(settings)))
             return link
         if process is None or process.poll() is not None:
             if process is not None and _broke(process.returncode):
@@ -104,7 +105,7 @@ def start(
 ) -> subprocess.Popen[bytes]:
     """Start a gateway that outlives this process; its output goes to its log."""
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
-    _write(folder, settings)
+    write_whole(folder / SETTINGS, json.dumps(data_of(settings)))
     _STARTED[:] = [process for process in _STARTED if process.poll() is None]
     if (folder / LOG).exists() and (folder / LOG).stat().st_size > _LONG:
         (folder / LOG).replace(folder / f"{LOG}.old")
@@ -112,12 +113,6 @@ def start(
     process = respawn.start(words, folder / LOG)
     _STARTED.append(process)
     return process
-
-
-def _write(folder: Path, settings: Settings) -> None:
-    part = folder / f".{SETTINGS}.{os.getpid()}.part"
-    part.write_text(json.dumps(data_of(settings)), encoding="utf-8")
-    part.replace(folder / SETTINGS)
 
 
 def speed_in(folder: Path) -> float | None:

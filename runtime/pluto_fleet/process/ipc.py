@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.errors import BadInput
 from .forked import not_for_children
+from .whole_file import write_whole
 
 if TYPE_CHECKING:
     from asyncio import StreamReader, StreamWriter
@@ -231,14 +232,7 @@ def new_address(note: Path) -> Path:
 def publish(note: Path, address: Path) -> None:
     """Write the note with the socket's address atomically, once a process listens there."""
     note.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    part = note.with_name(f".{note.name}.{os.getpid()}.part")
-    try:
-        part.write_text(f"{address}\n", encoding="utf-8")
-        part.replace(note)
-    except OSError:
-        with suppress(OSError):
-            part.unlink()
-        raise
+    write_whole(note, f"{address}\n")
 
 
 def address_in(note: Path) -> Path | None:

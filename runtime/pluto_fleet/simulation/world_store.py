@@ -17,6 +17,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.hooks.plain_data import item_data, item_of, value_data, value_of
 from .body import SimulatedBody
@@ -160,8 +161,6 @@ class WorldStore:
         text = json.dumps(
             {"moment": asdict(self._moment()), "time": self._clock(), "drones": drones}
         )
-        part = self._drones.with_name(f"{DRONES}.part")
         with suppress(OSError):  # it is written again at the next change
-            part.write_text(text, encoding="utf-8")
-            part.replace(self._drones)
+            write_whole(self._drones, text)
             self._stale = False

@@ -21,12 +21,13 @@ from ..journal.reader import Reader
 from ..journal.standing import Standing, inherited
 from ..journal.store import Store
 from ..process.untrusted import parsed
+from ..process.whole_file import write_whole
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..simulation.world_store import DRONES
 from . import rows
-from .attention.causes import Cause, of_drones
+from .attention import Cause, of_drones
 
 if TYPE_CHECKING:
     from ..app import App
@@ -233,9 +234,7 @@ class FleetHistory:
         drones = {"lost": known.lost, "mended": known.mended, "retired": known.retired}
         text = json.dumps({"kind": self._kind, "drones": drones})
         with suppress(OSError):  # the journal has it, too
-            part = self._file.with_name(f"{self._file.name}.part")
-            part.write_text(text, encoding="utf-8")
-            part.replace(self._file)
+            write_whole(self._file, text)
 
     @property
     def facts(self) -> dict[str, object]:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .map.drawn import DrawnMap
-    from .sign import Logo
+    from .map.pictures import Logo
     from .wire import Layer
     from .wire_app import (
         ActionData,

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 
 from ..shared.domain.errors import BadInput
 from .history.past import PastFlights
-from .map.file import MapFile
-from .places import name_of
+from .map.drawn import MapFile, name_of
 from .results.flights import ResultsOfFlights
 
 if TYPE_CHECKING:

@@ -23,13 +23,21 @@ from ..journal.standing import Standing
 from ..shared import output
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from . import rows
-from .attention.causes import Cause, of_drones, of_missions, of_reserves, of_results
-from .attention.waiting import Waits, of_batteries, of_waiting
+from .attention import (
+    Cause,
+    Waits,
+    of_batteries,
+    of_drones,
+    of_missions,
+    of_reserves,
+    of_results,
+    of_waiting,
+)
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
 from .history.folder import recording_of
 from .history.recorder import Recorder
-from .plan.missing import settled
+from .plan.in_flight import settled
 from .plan.shape import BROKEN_OFF
 from .results.meaning import SIMULATED_UNITS
 from .results.rows import NameOf, nowhere

@@ -28,16 +28,16 @@ from ..process.ipc import NoAnswer, NotRunning
 from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
-from .attention.attention import FILE as ALERTS
-from .attention.attention import Attention
+from .attention import FILE as ALERTS
+from .attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .config import described
 from .flight_changes import FlightChanges
 from .map.drawn import DrawnMap
 from .map.ways import DrawnWays
-from .plan.library import PlanLibrary
-from .plan.promised import broken, promised
-from .preflight.start import StartForecasts
+from .plan.kept import PlanLibrary
+from .plan.problems import broken, promised
+from .preflight.preflight import StartForecasts
 from .results.exports import CurrentFlight, Exports
 from .session import FlightSession, Phase, phase_of
 from .updates import Updates
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from .config import StationConfig
     from .flight_files import FlightFiles
     from .plan.plan import MissionPlan
-    from .preflight.start import PlannedStart
+    from .preflight.preflight import PlannedStart
     from .wire import Forecast
 
 ANSWERS_KEPT = 1_000

@@ -18,7 +18,7 @@ from .session import phase_of
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
-    from .attention.attention import Attention
+    from .attention import Attention
     from .between_flights import FleetHistory
     from .map.drawn import DrawnMap
     from .plan.plan import MissionPlan

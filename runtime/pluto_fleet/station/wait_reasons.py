@@ -1,18 +1,19 @@
-"""Why a mission waits for a drone, and which free drone is ready."""
+"""Why a mission waits for a drone, which free drone is ready, and when a battery is high enough."""
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from math import ceil, floor
+from math import ceil, floor, inf
 from typing import TYPE_CHECKING, Any
 
 from ..shared.domain.app import moving
+from ..shared.domain.motion import charged, charging
 from ..shared.domain.status import IN_THE_AIR, DroneStatus
 from ..shared.domain.text import percent
-from ..shared.fleet.reach import Reach, chain_of, docked, miss_of
+from ..shared.fleet.reach import LOW, Reach, chain_of, docked, miss_of
+from ..shared.fleet.reach import docked as stands_in_its_dock
 from ..shared.hooks.plain_data import trip_of
-from .charging import ready_in, to_fly
 from .words import words
 
 if TYPE_CHECKING:
@@ -20,10 +21,35 @@ if TYPE_CHECKING:
     from ..shared.brain import Brain
     from ..shared.domain.app import App
     from ..shared.domain.fleet_data import DroneData, FleetData
-    from ..shared.domain.model import Trip
+    from ..shared.domain.model import Category, Point, Trip
     from .wire import Scalar, Words
 
     Facts = dict[str, Scalar | list[str]]
+
+
+def to_fly(kind: Category) -> float:
+    """Return the level from which a drone has more in its battery than its way home takes."""
+    return min(1.0, kind.reserve + LOW)
+
+
+def ready_in(kind: Category, level: float, wanted: float, *, docked: bool) -> float | None:
+    """Return the seconds until a battery has the level that is wanted; None: it never will.
+
+    A drone charges only in its dock, if its fleet does at all. Levels are from 0 to 1; 0 seconds: it has it already.
+    """
+    if level >= wanted:
+        return 0.0
+    if not docked or wanted > 1.0 or kind.charge_time == inf:
+        return None
+    return charging(level, wanted, kind.charge_time, kind.motion.taper)
+
+
+def level_after(kind: Category, level: float, seconds: float, at: Point, home: Point) -> float:
+    """Return the level of a battery so many seconds later, of a drone that stands on the ground."""
+    if seconds <= 0.0 or kind.charge_time == inf or not stands_in_its_dock(at, home):
+        return level
+    return charged(level, seconds, kind.charge_time, kind.motion.taper)
+
 
 LOOK_EVERY = 3.0
 """Seconds after which a reason is updated."""

@@ -3,26 +3,249 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import stat
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
+from math import dist
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ...files.landmarks import Picture
+from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
+from ...files.landmarks_text import landmark_tables, with_landmarks
+from ...files.reading import Document, PlanTable, parsed, text_of
+from ...process.whole_file import write_whole
+from ...shared.alone.files import read_map
+from ...shared.domain.airspace import EPSILON, distance, inside
 from ...shared.domain.errors import BadInput, PlutoError
-from ..places import name_of
-from ..whole_file import write_whole
-from .file import MapFile
+from ...shared.domain.text import printable
 from .pictures import floor_plan, safe_name
-from .shapes import landmarks_from, picture_of, places_of, zones_of
 
 if TYPE_CHECKING:
-    from ...files.landmarks import Landmarks
-    from ...shared.domain.airspace import Airspace
-    from ..wire import MapData
+    from ...shared.domain.airspace import Airspace, Corner, Polygon
+    from ..wire import MapData, Place, Zone
+    from ..wire import Picture as PictureData
+
+
+NEAR = 0.5
+"""Metres within which a point is at a named place."""
+
+
+def name_of(landmarks: Landmarks, point: Sequence[float]) -> str | None:
+    """Return the name of the nearest place within half a metre, else of the smallest zone around a point.
+
+    The edge of a zone belongs to it; heights do not count. None: the point has no name.
+    """
+    x, y = point[:2]
+    near = [(dist(one.at[:2], (x, y)), one.name) for one in landmarks.places]
+    metres, name = min(near, default=(NEAR + 1.0, ""))
+    if metres <= NEAR:
+        return name
+    around = [zone for zone in landmarks.zones if _contains(zone.corners, (x, y))]
+    smallest = min(around, key=lambda zone: _ground(zone.corners), default=None)
+    return None if smallest is None else smallest.name
+
+
+def _contains(corners: Polygon, point: Corner) -> bool:
+    edges = zip(corners, (*corners[1:], corners[0]), strict=True)
+    return inside(point, corners) or any(distance(point, a, b) <= EPSILON for a, b in edges)
+
+
+def _ground(corners: Polygon) -> float:
+    """Return how much ground a polygon covers, in square metres."""
+    edges = zip(corners, (*corners[1:], corners[0]), strict=True)
+    return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges)) / 2
+
+
+_DIGITS = 3
+"""What is drawn is kept to a millimetre, and to a thousandth of a degree."""
+
+
+def places_of(landmarks: Landmarks) -> list[Place]:
+    """Return the named places for pages."""
+    found: list[Place] = []
+    for one in landmarks.places:
+        x, y, *height = one.at
+        place: Place = {"name": one.name, "x": x, "y": y}
+        found.append({**place, "z": height[0]} if height else place)
+    return found
+
+
+def zones_of(landmarks: Landmarks) -> list[Zone]:
+    """Return the zones for pages."""
+    return [
+        {"name": one.name, "corners": [[x, y] for x, y in one.corners]} for one in landmarks.zones
+    ]
+
+
+def picture_of(picture: Picture, address: str) -> PictureData:
+    """Return where the floor plan lies for pages."""
+    (x, y), (width, height) = picture.at, picture.size
+    return {
+        "address": address,
+        "x": x,
+        "y": y,
+        "width": width,
+        "height": height,
+        "turn": picture.turn,
+    }
+
+
+def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspace) -> Landmarks:
+    """Return what a page has drawn; what it does not send stays. Raises `BadInput` with all that is wrong."""
+    for key in given:
+        if key not in ("places", "zones", "north", "image"):
+            raise BadInput(f"the map has no {key}: it has places, zones, north and image")
+    data: dict[str, object] = {"north": was.north, **landmark_tables(was)}
+    if "places" in given:
+        data["places"] = [_place(one) for one in _list(given["places"], "places")]
+    if "zones" in given:
+        data["zones"] = [_rounded(one) for one in _list(given["zones"], "zones")]
+    if "north" in given:
+        data["north"] = _rounded(given["north"])
+    if given.get("image") is not None:
+        data["image"] = _image(given["image"], was.picture)
+    document = Document("", {"map": data})
+    landmarks = read_landmarks(PlanTable(document, data, ("map",), "the map"), airspace)
+    document.refuse_if_bad()
+    return landmarks if "image" in given else replace(landmarks, picture=was.picture)
+
+
+def _place(given: object) -> object:
+    """Return a place as in a file."""
+    if not isinstance(given, dict):
+        return given
+    at = [given[key] for key in ("x", "y") if key in given]
+    at += [given["z"]] if given.get("z") is not None else []
+    rest = {key: value for key, value in given.items() if key not in ("x", "y", "z")}
+    return {**rest, "at": _rounded(at)}
+
+
+def _image(given: object, known: Picture | None) -> dict[str, object]:
+    """Return the floor plan as in a file: a page says where it lies, and not which it is."""
+    if known is None:
+        raise BadInput("the map has no floor plan yet: send its picture first")
+    if not isinstance(given, dict):
+        raise BadInput("image must be null, or say where the floor plan lies")
+    x, y, width, height = (given.get(key) for key in ("x", "y", "width", "height"))
+    of_file = {"at": [x, y], "size": [width, height], "turn": given.get("turn", 0.0)}
+    return {"file": known.file, **{key: _rounded(value) for key, value in of_file.items()}}
+
+
+def _list(given: object, name: str) -> list[Any]:
+    if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
+        raise BadInput(f"{name} must be a list of objects")
+    return given
+
+
+def _rounded(given: object) -> object:
+    match given:
+        case float():
+            return round(given, _DIGITS) + 0.0
+        case list():
+            return [_rounded(one) for one in given]
+        case dict():
+            return {key: _rounded(one) for key, one in given.items()}
+        case _:
+            return given
+
+
+_MARK = "\ufeff".encode()
+"""What some editors put before the text."""
+
+
+class MapFile:
+    """A fleet file, or one with a `[map]` alone."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._text: str | None = None
+        self.landmarks = NO_LANDMARKS
+        """Those of the file when it was read last."""
+
+    @property
+    def folder(self) -> Path:
+        """Where it lies, and pictures beside it."""
+        return self.path.parent
+
+    def read(self) -> bool:
+        """Read it; return whether its landmarks have changed. Raises `BadInput` if it cannot be read."""
+        text = text_of(self.path) if os.path.lexists(self.path) else None
+        if text == self._text:
+            return False
+        if text is None:
+            raise BadInput(f"{self._called} is not there any more: put it back first")
+        _, found, _ = self._content(text)
+        self._text, before, self.landmarks = text, self.landmarks, found
+        return found != before
+
+    @property
+    def why_not(self) -> str:
+        """Why it cannot be written; empty: it can."""
+        target = self._target
+        may = os.access(target.parent, os.W_OK | os.X_OK)
+        if target.exists():
+            may = may and os.access(target, os.W_OK)
+        return "" if may else f"{self._called} may only be read: nothing is kept that is drawn"
+
+    def write(self, landmarks: Landmarks) -> None:
+        """Write other landmarks into it; raise `BadInput` if that cannot be done, and nothing changes then."""
+        if self.why_not:
+            raise BadInput(self.why_not)
+        text = self._text or ""
+        airspace, _, rest = self._content(text)
+        size = airspace.size
+        written = with_landmarks(text, self.landmarks, landmarks, size)
+        flown, found, still = self._content(written)
+        if (flown, still) != (airspace, rest) or _sorted(found) != _sorted(landmarks):
+            raise BadInput(
+                f"{self._called} is written so that what is drawn cannot be put into it without changing"
+                " more: write [map], and below it [[map.places]] and [[map.zones]]"
+            )
+        target = self._target
+        try:
+            mode = stat.S_IMODE(target.stat().st_mode) if target.exists() else 0o644
+            begins = target.read_bytes()[: len(_MARK)] if target.exists() else b""
+            written_as = (_MARK if begins == _MARK else b"") + written.encode()
+            write_whole(target, written_as, mode=mode, durable=True)
+        except OSError as error:
+            raise BadInput(f"{self._called} cannot be written: {error.strerror or error}") from None
+        self._text, self.landmarks = written, found
+
+    @property
+    def _called(self) -> str:
+        return printable(str(self.path))
+
+    @property
+    def _target(self) -> Path:
+        """The file itself, where the path is a link to it."""
+        return Path(os.path.realpath(self.path))
+
+    def _content(self, text: str) -> tuple[Airspace, Landmarks, Any]:
+        """Return a text's map, its landmarks, and all else in it."""
+        document = parsed(self._called, text)
+        table = PlanTable(document, document.data).table("map")
+        airspace = read_map(table)
+        landmarks = read_landmarks(table, airspace)
+        document.refuse_if_bad()
+        assert airspace is not None  # else there was a problem
+        of_map: Any = document.data.get("map", {})
+        rest = {key: value for key, value in of_map.items() if key not in KEYS}
+        return airspace, landmarks, {**document.data, "map": rest}
+
+
+def _sorted(landmarks: Landmarks) -> object:
+    """Return landmarks to be compared: what is there already keeps its order in a file."""
+    return (
+        set(landmarks.places),
+        set(landmarks.zones),
+        landmarks.north,
+        landmarks.picture,
+    )
+
 
 WITHOUT_A_FLEET_FILE = "map.toml"
 """The file of landmarks where there is no fleet file, in the station's own folder."""
@@ -106,7 +329,7 @@ class DrawnMap:
             is_new = not place.exists()
             try:
                 if is_new:
-                    await asyncio.to_thread(write_whole, place, content, 0o644)
+                    await asyncio.to_thread(write_whole, place, content, mode=0o644, durable=True)
                 picture = Picture(file=place.name, size=self._airspace.size)
                 await self._keep(replace(self.landmarks, picture=picture))
             except BadInput:

@@ -1,15 +1,16 @@
-"""Floor plans: which pictures may be one, and where they are kept."""
+"""Pictures that are shown: floor plans, where they are kept, and the logo in the head of all pages."""
 
 from __future__ import annotations
 
 import os
 import re
+from dataclasses import dataclass
 from hashlib import sha256
 from pathlib import Path
 from xml.etree import ElementTree
 
 from ...shared.domain.errors import BadInput
-from ...shared.domain.text import quoted, shown
+from ...shared.domain.text import printable, quoted, shown
 
 PICTURES = {
     ".jpeg": "image/jpeg",
@@ -78,3 +79,46 @@ def safe_name(given: str, content: bytes) -> str:
     """Return under which name a picture is kept: one of its own, so that it replaces no other."""
     stem = re.sub(r"[^a-z0-9]+", "-", Path(given).stem.lower())[:_LONGEST_STEM].strip("-")
     return f"{stem or 'floor-plan'}-{sha256(content).hexdigest()[:12]}{ending_of(content)}"
+
+
+LONGEST_TITLE = 60
+LARGEST_LOGO = 200_000
+"""Bytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Logo:
+    """A picture in the head of all pages."""
+
+    type: str
+    content: bytes
+
+    @property
+    def address(self) -> str:
+        """Its address; another picture has another."""
+        return f"/logo?v={sha256(self.content).hexdigest()[:12]}"
+
+
+def title_of(text: str) -> str:
+    """Return a title that is given; raise `BadInput` if it is none that a line can show."""
+    title = text.strip()
+    if not 0 < len(title) <= LONGEST_TITLE or printable(title) != title:
+        raise BadInput(
+            f"--title {quoted(text)}: a title is one line of 1 to {LONGEST_TITLE} characters"
+        )
+    return title
+
+
+def logo_of(file: Path) -> Logo:
+    """Read a logo; raise `BadInput` if it is no picture, or too large."""
+    try:
+        with file.open("rb") as opened:
+            content = opened.read(LARGEST_LOGO + 1)
+    except OSError as error:
+        raise BadInput(f"--logo {file}: it cannot be read: {error.strerror}") from None
+    if len(content) > LARGEST_LOGO:
+        raise BadInput(f"--logo {file}: a logo has at most {LARGEST_LOGO // 1000} kB")
+    try:
+        return Logo(PICTURES[ending_of(content)], content)
+    except BadInput as error:
+        raise BadInput(f"--logo {file}: {error}") from None

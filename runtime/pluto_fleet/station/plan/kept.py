@@ -1,29 +1,31 @@
-"""The plan's file: replaced atomically, and never deleted for being unreadable."""
+"""Plans in the station's folder: the one that is drawn, and those that are kept under names."""
 
 from __future__ import annotations
 
+import asyncio
 import json
 import os
-from collections.abc import Mapping, Sequence
+import re
+import time
+import unicodedata
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from ...files.reading import listed
+import msgspec
+
+from ...files.reading import LARGEST, decoded, listed
+from ...process.whole_file import write_whole
+from ...shared.domain import values
 from ...shared.domain.errors import BadInput
-from ...shared.domain.fields import Entity
-from ...shared.domain.text import printable
+from ...shared.domain.text import cut_off, printable, quoted
 from ...shared.domain.values import shown
-from ..whole_file import write_whole
-from .shape import MISSION_KEYS, TRIP_KEYS, Shape, fields_of, missions_from
+from .shape import Shape, missions_from, without_unknown
 
 if TYPE_CHECKING:
     from ...app import App
-
-LARGEST = 1 << 25
-"""The largest file in bytes; the largest possible plan is smaller."""
-
-VERSION = 1
+    from ..wire import SavedPlan, SavedPlans, TrashedPlan
 
 _NOT_JSON = "it is damaged, or is something else"
 
@@ -38,15 +40,25 @@ class KeptPlan:
     """A message about it for users."""
 
 
+class _Head(msgspec.Struct):
+    version: Literal[1]
+    app: str
+
+
+class _File(_Head):
+    revision: Annotated[int, msgspec.Meta(ge=0)]
+    missions: list[dict[str, Any]]
+
+
 class _Unreadable(Exception):
     """The file is not a plan of this app."""
 
 
 def write(path: Path, app: App, revision: int, missions: Sequence[Shape]) -> None:
     """Store a plan atomically; raise `OSError` if that fails."""
-    data = {"version": VERSION, "app": app.name, "revision": revision, "missions": missions}
+    data = {"version": 1, "app": app.name, "revision": revision, "missions": missions}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
-    write_whole(path, text.encode())
+    write_whole(path, text, durable=True)
 
 
 def read(path: Path, app: App) -> KeptPlan:
@@ -54,107 +66,251 @@ def read(path: Path, app: App) -> KeptPlan:
     if not os.path.lexists(path):
         return KeptPlan()
     try:
-        data = _data(path)
-        if data.get("app") != app.name:
-            raise _Unreadable(f"it is of {shown(data.get('app'))}, and this is {app.name}")
-        return _kept(path, data, app)
+        content = _content(path)
+        kept, gone = _kept(content, app)
     except _Unreadable as error:
-        why = str(error)
-    aside = _aside(path)
-    try:
-        os.replace(path, aside)
-    except OSError as error:
-        raise _in_the_way(path, why, error) from None
-    return KeptPlan(
-        said=f"The plan that was kept cannot be read: {why}. It lies in {printable(str(aside))}, "
-        f"and {printable(str(path))} begins anew."
+        aside = _put_aside(path, str(error), lambda aside: os.replace(path, aside))
+        return KeptPlan(
+            said=f"The plan that was kept cannot be read: {error}. It lies in {aside}, "
+            f"and {printable(str(path))} begins anew."
+        )
+    if not gone:
+        return kept
+    aside = _put_aside(path, "it is of another app", lambda aside: aside.write_bytes(content))
+    said = (
+        f"The plan that was kept has {listed(gone)}, which this app does not have any more. The "
+        f"rest is here; as it was, it lies in {aside}."
     )
+    return KeptPlan(missions=kept.missions, revision=kept.revision, said=said)
 
 
-def _data(path: Path) -> dict[str, object]:
+def _content(path: Path) -> bytes:
     try:
-        if not path.is_file():
-            raise _Unreadable(_NOT_JSON)
-        with path.open("rb") as file:
-            content = file.read(LARGEST + 1)
+        if path.is_file():  # a pipe is not waited for
+            return path.read_bytes()
     except OSError as error:
-        raise _Unreadable(_unreadable(error)) from None
-    if len(content) > LARGEST:
-        raise _Unreadable("it is larger than any plan")
+        raise _Unreadable((error.strerror or str(error)).lower()) from None
+    raise _Unreadable(_NOT_JSON)
+
+
+def _kept(content: bytes, app: App) -> tuple[KeptPlan, list[str]]:
+    """Return a plan, and the fields in it that only an earlier graph of the app had."""
     try:
-        data = json.loads(content)
-    except (ValueError, RecursionError):
+        head = msgspec.json.decode(content, type=_Head)
+        if head.app != app.name:
+            raise _Unreadable(f"it is of {shown(head.app)}, and this is {app.name}")
+        data = msgspec.json.decode(content, type=_File)
+        missions, gone = without_unknown(data.missions, app)
+    except (msgspec.DecodeError, RecursionError):
         raise _Unreadable(_NOT_JSON) from None
-    if not isinstance(data, dict) or data.get("version") != VERSION:
-        raise _Unreadable(_NOT_JSON)
-    return data
-
-
-def _kept(path: Path, data: Mapping[str, object], app: App) -> KeptPlan:
-    revision, given = data.get("revision"), data.get("missions")
-    if isinstance(revision, bool) or not isinstance(revision, int) or revision < 0:
-        raise _Unreadable(_NOT_JSON)
-    missions, gone = _without_gone(given, app)
     try:
         shapes = missions_from(missions, app)
     except BadInput as error:
         raise _Unreadable(str(error)) from None
     for shape, was in zip(shapes, missions, strict=True):
-        shape["launched"], shape["ended"] = was.get("launched") is True, was.get("ended")
-        if done := was.get("done"):
-            shape["done"] = done
-    if not gone:
-        return KeptPlan(missions=shapes, revision=revision)
-    aside = _aside(path)
-    try:
-        aside.write_bytes(path.read_bytes())
-    except OSError as error:
-        raise _in_the_way(path, _unreadable(error), error) from None
-    said = (
-        f"The plan that was kept has {listed(gone)}, which this app does not have any more. The "
-        f"rest is here; as it was, it lies in {printable(str(aside))}."
-    )
-    return KeptPlan(missions=shapes, revision=revision, said=said)
+        shape["launched"] = was.get("launched") is True
+        shape["ended"] = was.get("ended")
+        if was.get("done"):
+            shape["done"] = was["done"]
+    return KeptPlan(missions=shapes, revision=data.revision), gone
 
 
-def _without_gone(given: object, app: App) -> tuple[list[Shape], list[str]]:
-    """Remove fields that only an earlier graph of the app had."""
-    gone: dict[str, None] = {}
-
-    def known(one: object, keys: Sequence[str]) -> Shape:
-        if not isinstance(one, dict):
-            raise _Unreadable(_NOT_JSON)
-        gone.update(dict.fromkeys(key for key in one if key not in keys))
-        return {key: value for key, value in one.items() if key in keys}
-
-    if not isinstance(given, list):
-        raise _Unreadable(_NOT_JSON)
-    missions = []
-    for element in given:
-        mission = known(element, (*MISSION_KEYS, *fields_of(app, Entity.MISSION)))
-        trips = mission.get("trips")
-        if isinstance(trips, list):
-            keys = (*TRIP_KEYS, *fields_of(app, Entity.TRIP))
-            mission["trips"] = [known(trip, keys) for trip in trips]
-        missions.append(mission)
-    return missions, list(gone)
-
-
-def _unreadable(error: OSError) -> str:
-    return (error.strerror or str(error)).lower()
-
-
-def _in_the_way(path: Path, why: str, error: OSError) -> BadInput:
-    return BadInput(
-        f"{path}: the plan that was kept cannot be read ({why}), and cannot be put aside either: "
-        f"{error.strerror or error}"
-    )
-
-
-def _aside(path: Path) -> Path:
-    """Return an unused name beside the plan's."""
-    aside, number = path.with_name(f"{path.name}.bad"), 1
+def _put_aside(path: Path, why: str, put: Callable[[Path], object]) -> str:
+    """Put a plan under an unused name beside its own, and return that for people."""
+    aside = path.with_name(f"{path.name}.bad")
+    number = 1
     while os.path.lexists(aside):
         number += 1
         aside = path.with_name(f"{path.name}.bad-{number}")
-    return aside
+    try:
+        put(aside)
+    except OSError as error:
+        raise BadInput(
+            f"{path}: the plan that was kept cannot be read ({why}), and cannot be put aside either: "
+            f"{error.strerror or error}"
+        ) from None
+    return printable(str(aside))
+
+
+SUFFIX, TRASH = ".toml", "trash"
+MOST, MOST_IN_TRASH = 500, 100
+"""The most plans that are kept; of those in the trash the newest."""
+
+_LONGEST, _LONGEST_BYTES = 80, 200
+_FORBIDDEN = re.compile(r'[/\\:*?"<>|]')
+_ABOUT = "# station: "
+"""How the first line begins, which tells about the plan in JSON; a plan without it may be one, too."""
+
+_IN_TRASH = re.compile(r"([0-9a-f]{12})~(.+)")
+
+Read = Callable[[str, str], tuple[int, str]]
+"""Returns how many missions a text with a name has, and what is still wrong; raises `BadInput` if it is no plan."""
+
+
+class PlanLibrary:
+    """The plans of one folder, each in a file of its name."""
+
+    def __init__(self, folder: Path, read: Read, now: Callable[[], float] = time.time) -> None:
+        self._folder, self._trash = folder, folder / TRASH
+        self._read, self._now = read, now
+        self.one_at_a_time = asyncio.Lock()
+        """To be held while a thread does any of this."""
+        self._known: dict[Path, tuple[object, SavedPlan]] = {}
+        """What was found in files that have not changed since."""
+
+    def everything(self) -> SavedPlans:
+        """Return all plans, and what is in the trash."""
+        return {"plans": self.plans(), "trash": self.trash()}
+
+    def plans(self) -> list[SavedPlan]:
+        """Return all plans, also those that cannot be read, with what is wrong; the newest first."""
+        known = {file: self._about(file) for file in _files(self._folder)}
+        self._known = known
+        return sorted((plan for _, plan in known.values()), key=lambda one: -one["saved_at"])
+
+    def trash(self) -> list[TrashedPlan]:
+        """Return what was deleted, the newest first."""
+        found: list[TrashedPlan] = []
+        for file in _files(self._trash):
+            if (parts := _IN_TRASH.fullmatch(file.stem)) is not None:
+                found.append({"id": file.stem, "name": parts[2], "deleted_at": int(parts[1], 16)})
+        return sorted(found, key=lambda one: -one["deleted_at"])
+
+    def save(self, name: str, text: str, by: str, *, template: bool, replace: bool) -> None:
+        """Keep a plan under a name; one that has it goes to the trash, if it may be replaced."""
+        file = self._file(name)
+        if not text:
+            raise BadInput("the plan is empty: there is nothing to keep yet")
+        about = json.dumps({"by": cut_off(printable(by), _LONGEST), "template": template})
+        content = f"{_ABOUT}{about}\n{text}".encode()
+        if len(content) > LARGEST:
+            raise BadInput("the plan is too large to be kept under a name: export it instead")
+        others = [one for one in _files(self._folder) if one != file]
+        if len(others) >= MOST:
+            raise BadInput(f"{MOST} plans are kept already: delete one first")
+        if file.exists() and not replace:
+            raise BadInput(
+                f"there is a plan {quoted(file.stem)} already: replace it, or take another name"
+            )
+        try:
+            self._folder.mkdir(mode=0o700, exist_ok=True)
+            if file.exists():
+                self._throw_away(file)
+            write_whole(file, content, durable=True)
+        except OSError as error:
+            raise BadInput(f"the plan cannot be kept: {error.strerror or error}") from None
+
+    def text(self, name: str) -> str:
+        """Return a plan as a missions file."""
+        return _text(self._found(name))
+
+    def delete(self, name: str) -> None:
+        """Put a plan into the trash."""
+        file = self._found(name)
+        try:
+            self._throw_away(file)
+        except OSError as error:
+            raise BadInput(f"the plan cannot be deleted: {error.strerror or error}") from None
+
+    def restore(self, id: str) -> None:
+        """Take a plan out of the trash, under its name."""
+        for file in _files(self._trash):
+            parts = _IN_TRASH.fullmatch(file.stem)
+            if file.stem != id or parts is None:
+                continue
+            place = self._file(parts[2])
+            if place.exists():
+                raise BadInput(f"there is a plan {quoted(parts[2])} again: delete that one first")
+            try:
+                file.rename(place)
+            except OSError as error:
+                raise BadInput(f"the plan cannot be restored: {error.strerror or error}") from None
+            return
+        raise BadInput("this plan is not in the trash any more")
+
+    def _file(self, name: str) -> Path:
+        """Return the file of a name; raise `BadInput` if it can be none."""
+        proper = unicodedata.normalize("NFC", name)
+        try:
+            values.name(proper)
+        except ValueError as error:
+            raise BadInput(f"the plan's name {quoted(name)} {error}") from None
+        if _FORBIDDEN.search(proper) or proper.startswith("."):
+            raise BadInput(
+                f"the plan's name {quoted(name)} cannot be that of a file: it may not begin with a point,"
+                ' nor hold / \\ : * ? " < > |'
+            )
+        if len(proper) > _LONGEST or len(proper.encode()) > _LONGEST_BYTES:
+            raise BadInput(f"the plan's name {quoted(name)} is too long: write a shorter one")
+        return self._folder / f"{proper}{SUFFIX}"
+
+    def _found(self, name: str) -> Path:
+        file = self._file(name)
+        if file not in _files(self._folder):
+            raise BadInput(f"there is no plan {quoted(name)}")
+        return file
+
+    def _throw_away(self, file: Path) -> None:
+        """Move a file to the trash, of which the oldest go for good."""
+        self._trash.mkdir(mode=0o700, exist_ok=True)
+        stamp = round(self._now() * 1000)
+        while (place := self._trash / f"{stamp:012x}~{file.name}").exists():
+            stamp += 1
+        file.rename(place)
+        for old in sorted(_files(self._trash))[:-MOST_IN_TRASH]:
+            old.unlink()
+
+    def _about(self, file: Path) -> tuple[object, SavedPlan]:
+        """Return what is to be told of a plan, and when its file was like this."""
+        found = file.stat()
+        state = found.st_mtime_ns, found.st_size
+        known = self._known.get(file)
+        if known is not None and known[0] == state:
+            return known
+        plan: SavedPlan = {
+            "name": file.stem,
+            "saved_at": found.st_mtime_ns // 1_000_000,
+            "by": "",
+            "missions": None,
+            "template": False,
+            "said": "",
+        }
+        try:
+            text = _text(file)
+            about = _about_in(text)
+            plan["by"], plan["template"] = str(about.get("by", "")), about.get("template") is True
+            plan["missions"], plan["said"] = self._read(text, file.name)
+        except BadInput as error:
+            plan["said"] = str(error)
+        return state, plan
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Yield the files of plans in a folder, links and folders left out."""
+    try:
+        found = sorted(folder.iterdir())
+    except FileNotFoundError:  # nothing was kept yet
+        return
+    for file in found:
+        if file.suffix == SUFFIX and file.is_file() and not file.is_symlink():
+            yield file
+
+
+def _text(file: Path) -> str:
+    try:
+        with file.open("rb") as opened:
+            return decoded(opened.read(LARGEST + 1), file.name)
+    except OSError as error:
+        raise BadInput(f"{file.name}: it cannot be read: {error.strerror or error}") from None
+
+
+def _about_in(text: str) -> dict[str, object]:
+    """Return what the first line tells about a plan."""
+    first = text.partition("\n")[0]
+    if not first.startswith(_ABOUT):
+        return {}
+    try:
+        found = json.loads(first.removeprefix(_ABOUT))
+    except (ValueError, RecursionError):
+        return {}  # it was written over: the plan itself may be as good
+    return found if isinstance(found, dict) else {}

@@ -15,12 +15,10 @@ from ...shared.domain.text import counted, printable, quoted
 from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
-from .in_flight import differs, followed
-from .missing import only_missing
+from .in_flight import differs, followed, only_missing
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, bare, read
 from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
-from .text import NAME, renamed, shapes_of, text_of
-from .unfinished import unfinished_shapes
+from .text import NAME, renamed, shapes_of, text_of, unfinished_shapes
 
 if TYPE_CHECKING:
     from ...app import App

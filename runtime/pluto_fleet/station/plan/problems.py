@@ -1,17 +1,21 @@
-"""The problems of a plan: the checks of a missions file, worded for pages."""
+"""The problems of a plan: the checks of a missions file, worded for pages; and promises that cannot be kept."""
 
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from copy import deepcopy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import read_missions
 from ...files.plan_check import unflyable
+from ...files.promise_check import impossible
 from ...files.promises import moment
 from ...files.reading import Document
 from ...shared.domain.values import shown
+from ...shared.time.hours import Hours
 from .shape import MOMENTS, Shape, trips_of
 
 if TYPE_CHECKING:
@@ -253,3 +257,28 @@ class FlyabilityCache:
 
     def _found(self, mission: Shape, airspace: Airspace) -> Sequence[PlanProblem]:
         return unflyable_trips(self._app, self._fleet, airspace, mission)
+
+
+MOST = 10
+"""The most sentences that are told at once."""
+
+
+def promised(missions: Sequence[Mission[Any]]) -> Sequence[Mission[Any]]:
+    """Return copies of missions, as their flight changes them; none if nothing is promised of any."""
+    return deepcopy(missions) if any(one.promises for one in missions) else ()
+
+
+async def broken(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> Sequence[str]:
+    """Return a sentence for each promise that cannot be kept, found in a thread: flights go on meanwhile."""
+    if not missions:
+        return ()
+    beside = replace(fleet, airspace=replace(fleet.airspace))  # threads share no cache of routes
+    return await asyncio.to_thread(_sentences, missions, app, beside, Hours(time.time(), ""))
+
+
+def _sentences(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, hours: Hours
+) -> Sequence[str]:
+    found = [sentence(one, ()) for one in impossible(missions, app, fleet, hours)]
+    more = len(found) - MOST
+    return found if more <= 0 else [*found[:MOST], f"… and {more} more"]

@@ -71,7 +71,6 @@ _MISSION: Mapping[str, Any] = {
 }
 TRIP_KEYS = tuple(_TRIP)
 """The keys of every app's trips; the graph adds more."""
-MISSION_KEYS = (*_MISSION, "after", "trips")
 _NEEDED = {"key", "action", "trips"}
 
 
@@ -89,6 +88,10 @@ def _struct(name: str, kinds: Mapping[str, Any], needed: Collection[str]) -> typ
     return msgspec.defstruct(name, fields, kw_only=True, forbid_unknown_fields=True)
 
 
+def _kinds_of(app: App) -> tuple[Any, Any]:
+    return _kinds(tuple(fields_of(app, Entity.MISSION)), tuple(fields_of(app, Entity.TRIP)))
+
+
 def missions_from(given: object, app: App) -> list[Shape]:
     """Return missions in a normal form; raise `BadInput` if they do not fit the schema."""
     missions = [_mission(one) for one in _read(given, app, "mission")]
@@ -99,6 +102,26 @@ def missions_from(given: object, app: App) -> list[Shape]:
 def trips_from(given: object, app: App) -> list[Shape]:
     """Return a mission's trips in a normal form; raise `BadInput` if they do not fit the schema."""
     return [_trip(one) for one in _read(given, app, "trip")]
+
+
+def without_unknown(missions: Sequence[Shape], app: App) -> tuple[Sequence[Shape], list[str]]:
+    """Return missions without the fields that this app does not have, and the names of those."""
+    gone: dict[str, None] = {}
+
+    def known(one: Shape, kind: Any) -> Shape:
+        keys = kind.__struct_fields__
+        gone.update(dict.fromkeys(key for key in one if key not in keys))
+        return {key: value for key, value in one.items() if key in keys}
+
+    of_mission, of_trip = _kinds_of(app)
+    found = []
+    for one in missions:
+        trips = msgspec.convert(one.get("trips", []), list[dict[str, Any]])
+        mission = known(one, of_mission)
+        if "trips" in one:
+            mission["trips"] = [known(trip, of_trip) for trip in trips]
+        found.append(mission)
+    return found, list(gone)
 
 
 def check_together(missions: Sequence[Shape]) -> None:
@@ -128,9 +151,7 @@ def fields_of(app: App, entity: Entity) -> list[str]:
 
 def _read(given: object, app: App, what: Literal["mission", "trip"]) -> list[Any]:
     """Return the structs of missions or trips."""
-    on_missions = tuple(fields_of(app, Entity.MISSION))
-    on_trips = tuple(fields_of(app, Entity.TRIP))
-    kinds = _kinds(on_missions, on_trips)
+    kinds = _kinds_of(app)
     kind = kinds[0] if what == "mission" else kinds[1]
     try:
         found: list[Any] = msgspec.convert(given, list[kind])  # type: ignore[valid-type]

@@ -1,4 +1,4 @@
-"""Converting a plan to a missions file, and back."""
+"""Converting a plan to a missions file, and back: complete, or as a page has drawn it so far."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from ...files.missions_text import mission_table, trip_table
 from ...files.promises import KEYS
 from ...files.reading import parsed
 from ...files.toml import toml_value
+from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.values import point
 from .problems import as_in_a_file
-from .shape import Shape, fields_of, trips_of
+from .shape import TRIP_KEYS, Shape, fields_of, trips_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from ...files.landmarks import Landmarks
     from ...shared.domain.airspace import Airspace
     from ...shared.domain.model import Trip
+
 
 NAME = "missions.toml"
 """The name of a file in messages, if its sender gives none."""
@@ -158,3 +160,30 @@ def _metres(place: Sequence[object] | str, landmarks: Landmarks) -> list[object]
         metres if isinstance(given, str) else given
         for given, metres in zip(place, read, strict=True)
     ]
+
+
+def unfinished_shapes(text: str, app: App, file: str) -> list[Shape]:
+    """Return the missions of a text, without keys; raise `BadInput` if no page can have drawn them.
+
+    What they hold is checked when they are taken into a plan.
+    """
+    data = parsed(file, text).data
+    missions = data.get("mission", [])
+    if data.keys() - {"mission"} or not isinstance(missions, list):
+        raise BadInput(f"{file}: is no plan")
+    return [_unfinished(one, number, app, file) for number, one in enumerate(missions, 1)]
+
+
+def _unfinished(given: Any, number: int, app: App, file: str) -> Shape:
+    trips = given.get("trip", []) if isinstance(given, dict) else None
+    if not isinstance(trips, list) or not all(isinstance(one, dict) for one in trips):
+        raise BadInput(f"{file}: mission {number} is none")
+    rest = {key: _plain(value) for key, value in given.items() if key != "trip"}
+    match rest.pop("window", None):
+        case [opens, deadline]:
+            rest |= {"opens": opens, "deadline": deadline}
+    if isinstance(rest.get("after"), str):
+        rest["after"] = [rest["after"]]
+    keys = (*TRIP_KEYS, *fields_of(app, Entity.TRIP))
+    drawn = [{key: _plain(one[key]) for key in keys if key in one} for one in trips]
+    return {"name": str(number), **rest, "trips": drawn}

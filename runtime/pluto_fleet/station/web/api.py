@@ -22,9 +22,9 @@ from starlette.routing import Route, WebSocketRoute
 from ...process.copies import Died
 from ...shared.domain.errors import BadInput
 from ..map.drawn import StaleMap
+from ..map.pictures import Logo
 from ..operation import JSON, SMALL_BODY, Operation
 from ..plan.plan import Stale
-from ..sign import Logo
 from ..wire import Role
 from ..wire_app import PlanData
 from . import refusals

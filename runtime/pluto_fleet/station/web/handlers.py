@@ -24,7 +24,7 @@ from ..flight_files import FlightFiles
 from ..interface import CSV, GEOJSON, MCAP, TEXT, TOML, ZIP, Interface
 from ..json_text import json_text
 from ..operation import JSON, operations_of
-from ..preflight.start import PlannedStart
+from ..preflight.preflight import PlannedStart
 from ..wire import MapData, Role
 from ..wire_app import PlanData
 from .audit import who

@@ -1,33 +1,112 @@
-"""Keeping pages up to date: each sends the version that it has, and gets what is newer.
-
-So a page that stops reading costs nothing, and gets the newest state when it comes back.
-"""
+"""Keeping pages up to date: each sends the version that it has, and gets what is newer."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 from collections import Counter
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 import msgspec
 from starlette.responses import Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from ...shared.domain.text import cut_off, printable
 from ..operation import JSON, in_words
-from ..wire import LiveRequest, Role
+from ..wire import LiveRequest, Me, Person, Role
 from . import refusals
-from .audit import Audit
+from .audit import LONGEST_WHO, Audit
 from .guard import Guard, Rate, client_of, role_by
 from .handlers import Asked
-from .people import People, shortened
-from .places import Displaced, WaitingPlaces
 from .refusals import Refused
 
 if TYPE_CHECKING:
     from ..station import Station
+
+
+_LONGEST = {"id": 32, "name": LONGEST_WHO, "page": 40, "touches": 64}
+"""Characters of each text; what is longer is cut off."""
+
+
+def shortened(me: Me) -> Me:
+    """Return what a page says of itself, sanitized."""
+    return {
+        "id": _short(me["id"], "id"),
+        "name": _short(me["name"], "name"),
+        "page": _short(me["page"], "page"),
+        "touches": _short(me["touches"], "touches"),
+    }
+
+
+def _short(text: str, what: str) -> str:
+    return cut_off(printable(text.strip()), _LONGEST[what])
+
+
+class People:
+    """The browsers that are connected."""
+
+    def __init__(self) -> None:
+        self._here: dict[object, Person] = {}
+        self.version = 0
+        """It grows with every change."""
+
+    def enter(self, page: object, role: Role, me: Me) -> None:
+        """Note what a connected page says of itself."""
+        person: Person = {**me, "role": role}
+        if self._here.get(page) != person:
+            self._here[page] = person
+            self.version += 1
+
+    def leave(self, page: object) -> None:
+        """Forget a page, as its connection has ended."""
+        if self._here.pop(page, None) is not None:
+            self.version += 1
+
+    def others(self, page: object) -> list[Person]:
+        """Return all but the person at a page, each once, as their latest page says."""
+        own = self._here.get(page)
+        found = {person["id"]: person for person in self._here.values()}
+        if own is not None:
+            found.pop(own["id"], None)
+        return list(found.values())
+
+
+class Displaced(Exception):
+    """Raised in a connection whose place another has taken."""
+
+
+class WaitingPlaces:
+    """So many places; where all are taken, one more takes the oldest of the client that has most of them."""
+
+    def __init__(self, most: int) -> None:
+        self._most = most
+        self._waiting: dict[asyncio.Task[None], str] = {}
+        """The client of each connection, the oldest first."""
+
+    @contextmanager
+    def taken(self, task: asyncio.Task[None], client: str) -> Iterator[None]:
+        """Keep a place for a connection, whose task raises `Displaced` if another takes it."""
+        if len(self._waiting) >= self._most:
+            self._make_room()
+        self._waiting[task] = client
+        try:
+            yield
+        except asyncio.CancelledError:
+            if task in self._waiting:  # the whole station ends
+                raise
+            task.uncancel()
+            raise Displaced from None
+        finally:
+            self._waiting.pop(task, None)
+
+    def _make_room(self) -> None:
+        [(greedy, _)] = Counter(self._waiting.values()).most_common(1)
+        oldest = next(task for task, client in self._waiting.items() if client == greedy)
+        del self._waiting[oldest]
+        oldest.cancel()
+
 
 LIVE = "/api/live"
 """The address for WebSockets."""

@@ -13,8 +13,7 @@ from gzip import compress
 from hashlib import sha256
 from pathlib import Path
 
-from ..map.pictures import PICTURES
-from ..sign import Logo
+from ..map.pictures import PICTURES, Logo
 
 FOLDER = Path(__file__).parent.parent / "pages"
 

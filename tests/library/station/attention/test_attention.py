@@ -12,15 +12,19 @@ from typing import Any, cast
 import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.attention.attention import KEPT, Attention
-from pluto_fleet.station.attention.causes import (
+from pluto_fleet.station.attention import (
+    KEPT,
+    LONG,
+    Attention,
     Cause,
+    Waits,
+    of_batteries,
     of_drones,
     of_missions,
     of_reserves,
     of_results,
+    of_waiting,
 )
-from pluto_fleet.station.attention.waiting import LONG, Waits, of_batteries, of_waiting
 from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result, Words
 from pluto_fleet.station.words import words
 

@@ -11,8 +11,8 @@ import pytest
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.reading import LARGEST
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.plan import library as kept
-from pluto_fleet.station.plan.library import PlanLibrary
+from pluto_fleet.station.plan import kept
+from pluto_fleet.station.plan.kept import PlanLibrary
 from pluto_fleet.station.plan.plan import MissionPlan, Stale
 from tests.library.files.an_app import APP
 from tests.library.station.plan.drawing import FLEET, drawn, mission, trip

@@ -16,8 +16,7 @@ from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.station.preflight import preflight
 from pluto_fleet.station.preflight.preflight import Preflight
-from pluto_fleet.station.preflight.present import Present
-from pluto_fleet.station.preflight.question import Question
+from pluto_fleet.station.preflight.question import Present, Question
 from pluto_fleet.station.wire import Forecast, Words
 from pluto_fleet.station.words import words
 from tests.library.files.an_app import APP

@@ -12,9 +12,8 @@ import pytest
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.preflight import preflight as running
-from pluto_fleet.station.preflight.preflight import Newer, Preflight
+from pluto_fleet.station.preflight.preflight import Newer, PlannedStart, Preflight
 from pluto_fleet.station.preflight.runs import Found, Needs, Run
-from pluto_fleet.station.preflight.start import PlannedStart
 from pluto_fleet.station.station import Station
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit

@@ -9,8 +9,8 @@ import pytest
 
 from pluto_fleet.gateway.sightings import Sighting
 from pluto_fleet.journal.standing import Standing
-from pluto_fleet.station.charging import level_after, ready_in, to_fly
-from pluto_fleet.station.preflight.present import Present, at_rest
+from pluto_fleet.station.preflight.question import Present, at_rest
+from pluto_fleet.station.wait_reasons import level_after, ready_in, to_fly
 from tests.library.files.an_app import APP
 from tests.library.station.preflight.asking import FLEET
 

@@ -14,10 +14,10 @@ from pluto_fleet.app import App
 from pluto_fleet.process.apart import Answers
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.flight_files import FlightFiles
+from pluto_fleet.station.map.pictures import Logo
 from pluto_fleet.station.plan.plan import MissionPlan
 from pluto_fleet.station.preflight.forecast import without_runs
-from pluto_fleet.station.preflight.start import PlannedStart
-from pluto_fleet.station.sign import Logo
+from pluto_fleet.station.preflight.preflight import PlannedStart
 from pluto_fleet.station.station import Station
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit

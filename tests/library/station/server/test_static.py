@@ -12,8 +12,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.map.pictures import floor_plan
-from pluto_fleet.station.sign import logo_of, title_of
+from pluto_fleet.station.map.pictures import floor_plan, logo_of, title_of
 from pluto_fleet.station.web.static import FOLDER, pages
 from tests.library.station.map.test_drawn import SVG, ward
 

@@ -1,4 +1,4 @@
-"""Replacing a file as a whole: after a crash or a power cut it is the old one or the new one."""
+"""Replacing a file as a whole: after a crash it is the old one or the new one."""
 
 from __future__ import annotations
 
@@ -6,21 +6,29 @@ import os
 from pathlib import Path
 
 
-def write_whole(path: Path, content: bytes, mode: int = 0o600) -> None:
-    """Replace a file, or create it with just these permissions; raise `OSError` if that fails."""
-    part = path.with_name(f"{path.name}.part")
+def write_whole(
+    path: Path, content: bytes | str, *, mode: int = 0o600, durable: bool = False
+) -> None:
+    """Replace a file, or create it with just these permissions; raise `OSError` if that fails.
+
+    `durable`: so after a power cut, too.
+    """
+    part = path.with_name(f".{path.name}.{os.getpid()}.part")
+    data = content.encode() if isinstance(content, str) else content
     try:
         descriptor = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW, mode)
         with open(descriptor, "wb") as file:
             os.fchmod(descriptor, mode)
-            file.write(content)
+            file.write(data)
             file.flush()
-            os.fsync(file.fileno())
+            if durable:
+                os.fsync(descriptor)
         os.replace(part, path)
     except OSError:
         part.unlink(missing_ok=True)
         raise
-    settle(path.parent)
+    if durable:
+        settle(path.parent)
 
 
 def settle(folder: Path) -> None:
