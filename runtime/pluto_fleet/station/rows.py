@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, partial
-from math import isfinite
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ..flight.control import ANSWERS, PRIORITY
 from ..flight.mission_status import aside
 from ..flight.reconcile import trip_of
-from ..gateway.wire import STALE_AFTER
 from ..shared.domain.status import Status, TripStatus
 from ..shared.domain.text import cut_off
 from .words import words
 
 if TYPE_CHECKING:
+    from ..app import App
     from ..gateway.sightings import Sighting
     from ..journal.standing import Record
     from .wire import DroneRow, MissionRow, Question, TripRow, Words
@@ -45,6 +43,27 @@ LONGEST_REASON = 200
 """Characters of the reason why a drone may not fly; the full text is on the console."""
 
 
+def row_in_flight(
+    name: str,
+    records: Mapping[str, Record],
+    where: Mapping[str, Any],
+    now: float,
+    app: App,
+    why: Callable[[str, Sequence[Record]], Words | None],
+) -> MissionRow:
+    """Return the row of one of the missions of a running app, of which its brain says `where` they are.
+
+    `why` returns why no drone flies its trip yet.
+    """
+    record, at = records[name], where.get(name)
+    if at is None or not at["lives"] or aside(record) is not None:
+        return recorded_row(name, record, lives=True)
+    priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
+    after = record["promises"].get("after", ())
+    first = [one for one in after if not records[one]["ended"]]
+    return living_row(name, record, at, app.resumes, priority, now, why, first)
+
+
 def living_row(
     name: str,
     record: Record,
@@ -65,8 +84,17 @@ def living_row(
     opens = None if at or status is not Status.UNEXECUTED else moments.get("opens")
     until = where["until"] or opens
     until = until if (until or 0.0) > now else None
-    why = partial(fleet, name, todo)
-    wait = None if where["flies"] else _why_it_waits(where, at, until, resumes, why, status, first)
+    wait = None
+    if where["flies"]:
+        pass
+    elif first and not at:
+        wait = words("wait.after", f"comes after {', '.join(first)}", after=[*first])
+    elif until is not None:
+        wait = words("wait.time", "waits until its time has come")
+    elif not where["allocated"] and at and at[0] in resumes:
+        wait = fleet(name, todo) or words("wait.drone", "waits for a drone")
+    elif at and status in ENDED:
+        wait = words("wait.verdict", f"waits for what {at[0]} says", block=at[0])
     trips = [_trip(trip, "COMPLETED", priority) for trip in record["done"]]
     trips += [_trip(trip, "WAITING", priority) for trip in todo]
     # once its trips are done, a block has yet to decide
@@ -128,74 +156,47 @@ def _row(
 def drone_row(
     id: str,
     drone: Mapping[str, Any],
-    silence: float,
-    mission: str | None,
-    why: str,
-    status: str,
+    *,
+    status: str = "",
+    why: str = "",
+    mission: str | None = None,
+    seen: float | None = None,
     ready_in: float | None = None,
 ) -> DroneRow:
     """Return the row of a drone as it stands, rounded to centimetres and thousandths.
 
-    `silence`: the seconds since it was heard last; `why`: why it may not fly; `status` replaces its
-    own status if that would mislead; `ready_in`: the seconds until it is charged, if it is not.
+    `why`: why it may not fly; `status` replaces its own status if that would mislead; `seen`: when it was
+    heard last, if not now; `ready_in`: the seconds until it is charged, if it is not.
     """
-    heard = isfinite(silence)
-    row = _drone_row(
-        id,
-        status or drone["status"],
-        drone["at"] if heard else None,
-        drone["battery"] if heard else None,
-        mission,
-        drone["trips"],
-        drone["retired"],
-        why,
-        time.time() - silence if heard and silence > STALE_AFTER else None,
-    )
+    x, y, z = (None,) * 3 if drone["at"] is None else (round(one, 2) for one in drone["at"])
+    battery = drone["battery"]
+    row: DroneRow = {
+        "id": id,
+        "status": status or drone["status"],
+        "x": x,
+        "y": y,
+        "z": z,
+        "seen_at": None if seen is None else round(seen) * 1000,
+        "battery": None if battery is None else round(battery, 3),
+        "mission": mission,
+        "trips": drone["trips"],
+        "retired": drone["retired"],
+        "why": cut_off(why, LONGEST_REASON),
+    }
     if ready_in is not None:
         row["ready_in"] = round(ready_in)
     return row
 
 
 def drone_at(
-    id: str,
-    status: str,
-    seen: Sighting | None,
-    trips: int,
-    retired: bool,
-    why: str,
+    id: str, status: str, seen: Sighting | None, trips: int, retired: bool, why: str
 ) -> DroneRow:
-    """Return the row of a drone without a flight; `seen` is the time of its last known state."""
+    """Return the row of a drone without a flight; `seen` is its last known state."""
+    drone = {"status": status, "trips": trips, "retired": retired}
     if seen is None:
-        return _drone_row(id, status, None, None, None, trips, retired, why)
+        return drone_row(id, {**drone, "at": None, "battery": None}, why=why)
     battery = seen.battery if seen.when else None
-    return _drone_row(id, status, seen.at, battery, None, trips, retired, why, seen.when)
-
-
-def _drone_row(
-    id: str,
-    status: str,
-    at: Sequence[float] | None,
-    battery: float | None,
-    mission: str | None,
-    trips: int,
-    retired: bool,
-    why: str = "",
-    when: float | None = None,
-) -> DroneRow:
-    x, y, z = (None, None, None) if at is None else (round(metres, 2) for metres in at)
-    return {
-        "id": id,
-        "status": status,
-        "x": x,
-        "y": y,
-        "z": z,
-        "seen_at": None if when is None else round(when) * 1000,
-        "battery": None if battery is None else round(battery, 3),
-        "mission": mission,
-        "trips": trips,
-        "retired": retired,
-        "why": cut_off(why, LONGEST_REASON),
-    }
+    return drone_row(id, {**drone, "at": seen.at, "battery": battery}, why=why, seen=seen.when)
 
 
 def _trip(data: Record, status: str, usual: object = None) -> TripRow:
@@ -214,26 +215,6 @@ def _recorded_trip(data: Record, status: str) -> TripRow:
     """Return a trip as far as its journal knows it: whether it still flies must be asked first."""
     flew = data.get("status") == TripStatus.EXECUTING.value
     return _trip({**data, "status": TripStatus.WAITING.value} if flew else data, status)
-
-
-def _why_it_waits(
-    where: Mapping[str, Any],
-    at: Sequence[str],
-    until: float | None,
-    resumes: Sequence[str],
-    fleet: Callable[[], Words | None],
-    status: Status,
-    first: Sequence[str],
-) -> Words | None:
-    if first and not at:
-        return words("wait.after", f"comes after {', '.join(first)}", after=[*first])
-    if until is not None:
-        return words("wait.time", "waits until its time has come")
-    if not where["allocated"] and at and at[0] in resumes:
-        return fleet() or words("wait.drone", "waits for a drone")
-    if at and status in ENDED:
-        return words("wait.verdict", f"waits for what {at[0]} says", block=at[0])
-    return None
 
 
 def waits_for_a_drone(row: MissionRow) -> bool:

@@ -8,13 +8,14 @@ import traceback
 from collections.abc import Callable, Collection, Iterator, Sequence
 from contextlib import closing, suppress
 from enum import Enum
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..flight.config import End, Stops
-from ..flight.control import PRIORITY
 from ..flight.lives import FlightObserver, FlightSetup, run_flight
-from ..flight.mission_status import aside, in_order, records_in
+from ..flight.mission_status import in_order, records_in
+from ..gateway.wire import STALE_AFTER
 from ..journal.errors import JournalError
 from ..journal.lock import holder
 from ..journal.place import written
@@ -285,23 +286,11 @@ class FlightSession:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.is_set_out:
-            now, app, brain = self.now, self.flight.app, life.brain
-            priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
-            self._waiting.look(brain, life.fleet)
-            why, where = self._waiting.why, brain.whereabouts()
-            for name, record in in_order(life.records):
-                found = where.get(name)
-                if found is not None and found["lives"] and aside(record) is None:
-                    first = [
-                        one
-                        for one in record["promises"].get("after", ())
-                        if not life.records.missions[one]["ended"]
-                    ]
-                    row = rows.living_row(
-                        name, record, found, app.resumes, priority, now, why, first
-                    )
-                else:
-                    row = rows.recorded_row(name, record, lives=True)
+            now, app, why = self.now, self.flight.app, self._waiting.why
+            self._waiting.look(life.brain, life.fleet)
+            missions, where = life.records.missions, life.brain.whereabouts()
+            for name, _ in in_order(life.records):
+                row = rows.row_in_flight(name, missions, where, now, app, why)
                 changed |= put(name, row, number)
         elif self.records is not None:
             for name, record in self.records.missions.items():
@@ -322,8 +311,17 @@ class FlightSession:
             low = self._waiting.why_low(drone)
             why, status = low or drone["unready"], "LOW" if low else ""
             silence = life.link.telemetry(id).silence
-            ready = self._waiting.ready_in(id, drone, bool(low))
-            yield rows.drone_row(id, drone, silence, work.get(id), why, status, ready)
+            heard = drone if isfinite(silence) else {**drone, "at": None, "battery": None}
+            is_stale = isfinite(silence) and silence > STALE_AFTER
+            yield rows.drone_row(
+                id,
+                heard,
+                status=status,
+                why=why,
+                mission=work.get(id),
+                seen=time.time() - silence if is_stale else None,
+                ready_in=self._waiting.ready_in(id, drone, bool(low)),
+            )
 
     def causes(self) -> Iterator[Cause]:
         """Yield what a person must know of, as the rows are now."""

@@ -86,8 +86,8 @@ class Station:
         self.map.changed = self._describe
         self.plan.landmarks = self.map.landmarks
         self.ways = DrawnWays(config.fleet.airspace)
-        self.library = PlanLibrary(config.own_folder / "plans", self._looked_at)
-        self._changes = FlightChanges(app, plan, self._commandable)
+        self.library = PlanLibrary(config.own_folder / "plans", plan.saved)
+        self.changes = FlightChanges(app, plan, self._commandable)
         self.fleet = config.fleet
         """The fleet, with the drones that have joined it."""
         self.described = described(app, config, self.map, secrets.token_hex(8))
@@ -95,8 +95,6 @@ class Station:
         """The current or last flight."""
         self.leaves = asyncio.Event()
         """Set when the station is to end and nothing flies any more."""
-        self.map_revision = 0
-        """The revision of what is drawn on the map, which nothing changes while a station runs."""
         self.attention = Attention(config.own_folder / ALERTS, time.time)
         """What people must know of."""
         self._leaving = False
@@ -115,11 +113,6 @@ class Station:
         self._before: Path | None = None
         """The folder of the last discarded flight's gateway, whose drones may still be landing."""
 
-    @property
-    def image(self) -> Path | None:
-        """The floor plan."""
-        return self.map.image
-
     def _describe(self) -> None:
         """Give all pages the map and the fleet as they are now, and the map's names to new plans."""
         config, server = replace(self._config, fleet=self.fleet), self.described["server"]
@@ -130,11 +123,6 @@ class Station:
     def phase(self) -> Phase:
         """The present phase."""
         return phase_of(self.session)
-
-    def _looked_at(self, text: str, file: str) -> tuple[int, str]:
-        """Return how many missions a kept plan has, and what is to be done before it can fly."""
-        missions, said = self.plan.saved(text, file)
-        return len(missions), said
 
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""
@@ -156,13 +144,6 @@ class Station:
             self.session.end = End.OVER
         taken.store.close()
         self._lock_what_flies()
-
-    async def edit(self, revision: int, missions: object) -> None:
-        """Replace the plan by a page's; of missions that fly, what has not flown is changed in flight.
-
-        Raises `Stale` if it was drawn on an old revision, and `BadInput` if that cannot be flown so.
-        """
-        await self._changes.edit(revision, missions)
 
     # Commands
 
@@ -205,7 +186,7 @@ class Station:
                 async with self._one_at_a_time:
                     return await self._discard()
             case "change-trips":
-                return await self._changes.change_trips(id, given)
+                return await self.changes.change_trips(id, given)
             case _:
                 return await self._of_the_flight(name, id, given)
 
@@ -498,10 +479,6 @@ class Station:
     async def newer(self, flight: str, seen: int, log: int, results: int) -> str:
         """Return the changes since a page's last update, as soon as there are any, or after a second."""
         return await self._updates.newer(flight, seen, log, results)
-
-    def console(self) -> str:
-        """Return the flight's console."""
-        return self.session.feed.console() if self.session is not None else ""
 
     def _flight_now(self) -> CurrentFlight | None:
         session = self.session

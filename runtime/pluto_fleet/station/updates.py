@@ -52,7 +52,6 @@ class StationState(Protocol):
     plan: MissionPlan
     map: DrawnMap
     history: FleetHistory
-    map_revision: int
     attention: Attention
 
 

@@ -143,8 +143,8 @@ _ABOUT = "# station: "
 
 _IN_TRASH = re.compile(r"([0-9a-f]{12})~(.+)")
 
-Read = Callable[[str, str], tuple[int, str]]
-"""Returns how many missions a text with a name has, and what is still wrong; raises `BadInput` if it is no plan."""
+Read = Callable[[str, str], tuple[Sequence[object], str]]
+"""Returns the missions of a text with a name, and what is still wrong; raises `BadInput` if it is no plan."""
 
 
 class PlanLibrary:
@@ -279,7 +279,8 @@ class PlanLibrary:
             text = _text(file)
             about = _about_in(text)
             plan["by"], plan["template"] = str(about.get("by", "")), about.get("template") is True
-            plan["missions"], plan["said"] = self._read(text, file.name)
+            missions, plan["said"] = self._read(text, file.name)
+            plan["missions"] = len(missions)
         except BadInput as error:
             plan["said"] = str(error)
         return state, plan

@@ -11,7 +11,6 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...flight.control import PRIORITY
 from ...report.sentences import sentence_of
 from ...shared.domain.actions import PICK
 from ...shared.fleet.reach import Reach, chain_of
@@ -74,7 +73,6 @@ class Rehearsal:
             speed=max(1.0, every / MOVES_EVERY),
         )
         app = question.app
-        self._priority = next((one.default for one in app.fields if one.name == PRIORITY), None)
         self._reasons = WaitReasons(app, question.flown, lambda: self._now)
         self._fit = _Fit(question)
         self._lines = 0
@@ -141,22 +139,8 @@ class Rehearsal:
         }
         found, waiting = list[MissionRow](), list[tuple[str, Mapping[str, Any]]]()
         for name, record in sorted(records.items(), key=lambda item: int(item[1]["index"])):
-            at = where.get(name)
-            if at is None or not at["lives"]:
-                found.append(rows.recorded_row(name, record, lives=True))
-                continue
-            after = record["promises"].get("after", ())
-            first = [one for one in after if not records[one]["ended"]]
-            row = rows.living_row(
-                name,
-                record,
-                at,
-                self._question.app.resumes,
-                self._priority,
-                self._now,
-                self._reasons.why,
-                first,
-            )
+            app, why = self._question.app, self._reasons.why
+            row = rows.row_in_flight(name, records, where, self._now, app, why)
             if rows.waits_for_a_drone(row):
                 waiting.append((name, record))
             found.append(row)
@@ -200,7 +184,8 @@ class Rehearsal:
             drone = {**told, "at": real.location, "battery": real.battery_level}
             low = self._reasons.why_low(told)
             why, status = low or told["unready"], "LOW" if low else ""
-            found.append(rows.drone_row(id, drone, 0.0, work.get(id), why, status))
+            mission = work.get(id)
+            found.append(rows.drone_row(id, drone, status=status, why=why, mission=mission))
         return found
 
 

@@ -85,7 +85,7 @@ class Api(Starlette):
         self._station = station
         self._audit = audit
         self._places = _Places(clock)
-        self._picture = picture(station.image)
+        self._picture = picture(station.map.image)
         self._live = LiveUpdates(station, guard, audit, clock)
         self._handlers = {**HANDLERS, "live": self._live.poll}
         self._static = dict(pages())
@@ -133,8 +133,8 @@ class Api(Starlette):
 
     async def _floor_plan(self, request: Request) -> Response:
         """Answer with the floor plan, read once: another one has another name."""
-        if self._picture[0] != self._station.image:
-            self._picture = picture(self._station.image)
+        if self._picture[0] != self._station.map.image:
+            self._picture = picture(self._station.map.image)
         if self._picture[1] is None:
             raise Refused(refusals.NO_SUCH_PAGE)
         return _file_reply(self._picture[1], request)
@@ -164,14 +164,20 @@ class Api(Starlette):
         except BadInput as error:
             raise Refused(refusals.malformed(str(error))) from None
         handler = self._handlers[operation.name]
-        asked = Asked(station=self._station, request=request, role=role, given=given, body=body)
+        asked = Asked(
+            station=self._station,
+            request=request,
+            operation=operation,
+            role=role,
+            given=given,
+            body=body,
+        )
         status = 200
         try:
             answer = await handler(asked, **{**operation.defaults, **given})
         except (Stale, StaleMap):
             status = 409
-            answer = await NEWEST[operation.stale](asked)
-            answer.status_code = status
+            answer = None
         except BadInput as error:
             status = operation.impossible
             answer = str(error)
@@ -180,7 +186,12 @@ class Api(Starlette):
         if not operation.reads:
             told = answer if isinstance(answer, str) else ""
             self._audit.done(request, _noted(operation, given), status, told)
-        return said(answer, status) if isinstance(answer, str) else answer
+        if isinstance(answer, str):
+            return said(answer, status)
+        if answer is None:
+            answer = await NEWEST[operation.answers](asked)
+            answer.status_code = status
+        return answer
 
 
 def _noted(operation: Operation, given: Mapping[str, object]) -> Mapping[str, object]:

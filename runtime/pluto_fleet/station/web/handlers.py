@@ -1,6 +1,7 @@
 """What is done at each address: a function of its name, with its checked parameters.
 
-`BadInput` is answered as a sentence, and `Stale` with the newest of what was to be changed.
+`BadInput` is answered as a sentence, and `Stale` with the newest of what was to be changed. A change
+is answered with that, too.
 """
 
 from __future__ import annotations
@@ -9,7 +10,6 @@ import asyncio
 from collections.abc import Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import cache
 from operator import methodcaller
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,11 +21,12 @@ from ...files.reading import decoded
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..flight_files import FlightFiles
-from ..interface import CSV, GEOJSON, MCAP, TEXT, TOML, ZIP, Interface
+from ..interface import Interface
 from ..json_text import json_text
-from ..operation import JSON, operations_of
+from ..operation import JSON, Operation, operations_of
 from ..preflight.preflight import PlannedStart
-from ..wire import MapData, Role
+from ..results.exports import Exports
+from ..wire import MapData, Role, SavedPlans
 from ..wire_app import PlanData
 from .audit import who
 
@@ -47,13 +48,14 @@ class Asked:
 
     station: Station
     request: Request
+    operation: Operation
     role: Role
     given: Mapping[str, Any]
     """What was sent, without what is supposed of the rest."""
     body: bytes = b""
 
 
-Handler = Callable[..., Awaitable[Response | str]]
+Handler = Callable[..., Awaitable[Response | str | None]]
 """It is given what is `Asked`, and the parameters of its operation by their names; a text is a sentence."""
 
 
@@ -74,12 +76,7 @@ async def app(asked: Asked) -> Response:
 
 async def description(_: Asked) -> Response:
     """Answer with the description of this interface."""
-    return Response(_description(), media_type=JSON)
-
-
-@cache
-def _description() -> bytes:
-    return DESCRIPTION.read_bytes()
+    return Response(DESCRIPTION.read_bytes(), media_type=JSON)
 
 
 async def command(asked: Asked, id: str, **given: Any) -> str:
@@ -99,58 +96,52 @@ async def plan(asked: Asked) -> Response:
 
 async def plan_file(asked: Asked) -> Response:
     """Answer with the plan as a missions file."""
-    return _text(asked.station.plan.export_toml(), MISSIONS_FILE, TOML)
+    return _text(asked, asked.station.plan.export_toml(), MISSIONS_FILE)
 
 
-async def replace_plan(asked: Asked, revision: int, missions: object) -> Response:
+async def replace_plan(asked: Asked, revision: int, missions: object) -> None:
     """Replace the plan's missions."""
-    await asked.station.edit(revision, missions)
-    return await plan(asked)
+    await asked.station.changes.edit(revision, missions)
 
 
-async def import_plan(asked: Asked, revision: int, file: str) -> Response:
+async def import_plan(asked: Asked, revision: int, file: str) -> None:
     """Replace the plan's missions by those of a file, whose name is not trusted."""
     name = cut_off(printable(file.strip()), _LONGEST_NAME) or MISSIONS_FILE
     await asked.station.plan.import_file(decoded(asked.body, name), revision, name)
-    return await plan(asked)
 
 
-async def add_example(asked: Asked, revision: int) -> Response:
+async def add_example(asked: Asked, revision: int) -> None:
     """Add an example to the plan."""
     asked.station.plan.example(revision)
-    return await plan(asked)
 
 
 async def saved_plans(asked: Asked) -> Response:
     """Answer with all plans that are kept."""
-    library = asked.station.library
-    async with library.one_at_a_time:
-        return json_reply(await asyncio.to_thread(library.everything))
+    return json_reply(await _kept(asked, asked.station.library.everything))
 
 
-async def save_plan(asked: Asked, name: str, **how: Any) -> Response:
+async def save_plan(asked: Asked, name: str, **how: Any) -> None:
     """Keep the plan under a name."""
     text = asked.station.plan.export_toml()
-    return await _kept(asked, lambda: asked.station.library.save(name, text, **how))
+    await _kept(asked, lambda: asked.station.library.save(name, text, **how))
 
 
-async def delete_plan(asked: Asked, name: str) -> Response:
+async def delete_plan(asked: Asked, name: str) -> None:
     """Put a plan into the trash."""
-    return await _kept(asked, lambda: asked.station.library.delete(name))
+    await _kept(asked, lambda: asked.station.library.delete(name))
 
 
-async def restore_plan(asked: Asked, id: str) -> Response:
+async def restore_plan(asked: Asked, id: str) -> None:
     """Take a plan out of the trash."""
-    return await _kept(asked, lambda: asked.station.library.restore(id))
+    await _kept(asked, lambda: asked.station.library.restore(id))
 
 
-async def _kept(asked: Asked, change: Callable[[], None]) -> Response:
+async def _kept(asked: Asked, do: Callable[[], object]) -> object:
     async with asked.station.library.one_at_a_time:
-        await asyncio.to_thread(change)
-    return await saved_plans(asked)
+        return await asyncio.to_thread(do)
 
 
-async def open_plan(asked: Asked, name: str, revision: int, add: bool) -> Response:
+async def open_plan(asked: Asked, name: str, revision: int, add: bool) -> None:
     """Take a plan that was kept in place of what has not been started, or beside it."""
     drawn = asked.station.plan
     text = await asyncio.to_thread(asked.station.library.text, name)
@@ -159,7 +150,6 @@ async def open_plan(asked: Asked, name: str, revision: int, add: bool) -> Respon
         drawn.add(shapes, revision)
     else:
         drawn.take_instead(shapes, revision)
-    return await plan(asked)
 
 
 async def preflight(asked: Asked, only_failed: bool | None, **given: Any) -> Response:
@@ -190,20 +180,18 @@ async def map_data(asked: Asked) -> Response:
     return json_reply(asked.station.map.data())
 
 
-async def change_map(asked: Asked, revision: int, **_: object) -> Response:
+async def change_map(asked: Asked, revision: int, **_: object) -> None:
     """Take what was drawn on the map; what was not sent stays."""
     drawn = {name: value for name, value in asked.given.items() if name != "revision"}
     await asked.station.map.change(revision, drawn)
-    return await map_data(asked)
 
 
-async def take_floor_plan(asked: Asked, revision: int, name: str) -> Response:
+async def take_floor_plan(asked: Asked, revision: int, name: str) -> None:
     """Take a picture as the floor plan."""
     await asked.station.map.take_picture(revision, name, asked.body)
-    return await map_data(asked)
 
 
-async def find_ways(asked: Asked, ways: object) -> Response:
+async def find_ways(asked: Asked, ways: list[Any]) -> Response:
     """Answer with the ways between pairs of places."""
     return json_reply(await asked.station.ways.ways(ways))
 
@@ -216,28 +204,10 @@ async def sweep_area(asked: Asked, **_: object) -> Response:
 # Flights of the past, and results: of none, it is the flight of now
 
 
-async def flights(asked: Asked) -> Response:
-    """Answer with a line for each flight."""
-    return await _past(asked, methodcaller("flights"))
-
-
-async def replay(asked: Asked, flight: str, start: float) -> Response:
-    """Answer with a part of a flight's replay."""
-    return await _past(asked, methodcaller("replay", flight, start))
-
-
-async def report(asked: Asked, flight: str) -> Response:
-    """Answer with what is to be said of a flight on paper."""
-    return await _past(asked, methodcaller("report", flight))
-
-
-async def hours(asked: Asked) -> Response:
-    """Answer with what each drone has flown."""
-    return await _past(asked, methodcaller("hours"))
-
-
-async def _past(asked: Asked, question: Callable[[PastFlights], object]) -> Response:
-    """Read of flights of the past, and write that as JSON, apart from the station's process."""
+async def of_the_past(asked: Asked, **given: Any) -> Response:
+    """Answer of flights of the past as the operation is called, read and written apart from this process."""
+    operation = asked.operation
+    question = methodcaller(operation.name, *(given[name] for name in operation.query))
     return Response(await asked.station.files.ask(_json, question), media_type=JSON)
 
 
@@ -247,7 +217,8 @@ def _json(files: FlightFiles, question: Callable[[PastFlights], object]) -> str:
 
 async def mcap(asked: Asked, flight: str) -> Response:
     """Answer with a flight as an MCAP file."""
-    return _download(await asked.station.files.ask(_mcap, flight), "flight.mcap", MCAP)
+    content = await asked.station.files.ask(_mcap, flight)
+    return _download(content, "flight.mcap", asked.operation.media)
 
 
 def _mcap(files: FlightFiles, flight: str) -> bytes:
@@ -257,36 +228,32 @@ def _mcap(files: FlightFiles, flight: str) -> bytes:
 async def console(asked: Asked, flight: str) -> Response:
     """Answer with the console."""
     if flight:
-        text = await asked.station.files.ask(_console, flight)
-    else:
-        text = asked.station.console()
-    return _text(text, "console.txt", TEXT)
+        return _text(asked, await asked.station.files.ask(_console, flight))
+    session = asked.station.session
+    return _text(asked, session.feed.console() if session is not None else "")
 
 
 def _console(files: FlightFiles, flight: str) -> str:
     return files.past.console(flight)
 
 
-async def results(asked: Asked, flight: str) -> Response:
-    """Answer with the results, to be downloaded."""
-    text = await asked.station.exports.results(flight)
-    return _download(text.encode(), "results.json", JSON)
+_EXPORTS: Mapping[str, Callable[[Exports, str], Awaitable[str]]] = {
+    "results": Exports.results,
+    "results_table": Exports.csv,
+    "results_on_map": Exports.geojson,
+}
 
 
-async def results_table(asked: Asked, flight: str) -> Response:
-    """Answer with the table of values."""
-    return _text(await asked.station.exports.csv(flight), "results.csv", CSV)
-
-
-async def results_on_map(asked: Asked, flight: str) -> Response:
-    """Answer with the results that have a place."""
-    return _text(await asked.station.exports.geojson(flight), "results.geojson", GEOJSON)
+async def exported(asked: Asked, flight: str) -> Response:
+    """Answer with the results as the operation is called, to be downloaded."""
+    return _text(asked, await _EXPORTS[asked.operation.name](asked.station.exports, flight))
 
 
 async def pictures(asked: Asked, flight: str) -> Response:
     """Answer with an archive of the pictures."""
     file = await asked.station.exports.archive(flight)
-    return _Passing(file, media_type=ZIP, filename="results.zip", stat_result=file.stat())
+    kind = asked.operation.media
+    return _Passing(file, media_type=kind, filename="results.zip", stat_result=file.stat())
 
 
 async def photo(asked: Asked, result: int, flight: str, size: str) -> Response:
@@ -306,8 +273,12 @@ class _Passing(FileResponse):
             Path(self.path).unlink(missing_ok=True)
 
 
-def _text(text: str, name: str, kind: str) -> Response:
-    return _download(text.encode("utf-8", "replace"), name, f"{kind}; charset=utf-8")
+def _text(asked: Asked, text: str, name: str = "") -> Response:
+    """Answer with a text to be downloaded: under the last part of its address, if no name is given."""
+    kind = asked.operation.media
+    kind = kind if kind == JSON else f"{kind}; charset=utf-8"
+    name = name or asked.operation.path.rpartition("/")[2]
+    return _download(text.encode("utf-8", "replace"), name, kind)
 
 
 def _download(content: bytes, name: str, kind: str) -> Response:
@@ -320,16 +291,21 @@ OPERATIONS = operations_of(Interface)
 
 HANDLERS: Mapping[str, Handler] = {
     **{name: command for name, one in OPERATIONS.items() if one.is_command},
+    **dict.fromkeys(("flights", "replay", "report", "hours"), of_the_past),
+    **dict.fromkeys(_EXPORTS, exported),
     **{
         one.__name__: one
         for one in (
             *(app, description, plan, plan_file, replace_plan, import_plan, add_example),
             *(saved_plans, save_plan, delete_plan, restore_plan, open_plan, preflight),
             *(map_data, change_map, take_floor_plan, find_ways, sweep_area),
-            *(flights, replay, report, mcap, hours, console),
-            *(results, results_table, results_on_map, pictures, photo),
+            *(mcap, console, pictures, photo),
         )
     },
 }
-NEWEST: Mapping[Any, Callable[[Asked], Awaitable[Response]]] = {PlanData: plan, MapData: map_data}
-"""What answers with the newest of what was to be changed."""
+NEWEST: Mapping[Any, Callable[[Asked], Awaitable[Response]]] = {
+    PlanData: plan,
+    MapData: map_data,
+    SavedPlans: saved_plans,
+}
+"""What answers with the newest of what was to be changed, by the type of that."""

@@ -22,12 +22,7 @@ def library(folder: Path, plan: MissionPlan | None = None) -> PlanLibrary:
     """Return the library of a folder; its clock goes on by a second each time it is asked."""
     seconds = count(1)
     plan = plan or drawn()
-
-    def read(text: str, file: str) -> tuple[int, str]:
-        missions, said = plan.saved(text, file)
-        return len(missions), said
-
-    return PlanLibrary(folder / "plans", read, now=lambda: float(next(seconds)))
+    return PlanLibrary(folder / "plans", plan.saved, now=lambda: float(next(seconds)))
 
 
 def save(shelf: PlanLibrary, name: str, plan: MissionPlan, replace: bool = False) -> None:
