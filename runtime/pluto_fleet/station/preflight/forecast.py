@@ -12,10 +12,9 @@ from ...flight.simulate import has_traffic
 from ...shared.domain.actions import PICK
 from ...shared.domain.text import counted, duration, mass, percent
 from ...shared.fleet.reach import docked
-from ..wait_reasons import ready_in
 from ..words import words
 from .question import UNTIL
-from .runs import Needs, Rehearsed, Run, telling
+from .runs import Flown, Needs, Rehearsed, Run, telling
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -53,17 +52,7 @@ def _low(question: Question, waits: Waits) -> Iterator[Words]:
     if not short:
         return
     level = max(low.values())
-    kinds = {category.name: category for category in question.app.categories}
-    entries = {one.id: one for one in question.fleet.drones}
-    every = [
-        ready_in(
-            kinds[entries[one.id].category],
-            one.battery,
-            low[one.id],
-            docked=docked(one.at, entries[one.id].home),
-        )
-        for one in short
-    ]
+    every = [question.ready_in(one, low[one.id]) for one in short]
     soonest = min((seconds for seconds in every if seconds is not None), default=None)
     first = "" if soonest is None else f", the first is ready in about {duration(soonest)}"
     are = "is" if len(short) == 1 else "are"
@@ -141,7 +130,7 @@ HIGH = 0.95
 """The share of runs that end before what is called high."""
 
 
-def without_runs(question: Question | None, revision: int, problems: list[Words]) -> Forecast:
+def without_runs(revision: int, problems: list[Words]) -> Forecast:
     """Return the forecast of a Start that would be refused."""
     return {
         "revision": revision,
@@ -150,7 +139,7 @@ def without_runs(question: Question | None, revision: int, problems: list[Words]
         "median": None,
         "high": None,
         "missions": [],
-        "drones": [] if question is None else readiness(question, Needs({}, {})),
+        "drones": [],
         "lowest_battery": None,
         "bottlenecks": [],
         "assumed": [],
@@ -162,17 +151,15 @@ def without_runs(question: Question | None, revision: int, problems: list[Words]
 def forecast(
     question: Question,
     keys: Sequence[str],
-    needs: Needs,
-    runs: Sequence[Run],
-    rehearsed: Rehearsed | None,
+    flown: Flown,
     rehearsal: str | None,
     problems: list[Words],
 ) -> Forecast:
     """Return what runs say; there is at least one. `keys` are those of the missions."""
-    drones = readiness(question, needs)
+    runs, rehearsed = flown.runs, flown.rehearsed
     times = sorted(run.seconds for run in telling(runs))
     ends = question.until is None
-    waits = [] if rehearsed is None else bottlenecks(question, rehearsed.waits)
+    levels = [run.battery for run in runs if run.battery is not None]
     return {
         "revision": question.revision,
         "runs": len(runs),
@@ -183,11 +170,9 @@ def forecast(
             _mission(mission, key, runs)
             for mission, key in zip(question.missions, keys, strict=True)
         ],
-        "drones": drones,
-        "lowest_battery": min(
-            (run.battery for run in runs if run.battery is not None), default=None
-        ),
-        "bottlenecks": waits,
+        "drones": readiness(question, flown.needs),
+        "lowest_battery": min(levels, default=None),
+        "bottlenecks": [] if rehearsed is None else bottlenecks(question, rehearsed.waits),
         "assumed": _assumed(question, rehearsed),
         "problems": [*problems, *_given_up(runs)],
         "rehearsal": rehearsal,
@@ -203,15 +188,13 @@ def percentile(ordered: Sequence[float], share: float) -> float:
 
 def readiness(question: Question, needs: Needs) -> list[Readiness]:
     """Return how the drones stand before the Start."""
-    kinds = {category.name: category for category in question.app.categories}
-    entries = {one.id: one for one in question.fleet.drones}
     found: list[Readiness] = []
     for one in question.present:
-        kind, home = kinds[entries[one.id].category], entries[one.id].home
-        wanted = needs.levels.get(one.id, kind.reserve)
-        seconds = ready_in(kind, one.battery, wanted, docked=docked(one.at, home))
+        wanted = needs.levels.get(one.id, question.kind(one.id).reserve)
+        seconds = question.ready_in(one, wanted)
         is_for_later = one.id in needs.why and one.id not in needs.levels
-        why = one.out or _why_not(one, wanted, seconds, needs, docked=docked(one.at, home))
+        is_docked = docked(one.at, question.entries[one.id].home)
+        why = one.out or _why_not(one, wanted, seconds, needs, docked=is_docked)
         found.append(
             {
                 "id": one.id,
@@ -232,22 +215,17 @@ def _why_not(
         return words("preflight.cannot", needs.why[one.id], why=needs.why[one.id])
     if one.battery >= wanted:
         return None
-    has = f"its battery has {percent(one.battery)}"
     if wanted > 1.0:
-        return words(
-            "preflight.too-far", "no battery lasts for any of these missions and the way home"
-        )
+        text = "no battery lasts for any of these missions and the way home"
+        return words("preflight.too-far", text)
+    has = f"its battery has {percent(one.battery)}, any of these missions takes {percent(wanted)}"
     facts = {"battery": one.battery, "needs": wanted}
-    if seconds is None and docked:
-        text = f"{has}, any of these missions takes {percent(wanted)}, and nothing charges it"
-        return words("preflight.uncharged", text, **facts)
-    if seconds is None:
-        text = (
-            f"{has}, any of these missions takes {percent(wanted)}: it flies home first to charge"
-        )
-        return words("preflight.low-away", text, **facts)
-    text = f"{has}, any of these missions takes {percent(wanted)}: in {duration(seconds)}"
-    return words("preflight.charges", text, ready_in=seconds, **facts)
+    if seconds is not None:
+        text = f"{has}: in {duration(seconds)}"
+        return words("preflight.charges", text, ready_in=seconds, **facts)
+    if docked:
+        return words("preflight.uncharged", f"{has}, and nothing charges it", **facts)
+    return words("preflight.low-away", f"{has}: it flies home first to charge", **facts)
 
 
 def _mission(mission: Mission[Any], key: str, runs: Sequence[Run]) -> MissionForecast:

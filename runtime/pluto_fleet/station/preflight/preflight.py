@@ -7,7 +7,7 @@ import secrets
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import aclosing, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,7 +25,7 @@ from ..plan.problems import broken, promised
 from ..words import words
 from .forecast import forecast, without_runs
 from .question import Present, Question, at_rest, in_flight
-from .runs import Needs, Rehearsed, Run, found, nothing_flies
+from .runs import MOST, Flown, found
 
 if TYPE_CHECKING:
     from ...app import App
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from ..plan.plan import MissionPlan
     from ..session import FlightSession
     from ..wire import Forecast, Words
-    from .runs import Found
 
 
 WITHIN = 30.0
@@ -46,26 +45,6 @@ FIRST_WITHIN = 12.0
 
 KEPT = 4
 """How many rehearsals are kept, the newest."""
-
-MOST_RUNS = 1_001
-
-
-@dataclass(slots=True)
-class _Flown:
-    """What is found of a question."""
-
-    needs: Needs = field(default_factory=lambda: Needs({}, {}))
-    runs: list[Run] = field(default_factory=list)
-    rehearsed: Rehearsed | None = None
-
-    def take(self, one: Found) -> None:
-        """Take what a copy has found next."""
-        if isinstance(one, Run):
-            self.runs.append(one)
-        elif isinstance(one, Needs):
-            self.needs = one
-        else:
-            self.rehearsed = one
 
 
 class Newer(BadInput):
@@ -83,16 +62,14 @@ class Preflight:
         self._running: asyncio.Task[Forecast] | None = None
         self._why = ""
         """Why the one that runs was given up."""
-        self.begun: Callable[[], object] = _nothing
-        """Called when the first run of a forecast has been flown."""
 
     async def ask(self, question: Question, keys: Sequence[str], problems: list[Words]) -> Forecast:
         """Return the forecast of a Start; raise `BadInput` if there is none to make, or a newer one wins.
 
         Cancelling this gives it up at once.
         """
-        if (why := nothing_flies(question)) is not None:
-            raise why
+        if not question.flown.drones:
+            raise BadInput("no drone may fly: each is lost, retired, or not ready")
         self.give_up("a newer one was asked for")
         mine = asyncio.ensure_future(self._made(question, keys, problems))
         self._running = mine
@@ -113,16 +90,12 @@ class Preflight:
             self._why = why
             self._running.cancel()
 
-    def revised(self) -> None:
-        """Called when the plan has changed: what is forecast is of no use any more."""
-        self.give_up("the plan has changed")
-
     async def _made(
         self, question: Question, keys: Sequence[str], problems: list[Words]
     ) -> Forecast:
         id = f"rehearsal-{secrets.token_hex(8)}"
         path = self._folder / f"{id}{SUFFIX}"
-        kept = False
+        rehearsed = None
         try:
             flown = await self._flown(question, path)
             if not flown.runs and (simpler := question.simpler) is not None:
@@ -132,26 +105,17 @@ class Preflight:
                     f"not even one run of this plan was flown within {duration(FIRST_WITHIN)}:"
                     " choose fewer missions"
                 )
-            rehearsed = flown.rehearsed
-            kept = rehearsed is not None and rehearsed.recorded
-            return forecast(
-                question,
-                keys,
-                flown.needs,
-                flown.runs,
-                rehearsed,
-                id if kept else None,
-                problems,
-            )
+            rehearsed = id if flown.is_recorded else None
+            return forecast(question, keys, flown, rehearsed, problems)
         finally:
             with suppress(OSError):  # what stays is deleted after another forecast
-                if not kept:
+                if rehearsed is None:
                     path.unlink(missing_ok=True)
                 self._tidy()
 
-    async def _flown(self, question: Question, path: Path) -> _Flown:
+    async def _flown(self, question: Question, path: Path) -> Flown:
         """Return what is found in time: nothing more if the first run takes too long."""
-        flown, loop = _Flown(), asyncio.get_running_loop()
+        flown, loop = Flown(), asyncio.get_running_loop()
         ends = loop.time() + WITHIN
         try:
             async with (
@@ -162,7 +126,6 @@ class Preflight:
                     flown.take(one)
                     if flown.runs:
                         limit.reschedule(ends)
-                        self.begun()
         except TimeoutError:
             pass  # the forecast is made of the runs so far
         except Died as end:
@@ -177,10 +140,6 @@ class Preflight:
         there = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: path.stat().st_mtime)
         for path in there[:-KEPT]:
             path.unlink(missing_ok=True)
-
-
-def _nothing() -> None:
-    """Do nothing: no callback is set."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -211,15 +170,15 @@ class StartForecasts:
         self._app = moving(app, config.fleet.motion, charges=config.fleet.charges_at_home)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)
-        plan.on_change = self.preflight.revised
+        plan.on_change = lambda: self.preflight.give_up("the plan has changed")
 
     async def ask(self, asked: PlannedStart, session: FlightSession | None) -> Forecast:
         """Return the forecast; raise `BadInput` if the plan is another, or a newer one is asked for.
 
         Cancelling this gives it up.
         """
-        if asked.runs is not None and not 1 <= asked.runs <= MOST_RUNS:
-            raise BadInput(f"a forecast has from 1 to {MOST_RUNS} runs")
+        if asked.runs is not None and not 1 <= asked.runs <= MOST:
+            raise BadInput(f"a forecast has from 1 to {MOST} runs")
         await self._plan.examined()
         if asked.revision != self._plan.revision:
             raise Newer("the plan has changed")
@@ -232,7 +191,7 @@ class StartForecasts:
             problems = [
                 words("preflight.refused", text, why=text) for text in str(error).split("\n")
             ]
-            return without_runs(None, asked.revision, problems)
+            return without_runs(asked.revision, problems)
         fleet = replace(
             self._config.fleet,
             airspace=replace(self._config.fleet.airspace),

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 from ...files.plan_check import endless
 from ...flight.simulate import has_traffic
 from ...shared.domain.text import duration, percent
+from ...shared.fleet.reach import docked
 from ..between_flights import BACK, FRESH_FOR, HOVERED, NEVER
-from ..wait_reasons import level_after
+from ..wait_reasons import level_after, ready_in
 from ..words import words
 
 if TYPE_CHECKING:
@@ -176,6 +177,19 @@ class Question:
         return {one.id: (one.at, one.battery) for one in self.present if one.out is None}
 
     @cached_property
-    def homes(self) -> Mapping[str, tuple[float, float, float]]:
-        """The drones' docks."""
-        return {one.id: one.home for one in self.fleet.drones}
+    def entries(self) -> Mapping[str, DroneEntry]:
+        """The drones, as their fleet file has them."""
+        return {one.id: one for one in self.fleet.drones}
+
+    def kind(self, drone: str) -> Category:
+        """Return the category of a drone."""
+        return self._kinds[self.entries[drone].category]
+
+    @cached_property
+    def _kinds(self) -> Mapping[str, Category]:
+        return {category.name: category for category in self.app.categories}
+
+    def ready_in(self, one: Present, wanted: float) -> float | None:
+        """Return the seconds until the battery of a drone has this level; None: it never will."""
+        is_docked = docked(one.at, self.entries[one.id].home)
+        return ready_in(self.kind(one.id), one.battery, wanted, docked=is_docked)

@@ -200,9 +200,7 @@ class _Fit:
     def __init__(self, question: Question) -> None:
         self._app = question.app
         self._reach = Reach(question.app, question.fleet.airspace)
-        self._homes = {one.id: one.home for one in question.flown.drones}
-        kinds = {category.name: category for category in question.app.categories}
-        self._drones = [(one.id, kinds[one.category]) for one in question.flown.drones]
+        self._drones = [(one, question.kind(one.id)) for one in question.flown.drones]
         self._known: dict[object, tuple[str, ...]] = {}
 
     def able(self, record: Mapping[str, Any]) -> tuple[tuple[str, ...], tuple[str, float]]:
@@ -213,8 +211,8 @@ class _Fit:
         which = actions, mass
         if which not in self._known:
             self._known[which] = tuple(
-                id
-                for id, kind in self._drones
+                one.id
+                for one, kind in self._drones
                 if mass <= kind.payload and all(map(kind.can, actions))
             )
         return self._known[which], (actions[0], mass)
@@ -228,12 +226,12 @@ class _Fit:
         """Return the least level with which each of these drones could fly one of these missions."""
         chains = [self._chain(record) for record in records[:MOST_CHAINS]]
         found = dict[str, float]()
-        for id, kind in self._drones:
-            if id in drones:
-                x, y, z = stand[id]["at"]
-                every = (self._reach.level(kind, self._homes[id], (x, y, z), one) for one in chains)
+        for one, kind in self._drones:
+            if one.id in drones:
+                x, y, z = stand[one.id]["at"]
+                every = (self._reach.level(kind, one.home, (x, y, z), chain) for chain in chains)
                 if (least := min(every, default=inf)) <= 1.0:
-                    found[id] = least
+                    found[one.id] = least
         return found
 
     def _chain(self, record: Mapping[str, Any]) -> Sequence[Trip]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from ...flight.simulate import Sampling, simulate
-from ...shared.domain.errors import BadInput
 from ...shared.domain.status import COMPLETED
 from ...shared.fleet.reach import Lacks, Reach, chain_of, miss_of
 from ...trials.case import fresh
@@ -18,7 +18,6 @@ from .rehearsal import FRAMES, MOST_CHAINS, Rehearsal, Waits
 if TYPE_CHECKING:
     from ...flight.outcome import SimulationResult
     from ...shared.domain.model import Category, Point, Trip
-    from ...shared.domain.trace import Event
     from .question import Question
 
 FEWEST, MOST = 21, 1_001
@@ -85,13 +84,31 @@ class Rehearsed(NamedTuple):
     trouble: str = ""
     """Why there is no recording of it; empty: there is."""
 
-    @property
-    def recorded(self) -> bool:
-        """Whether there is a recording of it."""
-        return not self.trouble
-
 
 Found = Needs | Run | Rehearsed
+
+
+@dataclass(slots=True)
+class Flown:
+    """What is found of a question."""
+
+    needs: Needs = field(default_factory=lambda: Needs({}, {}))
+    runs: list[Run] = field(default_factory=list)
+    rehearsed: Rehearsed | None = None
+
+    def take(self, one: Found) -> None:
+        """Take what is found next."""
+        if isinstance(one, Run):
+            self.runs.append(one)
+        elif isinstance(one, Needs):
+            self.needs = one
+        else:
+            self.rehearsed = one
+
+    @property
+    def is_recorded(self) -> bool:
+        """Whether there is a recording of the median run."""
+        return self.rehearsed is not None and not self.rehearsed.trouble
 
 
 def found(question: Question, recording: Path | None) -> Iterator[Found]:
@@ -162,10 +179,6 @@ def _fly(
     sampling: Sampling | None = None,
     hear: Rehearsal | None = None,
 ) -> SimulationResult:
-    def listen(event: Event) -> None:
-        if hear is not None:
-            hear.take(event)
-
     return simulate(
         question.app,
         [fresh(mission) for mission in question.all],  # a run changes its missions
@@ -173,7 +186,7 @@ def _fly(
         seed=seed,
         faults=question.faults,
         until=question.until,
-        on_event=listen,
+        on_event=hear.take if hear is not None else None,
         stands=question.stands,
         sampling=sampling,
     )
@@ -198,30 +211,25 @@ def _rehearsed(question: Question, median: Run, recording: Path) -> Rehearsed:
 def needs(question: Question) -> Needs:
     """Return what drones need to fly any of the missions at first, where they stand."""
     reach = Reach(question.app, question.fleet.airspace)
-    kinds = {category.name: category for category in question.app.categories}
     chains = list(_chains(question))[:MOST_CHAINS]
     levels, why = dict[str, float](), dict[str, str]()
     known: dict[tuple[str, Point, Point], float] = {}
     for entry in question.fleet.drones:
         at, _ = question.stands.get(entry.id, (entry.home, 1.0))
+        kind = question.kind(entry.id)
         place = entry.category, entry.home, at
         if place not in known:
-            kind = kinds[entry.category]
             every = (reach.level(kind, entry.home, at, chain) for chain in chains)
             known[place] = min(every, default=inf)
         levels[entry.id] = level = known[place]
         if level > 1.0 and chains:
-            misses = (
-                miss_of(
-                    question.app, question.fleet.airspace, kinds[entry.category], entry.home, one
-                )
-                for one in chains
-            )
+            where = question.fleet.airspace, kind, entry.home
+            misses = (miss_of(question.app, *where, chain) for chain in chains)
             some = [miss for miss in misses if miss is not None]
             if len(some) == len(chains):
                 nearest = min(some, key=lambda miss: (-miss.lacks, miss.by))
                 why[entry.id] = nearest.reason
-                if nearest.lacks is Lacks.ACTION and _may_follow(question, kinds[entry.category]):
+                if nearest.lacks is Lacks.ACTION and _may_follow(question, kind):
                     del levels[entry.id]  # it is there for what comes later
     return Needs(levels, why)
 
@@ -241,10 +249,3 @@ def _chains(question: Question) -> Iterator[list[Trip]]:
         if chain and which not in seen:
             seen.add(which)
             yield chain
-
-
-def nothing_flies(question: Question) -> BadInput | None:
-    """Return why no run can begin, or None."""
-    if not question.flown.drones:
-        return BadInput("no drone may fly: each is lost, retired, or not ready")
-    return None

@@ -82,7 +82,7 @@ class AStation(Station):
 
     async def forecast(self, asked: PlannedStart) -> Forecast:
         await self._meanwhile()
-        return without_runs(None, asked.revision, [])
+        return without_runs(asked.revision, [])
 
     @property
     def untouched(self) -> bool:
