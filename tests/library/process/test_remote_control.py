@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import errno
 import json
+import os
 import socket
 import stat
 from collections.abc import Callable, Mapping
@@ -186,11 +187,10 @@ def test_nothing_flies_that_could_not_be_stopped(
 ) -> None:
     """Where there is no room to say where commands are heard; nothing of the attempt is left."""
 
-    def full(part: Path, *_: object, **__: object) -> int:
-        part.touch()
+    def full(*_: object) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr(Path, "write_text", full)
+    monkeypatch.setattr(os, "replace", full)
     with pytest.raises(BadInput, match="and so nothing flies: the disk is full; mend that"):
         talk(note, lambda asked: "", lambda: None)
     assert list(note.parent.iterdir()) == []
