@@ -40,7 +40,7 @@ from .flow.record import (
 )
 from .flow.transitions import Transitions
 from .time.hours import Hours
-from .time.kernel import FLEET, Future
+from .time.kernel import Future
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
 
 if TYPE_CHECKING:
@@ -48,7 +48,6 @@ if TYPE_CHECKING:
     from .domain.app import App
     from .domain.trace import Event
     from .flow.mission import MissionState
-    from .time.kernel import Task
 
 __all__ = ["SEAM", "BadInput", "Brain", "about", "put_guard"]
 
@@ -107,9 +106,10 @@ class Brain:
         )
         core.fleet.changed = changes.drone
         self._engine = engine = Engine(core, self._states)
+        self._parts = [make(engine) for make in app.parts]
+        core.parts.update((type(part), part) for part in self._parts)
         self._going_on = GoingOn(engine)
         self._control = Control(engine)
-        self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
@@ -120,11 +120,6 @@ class Brain:
         self._engine.start(
             [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
         )
-        self._see_through()
-
-    def _see_through(self) -> None:
-        if self._whole is None or self._whole.is_set:
-            self._whole = self._kernel.spawn(self._engine.see_through(), FLEET, "the whole")
 
     def restore(self, standing: Mapping[str, Any], now: float) -> None:
         """Have missions, drones and results as their rows say, after any end: as in `standing()`.
@@ -132,7 +127,12 @@ class Brain:
         Every mission is out of its graph: what came of its flight can be found out, and told by commands, until
         `go_on`. One that does not fit the app as it is now has `unfit`, the fields without which it cannot be.
         """
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._going_on.restore, standing)
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._restore, standing)
+
+    def _restore(self, standing: Mapping[str, Any]) -> None:
+        self._going_on.restore(standing)
+        for part in self._parts:
+            part.restore(standing)
 
     def go_on(self, missions: Mapping[str, Any], drones: Mapping[str, Any], now: float) -> None:
         """Let missions that are out of their graphs go on, by their names.
@@ -145,7 +145,9 @@ class Brain:
     def _go_on(self, given: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
         missions, drones = given
         self._going_on.go_on(missions, drones)
-        self._see_through()
+        for part in self._parts:
+            part.go_on()
+        self._engine.look_after_the_end()
 
     def command(self, request: Mapping[str, Any], now: float) -> str:
         """Do what a person wants, or what was found out; raise `BadInput` with the reason why it cannot be done.
@@ -159,7 +161,14 @@ class Brain:
         `retire` or `bring-back` a drone; `join`, a new `drone` with its `category` and `home`, which is
         free when `go_on` says how it is.
         """
-        return self._kernel.call(now, ONLY_WHAT_IS_READY, self._control.perform, request)
+        return self._kernel.call(now, ONLY_WHAT_IS_READY, self._perform, request)
+
+    def _perform(self, request: Mapping[str, Any]) -> str:
+        for part in self._parts:
+            if request["command"] in part.commands:
+                done: str = part.commands[request["command"]](request)
+                return done
+        return self._control.perform(request)
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
@@ -208,7 +217,10 @@ class Brain:
         Ask between two instants: then they fit to the events.
         """
         core = self._core
-        return changed_rows(self._app, self._changes, self._states, core.results, core.fleet)
+        rows = changed_rows(self._app, self._changes, self._states, core.results, core.fleet)
+        for part in self._parts:
+            rows += part.rows()
+        return rows
 
     def mission(self, name: str) -> Mapping[str, Any]:
         """Return the row of a mission with those of its trips: `todo`, `done`, `gone`."""
@@ -227,6 +239,7 @@ class Brain:
             "drones": self.drones(),
             "results": [result_row(result) for result in core.results.results],
             "waiting": core.queue.summary() if core.queue.waiting else "",
+            **{table: rows for part in self._parts for table, rows in part.standing().items()},
         }
 
     def drones(self) -> Mapping[str, Any]:
@@ -243,7 +256,7 @@ class Brain:
     @property
     def over(self) -> float | None:
         """When the last mission ended, once all have and every drone has landed; None: not yet."""
-        whole = self._whole
+        whole = self._engine.whole
         return whole.result() if whole is not None and whole.is_set else None
 
     def whereabouts(self) -> Mapping[str, Any]:

@@ -51,7 +51,7 @@ def trips_of_areas(
             said = f"{given['action']} takes an item, and an area has none: write [[mission.trip]]"
             table.problem(said, "action")
         action = app.actions.get(given["action"])
-        parameters = read_parameters(table.table("parameters"), action) if action else {}
+        parameters = read_parameters(table.table("parameters"), action.parameters) if action else {}
         flown = [*before, *found]
         places = read_places(table, airspace, flown[-1].target if flown else None)
         made = [

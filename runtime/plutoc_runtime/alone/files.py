@@ -105,7 +105,7 @@ def read_trips(table: Table, app: App, airspace: Airspace) -> list[Trip]:
         given = {"name": f"{index + 1}", **one.read(*keys)}
         one.differs("name", given["name"], "trip", names)
         if action := app.actions.get(given["action"]):
-            given["parameters"] = read_parameters(one.table("parameters"), action)
+            given["parameters"] = read_parameters(one.table("parameters"), action.parameters)
             given["item"] = _item(one, action.name)
         trips.append(app.trip(**given, index=index))
     for index, said in _wrongly_carried(trips):

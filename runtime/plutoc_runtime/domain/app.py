@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Coroutine, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from math import inf
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from .status import Status
 
 if TYPE_CHECKING:
-    from .actions import Action
+    from .actions import Action, Parameter
     from .fields import Field
     from .model import Category, Mission, Trip
     from .motion import Motion
@@ -22,6 +22,16 @@ SEAM = 1
 
 Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""
+
+
+class PartOf(Protocol):
+    """What an app has beside missions and drones."""
+
+    def __call__(self, engine: Any) -> Any:
+        """Return it in a running app: a `Part` of flow/mission.py."""
+
+    def about(self) -> dict[str, Any]:
+        """Return it as plain data, for the library."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,6 +53,8 @@ class App:
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
     results: tuple[Mapping[str, Any], ...] = ()
     """What the results of actions are, and how they are shown: for the library alone."""
+    parts: tuple[PartOf, ...] = ()
+    """What this app has beside missions and drones, such as events."""
 
 
 def needs_library(what: str, extra: str = "") -> str:
@@ -79,9 +91,7 @@ def about(app: App) -> dict[str, Any]:
         "actions": [
             {
                 "name": one.name,
-                "parameters": [
-                    {**asdict(each), "type": each.type.value} for each in one.parameters
-                ],
+                "parameters": parameters_data(one.parameters),
                 "repeat": one.repeat,
                 "takes": one.takes,
                 "own": one.hook is not None,
@@ -91,4 +101,10 @@ def about(app: App) -> dict[str, Any]:
         "evaluators": list(app.evaluators),
         "resumes": list(app.resumes),
         "results": list(app.results),
+        **{name: each for part in app.parts for name, each in part.about().items()},
     }
+
+
+def parameters_data(parameters: Iterable[Parameter]) -> list[dict[str, Any]]:
+    """Return parameters as plain data."""
+    return [{**asdict(each), "type": each.type.value} for each in parameters]

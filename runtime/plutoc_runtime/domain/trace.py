@@ -24,6 +24,11 @@ class Trace:
         """Whether there is a listener: check it before composing an event."""
         self._clock, self._listeners = clock, tuple(listeners)
 
+    def listen(self, listener: Callable[[Event], object]) -> None:
+        """Send the events to one more listener."""
+        self._listeners += (listener,)
+        self.live = True
+
     def note(self, event: str, **facts: object) -> None:
         """Send an event, with the current time."""
         noted = {"t": round(self._clock.now, 6), "event": event, **facts}

@@ -6,7 +6,7 @@ with the path of its key; the reader goes on, with None in its place, and refuse
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, time
 from functools import partial
@@ -23,7 +23,7 @@ from .text import shown as written
 if TYPE_CHECKING:
     from typing import Self
 
-    from .actions import Action
+    from .actions import Parameter
     from .airspace import Airspace, Corner
     from .model import Point
 
@@ -322,9 +322,9 @@ class Table:
         return inner
 
 
-def read_parameters(table: Table, action: Action) -> dict[str, Any]:
-    """Return an action's parameters, defaults included."""
-    defaults = {one.name: one.default for one in action.parameters if one.default is not None}
-    readers = {one.name: READERS[one.type] for one in action.parameters}
+def read_parameters(table: Table, parameters: Iterable[Parameter]) -> dict[str, Any]:
+    """Return the parameters that are given, of an action for instance, defaults included."""
+    defaults = {one.name: one.default for one in parameters if one.default is not None}
+    readers = {one.name: READERS[one.type] for one in parameters}
     needed = {name: read for name, read in readers.items() if name not in defaults}
     return {**defaults, **table.read(needed, readers)}

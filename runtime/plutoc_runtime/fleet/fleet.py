@@ -93,9 +93,9 @@ class Fleet:
                 await self._orders.ask("land", drone.id)
             except FlightFailed as error:
                 lose(str(error))
-                await self._rescue(drone, str(error))
+                await self.rescue(drone, str(error))
 
-        self._send(drone, DroneStatus.BUSY, land, "waits with its item")
+        self.send(drone, DroneStatus.BUSY, land, "waits with its item")
 
     def dismiss(self, drone: Drone) -> None:
         """Take a drone back whose trip has ended well."""
@@ -113,26 +113,26 @@ class Fleet:
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
         else:
-            self._send(drone, DroneStatus.RETURNING, self._stay, "lands")
+            self.send(drone, DroneStatus.RETURNING, self._stay, "lands")
 
     def send_home(self, drone: Drone) -> None:
         """Send a drone home."""
-        self._send(drone, DroneStatus.RETURNING, self._return, "returns")
+        self.send(drone, DroneStatus.RETURNING, self.fly_home, "returns")
 
     def recover(self, drone: Drone, reason: str = "") -> None:
         """Recover a drone whose flight has failed: it is not allocated again before it is home."""
-        self._send(drone, _RECOVERING, partial(self._rescue, reason=reason), "recovers")
+        self.send(drone, _RECOVERING, partial(self.rescue, reason=reason), "recovers")
 
     def never_flew(self, drone: Drone) -> None:
         """Take a drone back that was allocated and not launched."""
-        self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
+        self.send(drone, DroneStatus.BUSY, self._stay, "is not needed")
 
     async def all_down(self) -> None:
         """Wait until no drone is returning, landing or recovering."""
         while under_way := [task for task in self.errands.values() if not task.is_set]:
             await under_way[0].ended()
 
-    def _send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
+    def send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)
         self._become(drone, status)
 
@@ -204,26 +204,26 @@ class Fleet:
             if self.queue.waiting:  # the queue is served at the end of this instant
                 await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if not self.queue.waiting:
-                await self._return(drone)
+                await self.fly_home(drone)
                 return
         try:
             await self._orders.ask("land", drone.id)
         except FlightFailed as error:
-            await self._rescue(drone, str(error))
+            await self.rescue(drone, str(error))
             return
         if not self._settle_here(drone):
-            await self._return(drone)
+            await self.fly_home(drone)
         while self._after_trip is AfterTrip.NEXT:
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if drone.status is not _FREE or self._is_docked(drone):
                 return
             if self.queue.room:
-                await self._return(drone)
+                await self.fly_home(drone)
                 return
             self._change = self._change or Future()
             await self._change
 
-    async def _return(self, drone: Drone) -> None:
+    async def fly_home(self, drone: Drone) -> None:
         """Fly a drone home; one that lands beside its dock each time is lost there."""
         for _ in range(FLIGHTS_HOME):
             self._become(drone, DroneStatus.RETURNING)
@@ -238,10 +238,10 @@ class Fleet:
         away = f"{drone.distance(drone.home):.1f} m from its dock"
         self._lose(drone, f"it flew home {FLIGHTS_HOME} times, and landed {away}")
 
-    async def _rescue(self, drone: Drone, reason: str, repaired: bool = False) -> None:
+    async def rescue(self, drone: Drone, reason: str, repaired: bool = False) -> None:
         """Bring a drone home, or give it up as lost; a repaired one may say that it is not ready."""
         if await self._recovered(drone, reason, repaired) and not self._settle_here(drone):
-            await self._return(drone)
+            await self.fly_home(drone)
 
     async def _recovered(self, drone: Drone, reason: str, repaired: bool = False) -> bool:
         """Recover a drone; return False if it is lost."""
@@ -312,8 +312,8 @@ class Fleet:
             self._orders.mended(drone.id)  # its errand may be waiting for this
         if drone.status is DroneStatus.LOST:
             unknown = "it was brought back, and could not be reached"
-            back = partial(self._rescue, reason=unknown, repaired=True)
-            self._send(drone, _RECOVERING, back, "comes back")
+            back = partial(self.rescue, reason=unknown, repaired=True)
+            self.send(drone, _RECOVERING, back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._settle_here(drone):
             self.send_home(drone)
 

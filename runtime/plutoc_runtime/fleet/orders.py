@@ -92,9 +92,11 @@ class Orders:
         self._answers.pop(self._flying.pop(drone, 0), None)
         self._give({"do": "break_off", "drone": drone})
 
-    def settle(self, drone: str, flight: str) -> None:
+    def settle(self, drone: str, flight: str, answer: Answer | None = None) -> None:
         """Stop a flight; what came of it is the answer to the order to fly."""
         settle = self._flying.get(drone)
+        if settle is not None and answer is not None:
+            self._answers[settle] = answer
         self._give({"do": "break_off", "drone": drone, "flight": flight, "settle": settle})
 
     # All else

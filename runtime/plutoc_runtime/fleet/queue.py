@@ -62,6 +62,8 @@ class Queue:
         self._recheck_at = inf
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
+        self.entered: Callable[[Mission[Any]], object] | None = None
+        """Called with each mission that enters."""
 
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
@@ -74,6 +76,8 @@ class Queue:
             insort(self.requests, request, key=_by_rank)
         self._fresh.append(request)
         self.changed()
+        if self.entered is not None:
+            self.entered(mission)
         return request
 
     def leave(self, request: Request) -> None:

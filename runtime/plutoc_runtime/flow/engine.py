@@ -12,7 +12,7 @@ from ..domain.keeper import Keeper, keep, keeper_of, trips_of
 from ..domain.model import Mission
 from ..domain.status import FAILED, UNEXECUTED, Status
 from ..domain.text import said
-from ..time.kernel import Future, Task, mission_key
+from ..time.kernel import FLEET, Future, Task, mission_key
 from .blame import as_crash, blame, blamed, traced
 from .mission import Core, MissionState
 from .promises import Promises
@@ -32,6 +32,9 @@ class Engine:
         self._fields = {(kinds[field.on], field.name): field for field in app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
+        self._expected = 0  # what may begin more of them
+        self.whole: Task[float] | None = None
+        """Waits for the end of all; gives when the last mission has ended."""
         self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
 
     @property
@@ -39,16 +42,35 @@ class Engine:
         """How many missions are on their way through their graphs, and not waiting for others."""
         return self._begun - len(self.promises.waiting)
 
-    def start(self, missions: Sequence[Mission[Any]]) -> None:
-        """Start the missions, all at the same instant."""
+    def start(self, missions: Sequence[Mission[Any]], at: str | None = None) -> None:
+        """Start the missions, all at the same instant; `at` is the block where they enter the graph."""
         states = [self.new_state(mission) for mission in missions]
         for state in states:
+            state.at = at
             self.states[state.mission.name] = state
             if state.mission.promises:
                 self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
+        self.look_after_the_end()
 
-    async def see_through(self) -> float:
+    def expect(self) -> None:
+        """Note that something, such as an event, may yet begin a mission: this is not the end."""
+        if self.done.is_set:
+            self.done = Future()
+        self._expected += 1
+        self.look_after_the_end()
+
+    def expect_no_more(self) -> None:
+        """Note that what was expected is there, or will not come."""
+        self._expected -= 1
+        self.look_for_the_end()
+
+    def look_after_the_end(self) -> None:
+        """Have somebody wait for the end of all, unless somebody does."""
+        if self.whole is None or self.whole.is_set:
+            self.whole = self.core.kernel.spawn(self._see_through(), FLEET, "the whole")
+
+    async def _see_through(self) -> float:
         """Wait until every mission has ended and every drone has landed; return when the last one ended."""
         while True:
             await self.done
@@ -164,7 +186,7 @@ class Engine:
 
     def look_for_the_end(self) -> None:
         """Set `done` if every mission has ended, or was suspended, or waits for others that were."""
-        if not self.living:
+        if not (self.living or self._expected):
             self.done.set(None)
 
     def _end(

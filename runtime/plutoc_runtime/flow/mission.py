@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
@@ -16,6 +16,8 @@ from ..time.kernel import mission_key
 from .flight import Flight, Limits
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.model import Drone, Item, Mission, ResultStore, Trip
@@ -23,14 +25,35 @@ if TYPE_CHECKING:
     from ..fleet.fleet import Fleet
     from ..fleet.orders import Orders
     from ..fleet.queue import Queue
+    from ..hooks.context import Context
     from ..hooks.plain_data import Data
     from ..time.kernel import Task
     from ..time.told import ToldTime
     from .changes import Changes
+    from .record import Row
     from .transitions import Transitions
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Part(Protocol):
+    """What some apps have beside missions and drones, such as events; it keeps rows of its own."""
+
+    commands: Mapping[str, Callable[[Mapping[str, Any]], str]]
+    """What people can have it do, by the names of commands."""
+
+    def rows(self) -> list[Row]:
+        """Return its rows that have changed since the last call."""
+
+    def standing(self) -> Mapping[str, Any]:
+        """Return all its rows, under the names of their tables."""
+
+    def restore(self, standing: Mapping[str, Any]) -> None:
+        """Take over its rows of an earlier run."""
+
+    def go_on(self) -> None:
+        """Go on with what was not over at the end of an earlier run."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
 class Core:
     """The parts of a running app that all its missions share."""
 
@@ -47,6 +70,10 @@ class Core:
     changes: Changes
     on_record: Callable[[], Awaitable[None]] | None = None
     """Waits until everything up to now is durable; None: this run is never resumed."""
+    context: Callable[..., Context] | None = None
+    """Makes what hooks are given; None: a `Context`."""
+    parts: dict[type, Any] = field(default_factory=dict)
+    """What this app has beside, by class; each is a `Part`."""
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""

@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 def context_of(run: Run[Any]) -> Context:
     """Return the context that a modifier gets."""
     core, state = run.core, run.state
-    return Context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
+    new_context = core.context or Context
+    return new_context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
 
 
 async def settle(

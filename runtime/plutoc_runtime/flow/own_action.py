@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
@@ -20,8 +21,10 @@ from ..time.kernel import EventKind, Future, mission_key
 from .asking import kept_by, take_over
 
 if TYPE_CHECKING:
+    from ..domain.model import Drone
+    from ..time.kernel import Key
     from .flight import Flight
-    from .mission import MissionState
+    from .mission import Core, MissionState
 
 NO_MORE = "battery: what is left of it only just suffices for the way home"
 NEAR = 2.0  # seconds before a battery only just suffices from when on it is asked exactly then
@@ -54,11 +57,14 @@ class OwnAction(Action):
         if core.on_record is not None:
             await core.on_record()
         live = LiveDrone(kernel, core.orders, drone, key) if can_wait(hook) else None
-        context = Context(kernel, core.results, core.log, mission, lambda: state.flight, live)
+        new_context = core.context or Context
+        context = new_context(kernel, core.results, core.log, mission, lambda: state.flight, live)
         call = _call(state, hook, drone, trip, context, **trip.parameters)
         work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
         hover = kernel.spawn(core.orders.ask("hold", drone.id), key, f"{drone.id} hovers")
-        rest = kernel.spawn(self._while_it_suffices(state, flight), key, f"{drone.id}'s battery")
+        until = kernel.now + self.lasts(trip.parameters)
+        suffices = while_it_suffices(core, drone, key, until)
+        rest = kernel.spawn(suffices, key, f"{drone.id}'s battery")
         over, began = Future[None](), kernel.now
         work.watch(over.set)
         hover.watch(over.set)
@@ -83,33 +89,6 @@ class OwnAction(Action):
             if live is not None:
                 live.release()
         return value
-
-    async def _while_it_suffices(self, state: MissionState, flight: Flight) -> None:
-        """Wait while the battery holds more than the way home and its reserve take.
-
-        For as long as plans reckon with, half of the reserve will do: it is there for chance and traffic.
-        """
-        kernel = state.core.kernel
-        drone = flight.flier
-        key = mission_key(state.mission.index)
-        category = drone.category
-        space = state.core.airspace
-        until = kernel.now + self.lasts(flight.trip.parameters)
-        way = needed(category, space, drone.location, (), drone.home)
-        if way is None:
-            await Future[None]()  # no rest suffices where no way leads home
-            return
-        while True:
-            left = until - kernel.now
-            reserve = category.reserve / 2 if left > 0.0 else category.reserve
-            rest = (drone.battery_level - way - reserve) * category.endurance
-            if rest <= 0.0:
-                return
-            # a real battery may drain faster than its model: it is asked again half-way
-            seconds = rest / 2 if rest > NEAR else rest + MOMENT
-            if 0.0 < left < seconds:
-                seconds = left
-            await kernel.sleep(seconds, EventKind.ALLOCATE, key)
 
     async def was_done(self, state: MissionState, flight: Flight) -> bool | None:
         """Ask the hook that can tell whether it was done: `pollinate` has `pollinate_done`."""
@@ -140,3 +119,26 @@ async def _call(state: MissionState, hook: Hook, /, *args: object, **named: obje
         raise fault_of(hook, error) from error
     finally:
         take_over(state, hook)
+
+
+async def while_it_suffices(core: Core, drone: Drone, key: Key, until: float = -inf) -> None:
+    """Wait while the battery of a hovering drone holds more than the way home and its reserve take.
+
+    Until then, for as long as plans reckon with, half of the reserve will do: it is there for chance and traffic.
+    """
+    kernel, category = core.kernel, drone.category
+    way = needed(category, core.airspace, drone.location, (), drone.home)
+    if way is None:
+        await Future[None]()  # no rest suffices where no way leads home
+        return
+    while True:
+        left = until - kernel.now
+        reserve = category.reserve / 2 if left > 0.0 else category.reserve
+        rest = (drone.battery_level - way - reserve) * category.endurance
+        if rest <= 0.0:
+            return
+        # a real battery may drain faster than its model: it is asked again half-way
+        seconds = rest / 2 if rest > NEAR else rest + MOMENT
+        if 0.0 < left < seconds:
+            seconds = left
+        await kernel.sleep(seconds, EventKind.ALLOCATE, key)

@@ -98,7 +98,7 @@ def _wrong_action(app: App, trip: Trip) -> str | None:
             return f"its parameter {shown(name)} must be a number or a text, not {shown(value)}"
     named = {name if type(name) is str else shown(name): given[name] for name in given}
     table = Table(named, who=action.name)
-    read = read_parameters(table, action)
+    read = read_parameters(table, action.parameters)
     if table.problems:
         return table.problems[0].sentence
     # "50 mg" is read as in a missions file, and what is left out has its default

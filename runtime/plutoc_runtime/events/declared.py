@@ -1,0 +1,64 @@
+"""Events as an app declares them, and their occurrences as hooks see them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..domain.actions import Parameter
+    from ..domain.model import Point
+
+LATE = "late"
+"""Happens when a promise of a mission is broken."""
+LOST = "lost"
+"""Happens when a drone is lost."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Event:
+    """One occurrence of an event; what is not known of it is None."""
+
+    id: str
+    """With the same one it happens only once."""
+    name: str
+    time: float
+    """When it was raised, in seconds since the app started."""
+    at: Point | None = None
+    """Where it happened: metres in the map's frame."""
+    track: str | None = None
+    """The moving object that it is about."""
+    mission: str | None = None
+    """The mission whose hook or drone has raised it."""
+    trip: str | None = None
+    drone: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventType:
+    """An event that an app declares, or a built-in one that it uses."""
+
+    name: str
+    type: type[Event] = Event
+    parameters: tuple[Parameter, ...] = ()
+    """Its own fields."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Creator:
+    """Where missions that an event makes enter the graph."""
+
+    block: str
+    hook: Callable[..., Any]
+
+
+def facts_of(event: Event) -> dict[str, Any]:
+    """Return an occurrence as plain data."""
+    return {name: value for name, value in vars(event).items() if value is not None}
+
+
+def event_of(kind: EventType, facts: Mapping[str, Any]) -> Event:
+    """Return an occurrence from its plain data."""
+    at = facts.get("at")
+    return kind.type(**{**facts, "at": None if at is None else tuple(at)})

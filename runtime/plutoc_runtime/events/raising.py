@@ -1,0 +1,389 @@
+"""The occurrences of events: each happens once, wakes who waits for it, and may make a mission.
+
+An occurrence is a row, like a mission: it is durable before its creator is asked, and the mission that comes of it
+changes that row at the same instant. So after any end of the app each has happened once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from ..domain.app import parameters_data
+from ..domain.errors import BadInput, HookFault
+from ..domain.fields import Entity, wrong_field
+from ..domain.guard import NOT_ITS_OWN
+from ..domain.keeper import keeper_of, put, reading, trips_of
+from ..domain.plain import plain_of
+from ..domain.status import DroneStatus, Status
+from ..domain.text import LONGEST_REASON, bounded, class_of, quoted
+from ..domain.values import Table, is_name, name, point, point_on, read_parameters
+from ..fleet.reach import miss_of
+from ..flow.own_action import while_it_suffices
+from ..hooks.calls import call_hook, fault_of, hook_name
+from ..hooks.soundness import unsound
+from ..time.kernel import FLEET, EventKind, Future
+from .context import CreatorContext, EventContext
+from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Mission, Trip
+    from ..flow.engine import Engine
+    from ..flow.record import Row
+
+
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """Stands for the mission of a hook that is called for none."""
+
+    index: int
+    name: str | None = None
+
+
+class Happening:
+    """One occurrence, and what has come of it."""
+
+    __slots__ = ("event", "made", "open", "why")
+
+    def __init__(self, event: Event, *, is_open: bool) -> None:
+        self.event = event
+        self.open = is_open  # its creator has not answered yet
+        self.made: str | None = None  # the mission that it has made
+        self.why = ""  # why it has made none
+
+
+@dataclass(frozen=True, slots=True)
+class EventsOf:
+    """The events of an app: those that it declares, and the built-in ones that it uses."""
+
+    types: Sequence[EventType]
+    creators: Mapping[str, Creator] = field(default_factory=dict)
+    """By the names of their events."""
+
+    def __call__(self, engine: Engine) -> Events:
+        """Return what handles them in a running app."""
+        return Events(engine, self.types, self.creators)
+
+    def about(self) -> dict[str, Any]:
+        """Return them as plain data: all that a library knows of them."""
+        events = [
+            {
+                "name": one.name,
+                "parameters": parameters_data(one.parameters),
+                "creates": one.name in self.creators,
+            }
+            for one in self.types
+        ]
+        return {"events": events}
+
+
+class Events:
+    """The events of one running app."""
+
+    def __init__(
+        self, engine: Engine, types: Sequence[EventType], creators: Mapping[str, Creator]
+    ) -> None:
+        self._engine = engine
+        self._core = engine.core
+        self._types = {one.name: one for one in types}
+        self._creators = creators
+        self.happenings: dict[str, Happening] = {}
+        """By their ids."""
+        self._changed: dict[str, None] = {}
+        self.reserved: dict[str, Drone] = {}
+        """The drones that hover for their missions, by the names of these, since an event broke a flight off."""
+        self._waiting: dict[str, dict[Future[Event], str | None]] = {}
+        """By the names of events: who waits, and the mission whose own they must be."""
+        self.commands = {"raise": self._raise}
+        self._core.trace.listen(self._hear)
+        self._core.context = partial(EventContext, self)
+        self._core.queue.entered = self.release
+
+    # What happens
+
+    def happen(
+        self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception] = BadInput
+    ) -> str:
+        """Note an occurrence, and let come of it what comes; return what came of it at once, for people.
+
+        `given` may have `id`, `at`, `track`, `mission`, `trip`, `drone` and the event's own `fields`.
+        """
+        facts = self._read(name, given, wrong)
+        id = facts["id"]
+        if id in self.happenings:
+            return f"event {id} has happened already"
+        kind = self._types[name]
+        event = event_of(kind, {**facts, "name": name, "time": round(self._core.kernel.time(), 6)})
+        happening = Happening(event, is_open=name in self._creators)
+        self.happenings[id] = happening
+        self._changed[id] = None
+        self._note("event.raised", facts_of(event))
+        for future, mission in tuple(self._waiting.get(name, {}).items()):
+            if mission is None or mission == event.mission:
+                future.set(event)
+        if happening.open:
+            self._ask_creator(happening)
+        return f"event {id} has happened"
+
+    def _raise(self, request: Mapping[str, Any]) -> str:
+        """Raise an event as a person, or another program, wants."""
+        given = {name: value for name, value in request.items() if name not in ("command", "event")}
+        return self.happen(str(request.get("event")), given)
+
+    def _read(
+        self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception]
+    ) -> dict[str, Any]:
+        """Return the facts of an occurrence, checked; raise what is `wrong` with them."""
+        kind = self._types.get(name)
+        if kind is None:
+            there = ", ".join(self._types)
+            raise wrong(f"there is no event {quoted(str(name))}; there are: {there}")
+        table = Table(given, who=f"event {name}")
+        space = self._core.airspace
+
+        def place(value: object) -> object:
+            listed = list(value) if isinstance(value, tuple) else value
+            return point_on(space, space.cruise_height, point, listed)
+
+        known = table.read({}, {**_FACTS, "at": place, "fields": None})
+        own = Table(
+            {each: plain_of(one) for each, one in given.get("fields", {}).items()}, who=table.who
+        )
+        own.problems = table.problems
+        known.update(read_parameters(own, kind.parameters))
+        if table.problems:
+            raise wrong(table.problems[0].sentence)
+        known.setdefault("id", f"{name}-{len(self.happenings) + 1}")
+        return known
+
+    def _hear(self, noted: Mapping[str, Any]) -> None:
+        """Raise the built-in events when what they are about is noted."""
+        match noted:
+            case {"event": "mission.late", "mission": mission, "t": when} if LATE in self._types:
+                self._soon(LATE, id=f"late/{mission}/{when}", mission=mission)
+            case {"event": "mission.ended", "mission": mission} if mission in self.reserved:
+                self.release(self._engine.states[mission].mission)
+            case {"event": "drone.lost", "drone": drone, "at": at, "t": when} if (
+                LOST in self._types
+            ):
+                flown = self._flown_by(drone)
+                origin = {} if flown is None else {"mission": flown}
+                self._soon(LOST, id=f"lost/{drone}/{when}", drone=drone, at=at, **origin)
+
+    def _soon(self, name: str, **given: Any) -> None:
+        """Raise a built-in event once what has just been noted is complete."""
+        kernel = self._core.kernel
+        kernel.at(kernel.now, EventKind.READY, FLEET, lambda: self.happen(name, given))
+
+    def _flown_by(self, drone: str) -> str | None:
+        """Return the mission that a drone has flown for last, if that has not ended."""
+        flights = [
+            state.flight
+            for state in self._engine.states.values()
+            if not state.ended and state.flight is not None and state.flight.drone == drone
+        ]
+        latest = max(flights, key=lambda flight: flight.launched_at, default=None)
+        return None if latest is None else latest.mission.name
+
+    async def wait(self, name: str, mission: str | None) -> Event:
+        """Wait for the next occurrence of an event; with a mission, for one that is its own."""
+        future = Future[Event]()
+        waiting = self._waiting.setdefault(name, {})
+        waiting[future] = mission
+        try:
+            return await future
+        finally:
+            del waiting[future]
+
+    def reserve(self, mission: str, drone: Drone) -> None:
+        """Have a drone hover for a mission until its next allocation decides."""
+        self.reserved[mission] = drone
+        fleet = self._core.fleet
+        fleet.send(drone, DroneStatus.BUSY, partial(self._hover, mission), "waits for its mission")
+
+    async def _hover(self, mission: str, drone: Drone) -> None:
+        """Hover as long as the battery suffices, and then go home."""
+        core = self._core
+        hover = core.kernel.spawn(core.orders.ask("hold", drone.id), FLEET, f"{drone.id} hovers")
+        rest = core.kernel.spawn(
+            while_it_suffices(core, drone, FLEET), FLEET, f"{drone.id}'s battery"
+        )
+        either = Future[None]()
+        hover.watch(either.set)
+        rest.watch(either.set)
+        try:
+            await either
+        finally:
+            hover.cancel()
+            rest.cancel()
+        del self.reserved[mission]
+        if hover.is_set and hover.error is not None:
+            await core.fleet.rescue(drone, str(hover.error))
+        else:
+            await core.fleet.fly_home(drone)
+
+    def release(self, mission: Mission[Any]) -> None:
+        """Let the drone go that hovers for a mission: the next allocation decides whose it is."""
+        drone = self.reserved.pop(mission.name, None)
+        if drone is not None:
+            self._core.fleet.dismiss(drone)
+
+    # What is made of it
+
+    @property
+    def living(self) -> tuple[Mission[Any], ...]:
+        """The missions that have not ended, in their order."""
+        missions = [one.mission for one in self._engine.states.values() if not one.ended]
+        return tuple(sorted(missions, key=lambda mission: mission.index))
+
+    def _ask_creator(self, happening: Happening) -> None:
+        self._engine.expect()
+        work = self._create(happening)
+        self._core.kernel.spawn(work, FLEET, f"event {happening.event.id}")
+
+    async def _create(self, happening: Happening) -> None:
+        """Ask the creator of an event for a mission, and begin that."""
+        core, event = self._core, happening.event
+        creator = self._creators[event.name]
+        if core.on_record is not None:
+            await core.on_record()
+        try:
+            mission = await self._mission_of(creator, event)
+        except HookFault as fault:
+            if fault.detail:
+                core.log(fault.detail)
+            happening.why = str(fault)
+            mission = None
+        happening.open = False
+        self._changed[event.id] = None
+        if mission is None:
+            happening.why = happening.why or "its creator made no mission of it"
+            self._note("event.over", {"id": event.id, "why": happening.why})
+        else:
+            happening.made = mission.name
+            self._note("event.over", {"id": event.id, "made": mission.name})
+            self._engine.start([mission], at=creator.block)
+        self._engine.expect_no_more()
+
+    async def _mission_of(self, creator: Creator, event: Event) -> Mission[Any] | None:
+        """Return the mission that a creator makes, checked; raise its fault."""
+        hook, core = creator.hook, self._core
+        outside = Outside(self._next_index())
+        context = CreatorContext(
+            self._cancel, self, core.kernel, core.results, core.log, outside, lambda: None
+        )
+        try:
+            made: Any = await call_hook(core.kernel, reading(), hook, event, context)
+        except NOT_ITS_OWN:
+            raise
+        except BaseException as error:
+            raise fault_of(hook, error) from error
+        if made is None:
+            return None
+        if (wrong := self._wrong_mission(made)) is not None:
+            raise HookFault(f"creator {hook_name(hook)} made a mission that cannot be: {wrong}")
+        put(made, index=self._next_index(), name=self._free_name(made.name))
+        return made  # type: ignore[no-any-return]  # its class was checked
+
+    def _wrong_mission(self, made: Any) -> str | None:
+        """Return what is wrong with a mission that a creator has made, or None."""
+        core = self._core
+        if type(made) is not core.app.mission:
+            return f"it must be a Mission of this app or None, not {class_of(made)}"
+        if keeper_of(made) is not None:
+            return f"mission {made.name} is in the app already: make a new one"
+        if not is_name(made.name):
+            return "its name must be a text that can be shown"
+        trips = trips_of(made)
+        if not trips:
+            return f"mission {made.name} has no trips"
+        if len({id(trip) for trip in trips}) != len(trips):
+            return f"mission {made.name} has a trip twice"
+        wrong = [unsound(core.app, core.airspace, trip) for trip in trips]
+        fields = wrong_field(core.app.fields, Entity.MISSION, made, core.app.evaluators)
+        return next(filter(None, [*wrong, fields]), None) or self._beyond_all(trips)
+
+    def _beyond_all(self, trips: Sequence[Trip]) -> str | None:
+        """Return why no drone of the fleet could ever fly these trips, or None."""
+        core = self._core
+        for trip in trips:
+            misses = [
+                miss_of(core.app, core.airspace, drone.category, drone.home, (trip,))
+                for drone in core.fleet.drones
+            ]
+            if None not in misses:
+                reasons = dict.fromkeys(miss.reason for miss in misses if miss)
+                return f"trip {trip.name}: {'; '.join(reasons)}"
+        return None
+
+    def _next_index(self) -> int:
+        states = self._engine.states.values()
+        return max((state.mission.index for state in states), default=-1) + 1
+
+    def _free_name(self, name: str) -> str:
+        """Return a mission's name, with a number if there is such a mission already."""
+        free = name
+        number = 1
+        while free in self._engine.states:
+            number += 1
+            free = f"{name} {number}"
+        return free
+
+    def _cancel(self, mission: Mission[Any], why: str) -> None:
+        state = self._engine.states.get(getattr(mission, "name", ""))
+        if state is None or state.mission is not mission:
+            raise ValueError("only a mission of this app can be cancelled")
+        if not state.ended:
+            self._engine.cancel(state, Status.CANCELLED, bounded(str(why), LONGEST_REASON))
+
+    def _note(self, what: str, facts: Mapping[str, Any]) -> None:
+        if self._core.trace.live:
+            self._core.trace.note(
+                what, **{_NOTED.get(name, name): one for name, one in facts.items()}
+            )
+
+    # Rows
+
+    def rows(self) -> list[Row]:
+        """Return the rows of what has happened, or come of it, since the last call."""
+        changed: list[Row] = [("event", (id,), _row(self.happenings[id])) for id in self._changed]
+        self._changed.clear()
+        return changed
+
+    def standing(self) -> dict[str, Any]:
+        """Return the rows of all that has happened, by its id."""
+        return {"events": {id: _row(one) for id, one in self.happenings.items()}}
+
+    def restore(self, standing: Mapping[str, Any]) -> None:
+        """Take over what has happened in an earlier run."""
+        for id, row in standing.get("events", {}).items():
+            kind = self._types.get(row["event"]["name"], EventType(name=row["event"]["name"]))
+            known = {one.name for one in kind.parameters} | {*_OF_ALL}
+            facts = {name: value for name, value in row["event"].items() if name in known}
+            is_open = row.get("open", False) and kind.name in self._creators
+            self.happenings[id] = happening = Happening(event_of(kind, facts), is_open=is_open)
+            happening.made = row.get("made")
+            happening.why = row.get("why", "")
+
+    def go_on(self) -> None:
+        """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
+        for happening in self.happenings.values():
+            if happening.open:
+                self._ask_creator(happening)
+
+
+def _row(happening: Happening) -> dict[str, Any]:
+    row: dict[str, Any] = {"event": facts_of(happening.event), "open": happening.open}
+    if happening.made is not None:
+        row["made"] = happening.made
+    if happening.why:
+        row["why"] = happening.why
+    return row
+
+
+_FACTS = dict.fromkeys(("id", "track", "mission", "trip", "drone"), name)
+_OF_ALL = (*_FACTS, "name", "time", "at")
+_NOTED = {"name": "kind", "time": "raised"}
+"""How facts are called in the trace, where these names are taken."""

@@ -1,0 +1,226 @@
+"""Events: raised once, waited for, and made missions of."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import pytest
+
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.actions import Parameter
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.quantities import Type
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.events.declared import Creator, Event, EventType
+from pluto_fleet.shared.events.raising import EventsOf
+from pluto_fleet.shared.flow.run import Run
+from plutoc_blocks.event_monitor.step import wait_for_event
+from plutoc_blocks.gate_fifo.step import pass_first
+from plutoc_blocks.mission_modifier.step import modify_mission
+from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.brain.hand import charged, settled, trip
+from tests.kit import apps
+
+
+@dataclass(frozen=True, kw_only=True)
+class Intruder(Event):
+    """An event of the app's own."""
+
+    kind: str = "person"
+
+
+KIND = Parameter(name="kind", type=Type.TEXT, default="person")
+INTRUDER = EventType(name="intruder", type=Intruder, parameters=(KIND,))
+TYPES = (INTRUDER, EventType(name="late"), EventType(name="lost"))
+
+
+def chase(event: Intruder, context: Any) -> apps.Mission | None:
+    """Fly to where it was seen."""
+    if event.kind == "cat":
+        return None
+    return apps.mission(f"chase {event.kind}", apps.trip("picture", event.at[0]))  # type: ignore[index]
+
+
+def app_with(
+    hook: Callable[..., object] = chase, event: str = "intruder", of_any: bool = False
+) -> Any:
+    """Return an app whose missions are interrupted by an event, and made by one."""
+
+    async def monitor(run: Run[Any], status: Status) -> Status:
+        return await wait_for_event(run, status, event=event, of_any=of_any)
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        return await pass_first(run, status, watch_trip, monitor)
+
+    made = apps.app(apps.flow(watch=watch))
+    parts = (EventsOf(TYPES, {"intruder": Creator(block="pursue", hook=hook)}),)
+    given: Any = made.given
+    return replace(given, parts=parts, resumes=("pursue", "allocate"))
+
+
+def raised(brain: Brain, now: float, **facts: Any) -> str:
+    """Raise an event, and let come of it what comes at that instant."""
+    return brain.command({"command": "raise", "event": "intruder", **facts}, now)
+
+
+def kinds(brain: Brain) -> list[str]:
+    """Return what has happened."""
+    return [str(event["event"]) for event in brain.events()]
+
+
+def test_an_event_makes_a_mission_that_flies() -> None:
+    brain = charged(app=app_with())
+    assert raised(brain, 1.0, at=[4.0, 2.0]) == "event intruder-1 has happened"
+    orders = settled(brain, 1.0)
+    assert [(order["do"], order["flight"]) for order in orders] == [
+        ("fly", "chase person/picture/0/1")
+    ]
+    assert brain.mission("chase person")["status"] == "RUNNING"
+    assert brain.standing()["events"]["intruder-1"]["made"] == "chase person"
+    brain.tell({"done": orders[0]["id"]}, 9.0)
+    settled(brain, 9.0)
+    assert brain.mission("chase person")["status"] == "COMPLETED"
+
+
+def test_an_id_happens_once() -> None:
+    brain = charged(drones=2, app=app_with())
+    raised(brain, 1.0, id="door", at=[4.0, 2.0])
+    assert raised(brain, 1.5, id="door", at=[4.0, 2.0]) == "event door has happened already"
+    settled(brain, 2.0)
+    assert len(brain.standing()["missions"]) == 1
+    raised(brain, 3.0, id="window", at=[5.0, 2.0])
+    settled(brain, 3.0)
+    assert [*brain.standing()["missions"]] == ["chase person", "chase person 2"]
+
+
+def test_a_creator_may_make_none() -> None:
+    brain = charged(app=app_with())
+    raised(brain, 1.0, at=[4.0, 2.0], fields={"kind": "cat"})
+    settled(brain, 1.0)
+    row = brain.standing()["events"]["intruder-1"]
+    assert not brain.standing()["missions"]
+    assert row["why"] == "its creator made no mission of it"
+    assert brain.over == 1.0
+
+
+def test_a_wrong_event_is_refused_with_what_is_wrong() -> None:
+    brain = charged(app=app_with())
+    for request, message in (
+        ({"event": "fire"}, 'there is no event "fire"; there are: intruder, late, lost'),
+        ({"fields": {"colour": "red"}}, 'event intruder: unknown key "colour"'),
+        ({"at": [99.0, 2.0]}, "event intruder: at [99.0, 2.0] is outside"),
+        ({"colour": "red"}, 'event intruder: unknown key "colour"'),
+        ({"fields": {"kind": 3}}, "event intruder: kind 3 is not a text"),
+    ):
+        with pytest.raises(BadInput, match=f"^{re.escape(message)}"):
+            brain.command({"command": "raise", "event": "intruder", **request}, 1.0)
+    assert not brain.standing()["events"]
+
+
+@pytest.mark.parametrize(
+    ("made", "wrong"),
+    [
+        (lambda *_: 3, "it must be a Mission of this app or None, not int"),
+        (lambda *_: apps.mission("m"), "mission m has no trips"),
+        (
+            lambda *_: apps.mission("m", apps.trip("far", 99.0)),
+            "trip far: (99, 0.5) is outside the map",
+        ),
+        (lambda *_: apps.mission("m", apps.trip("t", 3.0, action="dance")), "trip t: there is no"),
+        (lambda *_: apps.mission(" ", apps.trip("t", 3.0)), "its name must be a text"),
+        (lambda *_: 1 / 0, "ZeroDivisionError"),
+    ],
+)
+def test_what_a_creator_makes_is_checked(made: Callable[..., object], wrong: str) -> None:
+    brain = charged(app=app_with(made))
+    raised(brain, 1.0, at=[4.0, 2.0])
+    settled(brain, 1.0)
+    why = brain.standing()["events"]["intruder-1"]["why"]
+    assert wrong in why, why
+    assert not brain.standing()["missions"]
+
+
+def test_an_own_event_breaks_a_flight_off_and_charges_no_attempt() -> None:
+    brain = charged(app=app_with(lambda *_: None))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    raised(brain, 2.0, mission="another")
+    assert settled(brain, 2.0) == []
+    raised(brain, 3.0, mission="patrol")
+    orders = settled(brain, 3.0)
+    assert [order["do"] for order in orders] == ["break_off", "hold", "cancel", "fly"]
+    row = brain.mission("patrol")
+    assert row["status"] == "RUNNING" and row["attempts"] == 1
+    assert row["todo"][0].get("attempt", 1) == 1
+    assert "trip.interrupted" in kinds(brain)
+    brain.tell({"done": orders[-1]["id"]}, 9.0)
+    settled(brain, 9.0)
+    assert brain.mission("patrol")["status"] == "COMPLETED"
+
+
+def test_a_trip_that_ends_at_that_instant_has_ended_first() -> None:
+    brain = charged(app=app_with(lambda *_: None, of_any=True))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    (fly,) = settled(brain, 0.0)
+    raised(brain, 3.0)
+    brain.tell({"done": fly["id"]}, 3.0)
+    settled(brain, 3.0)
+    assert brain.mission("patrol")["status"] == "COMPLETED"
+
+
+def test_a_creator_cancels_a_mission() -> None:
+    def stop(event: Event, context: Any) -> None:
+        for mission in context.missions:
+            context.cancel(mission, f"because of {event.id}")
+
+    brain = charged(app=app_with(stop))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    raised(brain, 3.0)
+    settled(brain, 3.0)
+    row = brain.mission("patrol")
+    assert (row["status"], row["reason"]) == ("CANCELLED", "because of intruder-1")
+
+
+def test_a_late_mission_is_an_event() -> None:
+    brain = charged(app=app_with(event="late"))
+    brain.begin([{"name": "patrol", "trips": [trip()], "promises": {"deadline": 5.0}}], 0.0)
+    settled(brain, 0.0)
+    orders = settled(brain, 5.0)
+    assert [order["do"] for order in orders][:1] == ["break_off"]
+    assert brain.standing()["events"]["late/patrol/5.0"]["event"]["mission"] == "patrol"
+
+
+def test_what_has_happened_survives_the_app() -> None:
+    brain = charged(app=app_with(), recorded=True)
+    raised(brain, 1.0, id="door", at=[4.0, 2.0])
+    settled(brain, 1.0)  # its creator waits until that is durable, and the app is killed
+    rows = {("event", key): row for table, key, row in brain.rows() if table == "event"}
+    assert rows[("event", ("door",))]["open"]
+    later = charged(app=app_with(), recorded=True)
+    later.restore(brain.standing(), 0.0)
+    later.go_on({}, {"cf1": {}}, 0.0)
+    settled(later, 0.0)
+    later.tell({"durable": 1000}, 0.0)
+    settled(later, 0.0)
+    assert [*later.standing()["missions"]] == ["chase person"]
+    assert not later.standing()["events"]["door"]["open"]
+    assert raised(later, 1.0, id="door", at=[4.0, 2.0]) == "event door has happened already"
+
+
+def test_a_hook_raises_an_event_of_its_own() -> None:
+    def look(mission: Any, context: Any) -> None:
+        context.emit("intruder", id="seen", at=(4.0, 2.0), kind="dog")
+
+    async def watch(run: Run[Any], status: Status) -> Status:
+        status = await modify_mission(run, status, hook=look)
+        return await watch_trip(run, status)
+
+    brain = charged(app=replace(app_with(), flow=apps.flow(watch=watch)))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    event = brain.standing()["events"]["seen"]["event"]
+    assert event["mission"] == "patrol" and event["drone"] == "cf1" and event["kind"] == "dog"
