@@ -191,6 +191,8 @@ class Brain:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._disk.durable, message["durable"])
         elif "drift" in message:
             self._kernel.call(now, ONLY_WHAT_IS_READY, self._kernel.drifted, message["drift"])
+        for part in self._parts:
+            self._kernel.call(now, ONLY_WHAT_IS_READY, part.tell, message)
 
     def advance(self, now: float) -> None:
         """Let everything happen that is due, up to the first orders: take those, and call it again."""

@@ -18,7 +18,7 @@ from ..domain.airspace import Airspace
 from ..domain.app import needs_library
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
-from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
+from ..domain.fleet_data import DroneData, Feature, FleetData, Mover, Source, WorldData
 from ..domain.model import Item, Point
 from ..domain.motion import motion_of
 from ..domain.text import mass, number, printable, quoted
@@ -102,6 +102,8 @@ def read_trips(table: Table, app: App, airspace: Airspace) -> list[Trip]:
     trips, names = list[Any](), dict[str, Table]()
     tables = [*table.tables("trip", needed=not table.data.get("area"))]
     for index, one in enumerate(tables):
+        for part in app.parts:
+            one.data = part.prepared(one.data)
         given = {"name": f"{index + 1}", **one.read(*keys)}
         one.differs("name", given["name"], "trip", names)
         if action := app.actions.get(given["action"]):
@@ -133,6 +135,8 @@ def with_fields(
     fields = {field.name: field for field in app.fields if field.on is entity}
     evaluator = partial(values.one_of, app.evaluators)
     readers: dict[Any, Any] = {**values.READERS, FieldType.EVALUATOR: evaluator}
+    for part in app.parts:
+        readers.update(part.readers(app))
     keys = {name: readers[field.type] for name, field in fields.items()}
     hints = {name: field.hint for name, field in fields.items() if field.hint}
     return {**needed, **{name: keys[name] for name in hints}}, {**others, **keys}, hints
@@ -221,15 +225,26 @@ def read_world(top: Table) -> WorldData | None:
     if "world" not in top.data:
         return None
     table = top.table("world")
-    table.read({}, dict.fromkeys(("background", "feature", "source")))
+    table.read({}, dict.fromkeys(("background", "feature", "source", "mover")))
     levels = table.table("background")
     seen: Keys = {"kind": values.name, "at": values.corner}
     radius: Keys = {"radius": values.RADIUS}
     source: Keys = {"quantity": values.name, "at": values.corner, "peak": values.real, **radius}
     features = [one.read(seen, radius) for one in table.tables("feature")]
     sources = [one.read(source) for one in table.tables("source")]
+    movers = [_mover(one) for one in table.tables("mover")]
     return WorldData(
         features=tuple(Feature(**one) for one in features),
         sources=tuple(Source(**one) for one in sources),
+        movers=tuple(Mover(**one) for one in movers),
         background=levels.read({}, dict.fromkeys(levels.data, values.real)),
     )
+
+
+def _mover(table: Table) -> dict[str, Any]:
+    needed: Keys = {"name": values.name, "kind": values.name, "path": _PATH, "speed": values.PACE}
+    given = table.read(needed, {"from": values.TIME, "repeat": values.boolean})
+    return {("starts" if key == "from" else key): one for key, one in given.items()}
+
+
+_PATH = partial(values.each, values.corner, "corner", ())

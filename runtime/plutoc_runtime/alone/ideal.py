@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from ..domain.model import Point
     from ..domain.trace import Clock
 
+TRACKED = 0.5
+"""Seconds from one look at what moves in the world to the next."""
+
 Work = Generator[float, None, Any]  # it yields until when it waits, and returns the result
 
 
@@ -31,9 +34,10 @@ class IdealDrones:
         self._airspace = fleet.airspace
         self._faults = faults
         self._told: list[dict[str, Any]] = []
-        world = World(seed, fleet.airspace, fleet.world)
+        self.world = world = World(seed, fleet.airspace, fleet.world)
         kinds = {category.name: category for category in app.categories}
         self.drones = {one.id: Body(one, kinds[one.category], world, clock) for one in fleet.drones}
+        self._seen = 0.0  # when it was looked last at what moves
         self._works: dict[str, tuple[int, Work]] = {}  # the order of each drone, carried out
         self._wakes = dict.fromkeys(self.drones, inf)  # until when that waits
 
@@ -41,6 +45,17 @@ class IdealDrones:
     def due(self) -> float:
         """When something happens next; infinite: only an order can make it happen."""
         return self._clock.now if self._told else min(self._wakes.values())
+
+    @property
+    def tracker_due(self) -> float:
+        """When it is looked next at what moves in the world; infinite: nothing does."""
+        return self._seen + TRACKED if self.world.movers else inf
+
+    def tracks(self) -> dict[str, Any]:
+        """Return where everything is now that moves in the world."""
+        self._seen = now = self._clock.now
+        places = ((mover, mover.at(now)) for mover in self.world.movers)
+        return {mover.name: {"kind": mover.kind, "at": [*at, 0.0]} for mover, at in places if at}
 
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""
@@ -62,10 +77,14 @@ class IdealDrones:
         if do == "break_off" or (do == "cancel" and self._works[id][0] == order["order"]):
             self._wakes[id] = inf
             drone.halt()
-        elif do in ("read", "write"):  # while it hovers
+        elif do in ("read", "write", "sees", "act"):  # at once, wherever it is
             self._go_on(order["id"], self._asked(drone, order))
+        elif do == "redirect":
+            number, _ = self._works[id]
+            self._works[id] = number, self._redirect(drone, order)
+            self._wakes[id] = self._clock.now
         elif do != "cancel":
-            # by _fly, _hold, _home, _land or _recover, after all that is ordered with it
+            # by _fly, _go, _hold, _home, _land or _recover, after all that is ordered with it
             self._works[id] = order["id"], getattr(self, f"_{do}")(drone, order)
             self._wakes[id] = self._clock.now
 
@@ -85,19 +104,38 @@ class IdealDrones:
 
     def _fly(self, drone: Body, order: Mapping[str, Any]) -> Work:
         flight = order["flight"]
+        way = self._way(drone, order)
+        drawn = None
+        if self._faults != Faults():
+            start = drone.location
+            stops = [*map(point_of, order["stops"])]
+            seconds = flight_seconds(drone.category, self._airspace, start, stops, order["seconds"])
+            drawn = draw(self._faults, drone.world.seed, flight, seconds)
+        drone.begin(flight, drawn)
+        return (yield from self._through(way, drone, order))
+
+    def _redirect(self, drone: Body, order: Mapping[str, Any]) -> Work:
+        """Fly on to other stops, from wherever it is."""
+        return (yield from self._through(self._way(drone, order), drone, order))
+
+    def _go(self, drone: Body, order: Mapping[str, Any]) -> Work:
+        """Fly through stops, and hover."""
+        yield from self._until(drone, drone.follow(self._way(drone, order)))
+
+    def _way(self, drone: Body, order: Mapping[str, Any]) -> list[Point]:
         stops = [*map(point_of, order["stops"])]
         for problem in filter(None, map(self._airspace.problem, stops)):
             raise FlightFailed(Failure.REFUSED, problem)
         way = [self._above(drone)]
         for stop in stops:
             way += permitted_way(self._airspace, drone.id, way[-1], stop)
-        drawn = None
-        if self._faults != Faults():
-            start = drone.location
-            seconds = flight_seconds(drone.category, self._airspace, start, stops, order["seconds"])
-            drawn = draw(self._faults, drone.world.seed, flight, seconds)
-        drone.begin(flight, drawn)
+        return way
+
+    def _through(self, way: list[Point], drone: Body, order: Mapping[str, Any]) -> Work:
+        """Fly a way, and do the action of its flight at the end."""
         yield from self._until(drone, drone.follow(way))
+        if order.get("company"):
+            self._told.append({"arrived": order["flight"]})
         action = order["action"]
         item = item_of(order["item"])
         if action is None:
@@ -114,8 +152,14 @@ class IdealDrones:
     def _asked(self, drone: Body, order: Mapping[str, Any]) -> Work:
         yield from ()  # it answers at once
         drone.check()
-        if order["do"] == "read":
-            return drone.read(order["name"])
+        match order["do"]:
+            case "read":
+                return drone.read(order["name"])
+            case "sees":
+                seen = self.world.moving(drone.location, self._clock.now)
+                return [[one.track, one.kind, [*one.at]] for one in seen]
+            case "act":
+                return value_data(drone.act(order["action"], order["parameters"], None))
         drone.settings[order["name"]] = order["value"]
         return None
 

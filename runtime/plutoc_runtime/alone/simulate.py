@@ -135,7 +135,8 @@ class Alone:
         while brain.over is None:
             for order in brain.orders():
                 drones.obey(order)
-            due, soon = brain.due, drones.due
+            due = brain.due
+            soon = drones.due
             when = soon if due is None else min(soon, due)
             if when == inf:
                 raise Stuck("nothing will ever happen again")
@@ -143,6 +144,11 @@ class Alone:
                 self.now = until
                 brain.tell({"telemetry": drones.news()}, until)
                 return False
+            if (seen := drones.tracker_due) <= when:
+                self.now = seen
+                self._tell({"tracks": drones.tracks()})
+                self._listen()
+                continue
             self.now = when
             if soon <= when:
                 while not (told := drones.advance()) and drones.due <= when:

@@ -10,7 +10,7 @@ from random import Random
 from typing import TYPE_CHECKING
 
 from ..domain.fleet_data import Feature, Source, WorldData
-from ..domain.model import Photo
+from ..domain.model import Photo, Sighting
 
 if TYPE_CHECKING:
     from ..domain.airspace import Airspace, Corner
@@ -40,6 +40,7 @@ class World:
         self.features = sorted(data.features, key=_at)
         self.sources = data.sources
         self.background = {**BACKGROUND, **data.background}
+        self.movers = data.movers
         self.seed = seed
 
     def measure(self, quantity: str, point: Point, time: float) -> float:
@@ -61,12 +62,36 @@ class World:
         z = round(point[2], 3)
         width = round(z * _WIDTH, 3)
         height = round(z * _HEIGHT, 3)
+        tracks = self._moving(x, y, width, height, time)
         first = bisect_left(self.features, (x - width / 2,), key=_at)
         end = bisect_left(self.features, (x + width / 2, inf), key=_at)
         near = self.features[first:end]
-        sees = tuple(sorted(one.kind for one in near if abs(one.at[1] - y) <= height / 2))
+        still = [one.kind for one in near if abs(one.at[1] - y) <= height / 2]
+        sees = tuple(sorted([*still, *(one.kind for one in tracks)]))
         sharpness = round(chance.uniform(0.3, 0.6), 3) if chance.random() < _BLURRED else 1.0
-        return Photo(position=(x, y, z), width=width, height=height, sees=sees, sharpness=sharpness)
+        return Photo(
+            position=(x, y, z),
+            width=width,
+            height=height,
+            sees=sees,
+            tracks=tracks,
+            sharpness=sharpness,
+        )
+
+    def moving(self, point: Point, time: float) -> tuple[Sighting, ...]:
+        """Return what moves in the view of a camera that looks straight down from a point."""
+        x, y, z = point
+        return self._moving(x, y, z * _WIDTH, z * _HEIGHT, time)
+
+    def _moving(
+        self, x: float, y: float, width: float, height: float, time: float
+    ) -> tuple[Sighting, ...]:
+        found: list[Sighting] = []
+        for mover in self.movers:
+            at = mover.at(time)
+            if at and abs(at[0] - x) <= width / 2 and abs(at[1] - y) <= height / 2:
+                found.append(Sighting(mover.name, mover.kind, (*at, 0.0)))
+        return tuple(found)
 
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Randomness that depends on the event, its place and its time, and not on earlier draws."""

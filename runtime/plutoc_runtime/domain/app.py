@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from dataclasses import asdict, dataclass, field, replace
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from .status import Status
 
 if TYPE_CHECKING:
     from .actions import Action, Parameter
-    from .fields import Field
+    from .fields import Field, FieldType
     from .model import Category, Mission, Trip
     from .motion import Motion
+    from .quantities import Type
 
 A = TypeVar("A", bound="App")
 
@@ -24,14 +25,24 @@ Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""
 
 
-class PartOf(Protocol):
+class PartOf:
     """What an app has beside missions and drones."""
 
     def __call__(self, engine: Any) -> Any:
         """Return it in a running app: a `Part` of flow/mission.py."""
+        raise NotImplementedError
 
     def about(self) -> dict[str, Any]:
         """Return it as plain data, for the library."""
+        return {}
+
+    def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
+        """Return how fields of the types are read that only this part knows."""
+        return {}
+
+    def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Return what trips have for what somebody has written of one."""
+        return trip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -28,6 +28,7 @@ class FieldType(Enum):
     ROUNDS = "rounds"  # how many more; true = until stopped
     TIME_OF_DAY = "time of day"  # "08:00"; inside, seconds since midnight
     EVALUATOR = "evaluator"  # the name of one of the app's evaluators
+    ALONG = "along"  # an action on the way
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -74,7 +75,8 @@ def wrong_field(
 
 def put_plain(of: object, name: str, value: object) -> None:
     """Put a plain number, truth or text in the place of another library's, if it is one."""
-    if value is not None and type(plain := plain_of(value)) is not type(value):
+    plain = plain_of(value)
+    if plain is not None and type(plain) is not type(value):
         setattr(of, name, plain)
 
 

@@ -56,6 +56,14 @@ class Item:
     mass: float
 
 
+class Sighting(NamedTuple):
+    """Something that moves, as a camera sees it."""
+
+    track: str
+    kind: str
+    at: Point
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Photo:
     """A photo straight down, the result of `take_photo`."""
@@ -67,6 +75,8 @@ class Photo:
     height: float
     sees: tuple[str, ...] = ()
     """What can be made out on it, such as `bloom` or `pest`."""
+    tracks: tuple[Sighting, ...] = ()
+    """What moves on it."""
     sharpness: float = 1.0
     """From 0, useless, to 1."""
     file: str | None = None

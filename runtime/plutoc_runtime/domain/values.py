@@ -130,6 +130,7 @@ HEIGHT = Quantity(Type.LENGTH, 0.1, 1000.0)
 PLACE = Quantity(Type.LENGTH, -100_000.0, 100_000.0)  # a coordinate, be it on the map or not
 RADIUS = Quantity(Type.LENGTH, 0.01, 100_000.0)  # of something that is seen or measured
 MASS = Quantity(Type.MASS, 0.0, 1000.0)  # of an item
+PACE = Quantity(Type.SPEED, 0.001, 100.0)  # of something that moves by itself
 TIME = Quantity(Type.TIME, 0.001, LARGEST, or_none=True)  # a delay, a limit, between two rounds
 
 _OVERHEAD = Quantity(Type.TIME, 0.0, 600.0)

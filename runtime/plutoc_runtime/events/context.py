@@ -38,6 +38,13 @@ class EventContext(Context):
         given = {name: value for name, value in request.items() if value is not None}
         self._kernel.post(self._events.happen, event, given, ValueError)
 
+    def store(self, value: object) -> None:
+        """Keep a result of the trip in flight, as what an action returns is kept."""
+        flight: Any = self._latest()
+        if flight is None or flight.is_set:
+            raise RuntimeError("a result is kept of a trip that is in flight")
+        self._kernel.post(self._events.store, flight, value)
+
     def _origin(self) -> dict[str, Any]:
         flight: Any = self._latest()
         origin: dict[str, Any] = {"mission": self._mission.name}

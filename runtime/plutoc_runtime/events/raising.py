@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..domain.app import parameters_data
+from ..domain.app import PartOf, parameters_data
 from ..domain.errors import BadInput, HookFault
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
@@ -21,8 +21,10 @@ from ..domain.status import DroneStatus, Status
 from ..domain.text import LONGEST_REASON, bounded, class_of, quoted
 from ..domain.values import Table, is_name, name, point, point_on, read_parameters
 from ..fleet.reach import miss_of
+from ..flow.mission import Part
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
+from ..hooks.plain_data import keepable
 from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
 from .context import CreatorContext, EventContext
@@ -31,6 +33,7 @@ from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
     from ..flow.engine import Engine
+    from ..flow.flight import Flight
     from ..flow.record import Row
 
 
@@ -55,7 +58,7 @@ class Happening:
 
 
 @dataclass(frozen=True, slots=True)
-class EventsOf:
+class EventsOf(PartOf):
     """The events of an app: those that it declares, and the built-in ones that it uses."""
 
     types: Sequence[EventType]
@@ -79,7 +82,7 @@ class EventsOf:
         return {"events": events}
 
 
-class Events:
+class Events(Part):
     """The events of one running app."""
 
     def __init__(
@@ -337,6 +340,10 @@ class Events:
             raise ValueError("only a mission of this app can be cancelled")
         if not state.ended:
             self._engine.cancel(state, Status.CANCELLED, bounded(str(why), LONGEST_REASON))
+
+    def store(self, flight: Flight, value: object) -> None:
+        """Keep a result of a flight that goes on."""
+        self._core.transitions.keep(flight.mission, flight.trip, keepable(value))
 
     def _note(self, what: str, facts: Mapping[str, Any]) -> None:
         if self._core.trace.live:

@@ -87,6 +87,10 @@ class Orders:
         order = {"do": "attach", "drone": drone, "flight": flight}
         self._flying[drone] = self._give(order, answer)
 
+    def redirect(self, flight: Order) -> None:
+        """Order a flight that is under way to other stops; its end is the answer to the order to fly."""
+        self._give({**flight, "do": "redirect"})
+
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; nothing of its flight is answered any more."""
         self._answers.pop(self._flying.pop(drone, 0), None)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
@@ -34,17 +35,22 @@ if TYPE_CHECKING:
     from .transitions import Transitions
 
 
-class Part(Protocol):
-    """What some apps have beside missions and drones, such as events; it keeps rows of its own."""
+class Part:
+    """What some apps have beside missions and drones, such as events; it may keep rows of its own."""
 
-    commands: Mapping[str, Callable[[Mapping[str, Any]], str]]
+    commands: Mapping[str, Callable[[Mapping[str, Any]], str]] = MappingProxyType({})
     """What people can have it do, by the names of commands."""
+
+    def tell(self, message: Mapping[str, Any]) -> None:
+        """Take over what has happened outside, if that is for it."""
 
     def rows(self) -> list[Row]:
         """Return its rows that have changed since the last call."""
+        return []
 
     def standing(self) -> Mapping[str, Any]:
         """Return all its rows, under the names of their tables."""
+        return {}
 
     def restore(self, standing: Mapping[str, Any]) -> None:
         """Take over its rows of an earlier run."""
@@ -164,8 +170,8 @@ class MissionState:
 
     # Its trips
 
-    def launch(self, drone: Drone) -> None:
-        """Send a drone on the next trip."""
+    def launch(self, drone: Drone, **more: object) -> None:
+        """Send a drone on the next trip, by an order that says `more`."""
         core, mission, last = self.core, self.mission, self.flight
         trip = current_of(mission)
         if core.fleet.errands:
@@ -175,7 +181,7 @@ class MissionState:
         self.flight = flight = Flight(mission, trip, drone, action, now, retry)
         self.allocated, self.calls = None, 0
         core.transitions.launch(mission, trip, drone)
-        core.orders.fly(drone.id, partial(self.reported, flight), flight.order)
+        core.orders.fly(drone.id, partial(self.reported, flight), {**flight.order, **more})
 
     def reported(self, flight: Flight, result: object) -> None:
         """Called when a flight has arrived, is done, or has failed."""

@@ -114,6 +114,15 @@ class Transitions:
             facts["found_out"] = True
         self._note_trip("trip.completed", mission, trip, trip.drone, **facts)
 
+    def keep(self, mission: Mission[Any], trip: Trip, value: object) -> None:
+        """Store a result of a trip that goes on."""
+        now = self._kernel.now
+        place = None if trip.drone is None else trip.drone.location
+        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
+        put(mission, last_result=self._results.add(result))
+        facts = {"result": value_data(value)} if self._kept else {}
+        self._note_trip("action.result", mission, trip, trip.drone, value=shown(value), **facts)
+
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
         reason = bounded(reason, LONGEST)

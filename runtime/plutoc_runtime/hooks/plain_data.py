@@ -10,7 +10,7 @@ from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
 from ..domain.keeper import plain_again, put
-from ..domain.model import Item, Photo
+from ..domain.model import Item, Photo, Sighting
 from ..domain.plain import MOST_BITS, plain_of
 from ..domain.status import TripStatus
 from ..domain.text import shown
@@ -63,6 +63,8 @@ def _plain(value: object) -> object:
     """Return a field's value, as text if a hook set it to something that is not plain data."""
     if value is None or type(value) in _AS_IT_IS or (type(value) is int and abs(value) < _SMALL):
         return value
+    if type(value) is dict:
+        return {str(_plain(name)): _plain(each) for name, each in value.items()}
     plain = plain_of(value)
     is_long = type(plain) is int and plain.bit_length() > MOST_BITS
     is_odd = plain is None or (type(plain) is float and not isfinite(plain))
@@ -222,6 +224,8 @@ class _Writer:
             "sees": [self._text(str(what)) for what in photo.sees],
             "sharpness": float(photo.sharpness),
         }
+        if photo.tracks:
+            data["tracks"] = [[one.track, one.kind, [*one.at]] for one in photo.tracks]
         if photo.file is not None:
             data["file"] = self._text(str(photo.file))
         return data
@@ -259,6 +263,9 @@ def _photo_of(photo: Mapping[str, Any]) -> Photo:
         width=photo["width"],
         height=photo["height"],
         sees=tuple(photo["sees"]),
+        tracks=tuple(
+            Sighting(track, kind, point_of(at)) for track, kind, at in photo.get("tracks", ())
+        ),
         sharpness=photo["sharpness"],
         file=photo.get("file"),
     )

@@ -35,6 +35,8 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
     if type(trip) is not app.trip:
         return f"it must be a Trip of this app, not {class_of(trip)}"
     try:
+        for part in app.parts:
+            put(trip, **part.prepared({"target": trip.target}))
         wrong = (
             _wrong_name(trip)
             or _wrong_action(app, trip)

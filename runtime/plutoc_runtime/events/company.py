@@ -1,0 +1,343 @@
+"""What goes on beside a flight: actions along its way, and the pursuit of a target that moves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Coroutine, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import partial
+from math import dist
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ..domain.actions import MEASURE, PHOTO, Action
+from ..domain.app import PartOf, parameters_data
+from ..domain.errors import ActionFailed, Cancelled, FlightFailed
+from ..domain.fields import Field, FieldType
+from ..domain.guard import NOT_ITS_OWN
+from ..domain.keeper import put
+from ..domain.model import Sighting
+from ..domain.quantities import Type
+from ..domain.status import RUNNING, Status
+from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
+from ..domain.values import Quantity, Table, one_of, read_parameters
+from ..fleet.reach import needed
+from ..flow.asking import kept_by, take_over
+from ..flow.mission import Part
+from ..flow.run import launch
+from ..hooks.calls import call_hook, fault_of
+from ..hooks.context import Context, LiveDrone
+from ..hooks.plain_data import keepable, point_of
+from ..time.kernel import Future, mission_key
+from .tracks import Tracks
+
+if TYPE_CHECKING:
+    from ..domain.app import App
+    from ..domain.model import Drone, Point, Trip
+    from ..flow.engine import Engine
+    from ..flow.flight import Flight
+    from ..flow.mission import MissionState
+    from ..flow.run import Run
+    from ..time.kernel import Task
+
+
+class FlyingDrone(LiveDrone):
+    """A drone on its way, for an action along that: its sensors, and what its camera sees."""
+
+    __slots__ = ()
+
+    async def sees(self) -> list[Sighting]:
+        """Return what moves in the view of its camera now."""
+        return [
+            Sighting(track, kind, point_of(at))
+            for track, kind, at in await self._asked("sees", "camera")
+        ]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlongAction(Action):
+    """An action of the app's own that goes on while a drone flies, and not at the end of its way."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlongField(Field):
+    """The field of a trip with the action along its way."""
+
+    def wanted(self, value: object, evaluators: Container[str]) -> str:
+        """Return what a value must be that a hook has set, if it is not that."""
+        is_right = value is None or (type(value) is dict and type(value.get("action")) is str)
+        return "" if is_right else 'a dict such as {"action": "look"}'
+
+
+@dataclass(frozen=True, slots=True)
+class CompanyOf(PartOf):
+    """Makes what goes on beside the flights of an app."""
+
+    along: Mapping[str, AlongAction] = field(default_factory=dict)
+    """The app's own actions along the way, by name."""
+
+    def __call__(self, engine: Engine) -> Company:
+        """Return what sees to it in a running app."""
+        return Company(engine, self.along)
+
+    def about(self) -> dict[str, Any]:
+        """Return the actions along the way, for the library."""
+        actions = [
+            {"name": one.name, "parameters": parameters_data(one.parameters)}
+            for one in self.along.values()
+        ]
+        return {"along": actions}
+
+    def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
+        """Return how the action along a trip's way is read."""
+        return {FieldType.ALONG: partial(_read_along, self.along, app)}
+
+    def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Take a target that moves apart: `target = { track = "t7" }`; where it is, is known later."""
+        target = trip.get("target")
+        if not isinstance(target, dict) or "track" not in target:
+            return trip
+        of_target = {name: one for name, one in target.items() if name in _OF_TARGET}
+        unknown = {name: one for name, one in target.items() if name not in _OF_TARGET}
+        return {**trip, **of_target, "target": unknown or [0.0, 0.0]}
+
+
+_OF_TARGET = ("track", "reach", "lost_after")
+
+
+def _read_along(own: Mapping[str, AlongAction], app: App, value: object) -> dict[str, Any]:
+    """Read `"look"`, or `{ action = "take_photo", every = "2 m" }`; raise `ValueError`."""
+    given: Any = value if isinstance(value, dict) else {"action": value}
+    names = [*own, *(name for name in ALONG if name in app.actions)]
+    table = Table(given)
+    read = table.read({"action": partial(one_of, names)}, {"every": _spacing, "parameters": None})
+    name = str(read.get("action"))
+    action = own.get(name) or app.actions.get(name)
+    if action is not None:
+        parameters = table.table("parameters")
+        read["parameters"] = read_parameters(parameters, action.parameters)
+        is_own = name in own
+        if is_own and "every" in given:
+            table.problem(f"{name} goes on all the way: it takes no every")
+        elif not is_own and "every" not in given:
+            table.problem(f'{name} needs its spacing, such as every = "2 m" or every = "1 s"')
+    if table.problems:
+        raise ValueError(f"is wrong: {table.problems[0].sentence}")
+    every = read.pop("every", {})
+    return {**read, **every}
+
+
+def _spacing(value: object) -> dict[str, float]:
+    """Read how far apart, in metres or in seconds, something is done."""
+    kinds = {
+        "metres": Quantity(Type.LENGTH, 0.1, 1000.0),
+        "seconds": Quantity(Type.TIME, 0.1, 3600.0),
+    }
+    for name, read in kinds.items():
+        with suppress(ValueError):
+            if isinstance(value, str):
+                return {name: read(value)}
+    raise ValueError('is no spacing: write a length or a time, such as "2 m" or "1 s"')
+
+
+ALONG = (MEASURE, PHOTO)
+"""The built-in actions that can be done on the way."""
+
+
+class Failed(NamedTuple):
+    """Why something that went on beside a flight fails that."""
+
+    reason: str
+    mends: bool = True
+    """Whether another flight may do better."""
+
+
+class Company(Part):
+    """What goes on beside the flights of one running app."""
+
+    def __init__(self, engine: Engine, along: Mapping[str, AlongAction]) -> None:
+        self._core = engine.core
+        self._along = along
+        self._arrivals: dict[str, Future[None]] = {}
+        """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
+
+    def tell(self, message: Mapping[str, Any]) -> None:
+        """Take over that a flight has arrived."""
+        if "arrived" in message and message["arrived"] in self._arrivals:
+            self._arrivals[message["arrived"]].set(None)
+
+    def aim(self, trip: Trip, drone: Drone) -> None:
+        """Aim a trip at where its drone will meet what it follows."""
+        tracks: Tracks = self._core.parts[Tracks]
+        track = tracks.known.get(track_of(trip) or "")
+        if track is not None:
+            height = self._core.airspace.cruise_height
+            put(trip, target=tracks.meeting(track, drone, height))
+
+    def begin(self, state: MissionState, flight: Flight) -> None:
+        """Begin what goes on beside a flight."""
+        trip = flight.trip
+        key = mission_key(state.mission.index)
+        works: dict[str, Coroutine[Any, Any, Failed | None]] = {}
+        if given := along_of(trip):
+            name = given["action"]
+            own = name in self._along
+            does = self._call if own else self._repeat
+            works[f"{name} along"] = does(state, flight, given)
+        if track := track_of(trip):
+            works[f"pursuit of {track}"] = self._pursue(state, flight)
+        if not works:
+            return
+        self._arrivals[flight.id] = arrival = Future[None]()
+        flight.watch(arrival.set)
+        arrival.watch(lambda _: self._arrivals.pop(flight.id, None))
+        for name, work in works.items():
+            task = self._core.kernel.spawn(work, key, f"{state.mission.name}: {name}")
+            task.over = partial(_end, state, flight)
+            arrival.watch(partial(_cancel, task))
+
+    # Along the way
+
+    async def _call(
+        self, state: MissionState, flight: Flight, given: Mapping[str, Any]
+    ) -> Failed | None:
+        """Call the hook of an action along the way; what it raises fails the trip."""
+        core, drone, trip = self._core, flight.flier, flight.trip
+        action = self._along[given["action"]]
+        parameters = given.get("parameters") or {}
+        hook = action.hook
+        assert hook is not None
+        live = FlyingDrone(core.kernel, core.orders, drone, mission_key(state.mission.index))
+        new_context = core.context or Context
+        context = new_context(
+            core.kernel, core.results, core.log, state.mission, lambda: state.flight, live
+        )
+        try:
+            with kept_by(state.mission).opened() as inside:
+                value = await call_hook(
+                    core.kernel, inside, hook, drone, trip, context, **parameters
+                )
+        except NOT_ITS_OWN:
+            raise
+        except ActionFailed as error:
+            why = bounded(text_of(error) or "it does not say why", LONGEST_REASON)
+            return Failed(f"{action.name} failed: {why}")
+        except BaseException as error:  # noqa: BLE001 - it is of a class of a hook's own
+            fault = fault_of(hook, error)
+            core.log(fault.detail, state.mission.name)
+            return Failed(str(fault), mends=False)
+        else:
+            if value is not None:
+                core.transitions.keep(state.mission, trip, keepable(value))
+            return None
+        finally:
+            live.release()
+            take_over(state, hook)
+
+    async def _repeat(
+        self, state: MissionState, flight: Flight, given: Mapping[str, Any]
+    ) -> Failed | None:
+        """Do a built-in action again and again on the way, without a stop, by its spacing."""
+        core, drone, trip = self._core, flight.flier, flight.trip
+        kernel, key = core.kernel, mission_key(state.mission.index)
+        if trip.source is not None:
+            while dist(drone.location, trip.source) > AT:
+                await kernel.sleep(_soon(drone, dist(drone.location, trip.source)), key=key)
+        while True:
+            try:
+                value = await core.orders.ask(
+                    "act",
+                    drone.id,
+                    action=given["action"],
+                    parameters=given.get("parameters") or {},
+                )
+            except FlightFailed:
+                return None  # the end of its flight says why
+            core.transitions.keep(state.mission, trip, value)
+            if "seconds" in given:
+                await kernel.sleep(given["seconds"], key=key)
+                continue
+            here = drone.location
+            while (left := given["metres"] - dist(here, drone.location)) > AT:
+                await kernel.sleep(_soon(drone, left), key=key)
+
+    # A target that moves
+
+    async def _pursue(self, state: MissionState, flight: Flight) -> Failed | None:
+        """Send the drone elsewhere each time that its target will not be where it was expected."""
+        core, drone = self._core, flight.flier
+        trip: Any = flight.trip  # of an app whose trips may follow what moves
+        tracks: Tracks = core.parts[Tracks]
+        while True:
+            track = await tracks.next(trip.track, trip.lost_after)
+            if track is None:
+                since = duration(trip.lost_after)
+                return Failed(f"track {quoted(trip.track)} has had no news for {since}")
+            point = tracks.meeting(track, drone, core.airspace.cruise_height)
+            if dist(point, trip.target) <= trip.reach:
+                continue
+            if (why := self._out_of_reach(drone, point)) is not None:
+                return Failed(f"track {quoted(trip.track)} {why}")
+            put(trip, target=point)
+            core.orders.redirect(flight.order)
+
+    def _out_of_reach(self, drone: Drone, point: Point) -> str | None:
+        """Return why a drone cannot fly to a point, and home from there, or None."""
+        core, category = self._core, drone.category
+        if (problem := core.airspace.problem(point)) is not None:
+            return f"has gone where no drone may be: {problem}"
+        share = needed(category, core.airspace, drone.location, ((point, 0.0),), drone.home)
+        if share is None or share + category.reserve > drone.battery_level:
+            return f"has gone too far for the battery of {drone.id}"
+        return None
+
+
+AT = 0.05
+"""Metres that are no distance on the way."""
+
+
+def _soon(drone: Drone, left: float) -> float:
+    """Return in how many seconds to look again, at the earliest, whether a drone is so much further."""
+    return max(MOMENT, left / drone.category.speed)
+
+
+MOMENT = 0.1
+"""Seconds between two looks at where a drone is."""
+
+
+def along_of(trip: Trip) -> Mapping[str, Any] | None:
+    """Return the action along a trip's way: its `action`, `metres` or `seconds` apart, and its parameters."""
+    along: Mapping[str, Any] | None = getattr(trip, "along", None)  # not every app has this field
+    return along
+
+
+def track_of(trip: Trip) -> str | None:
+    """Return the track that a trip follows."""
+    track: str | None = getattr(trip, "track", None)
+    return track
+
+
+def _end(state: MissionState, flight: Flight, task: Task[Failed | None]) -> None:
+    """Fail a flight that is under way if what went on beside it has failed."""
+    if isinstance(task.error, Cancelled):
+        return
+    failed = task.result()
+    under_way = state.flight is flight and not flight.is_set and flight.called_off is None
+    if failed is not None and under_way:
+        state.break_off(flight)
+        state.fail(flight, failed.reason, mends=failed.mends)
+
+
+def _cancel(task: Any, _: object) -> None:
+    task.cancel()
+
+
+def launch_accompanied(run: Run[Any], status: Status) -> Status:
+    """Send the allocated drone on the next trip, with what goes on beside its flight."""
+    state = run.state
+    company: Company = run.core.parts[Company]
+    if state.allocated is not None and track_of(run.trip):
+        company.aim(run.trip, state.allocated)
+    launch(run, company=True)
+    if state.flight is not None and not state.flight.is_set:
+        company.begin(state, state.flight)
+    return RUNNING

@@ -1,0 +1,140 @@
+"""What moves: where each object is that somebody tracks, and where a drone will meet it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from ..domain.app import PartOf
+from ..domain.fields import Entity, Field
+from ..domain.quantities import Type
+from ..fleet.reach import flight_seconds
+from ..flow.mission import Part
+from ..hooks.plain_data import point_of
+from ..time.kernel import FLEET, EventKind, Future
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Point
+    from ..flow.engine import Engine
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """An object that moves, by its last two reports."""
+
+    id: str
+    kind: str
+    at: Point
+    time: float
+    velocity: Point = (0.0, 0.0, 0.0)
+
+    def place(self, now: float) -> Point:
+        """Return where it is at a time, if it goes on as it did."""
+        (x, y, z), (vx, vy, vz) = self.at, self.velocity
+        passed = now - self.time
+        return x + passed * vx, y + passed * vy, z + passed * vz
+
+
+@dataclass(frozen=True, slots=True)
+class TracksOf(PartOf):
+    """Makes the tracks of an app that follows what moves."""
+
+    def __call__(self, engine: Engine) -> Tracks:
+        """Return what knows them in a running app."""
+        return Tracks(engine)
+
+    def about(self) -> dict[str, Any]:
+        """Return what a library knows of them: that there are any."""
+        return {"tracks": True}
+
+
+class Tracks(Part):
+    """The objects that are tracked now; nothing of them survives the app."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._core = engine.core
+        self.known: dict[str, Track] = {}
+        self._waiting: dict[str, list[Future[Track]]] = {}
+
+    def tell(self, message: Mapping[str, Any]) -> None:
+        """Take over the reports of what moves: `tracks`, by id, with `at` and perhaps `kind`."""
+        now = self._core.kernel.now
+        for id, report in message.get("tracks", {}).items():
+            at = point_of(report["at"])
+            last = self.known.get(id)
+            velocity = (0.0, 0.0, 0.0)
+            if last is not None and 0.0 < now - last.time < LONGEST_GAP:
+                x, y, z = (
+                    (new - old) / (now - last.time) for new, old in zip(at, last.at, strict=True)
+                )
+                velocity = x, y, z
+            kind = report.get("kind", "" if last is None else last.kind)
+            self.known[id] = track = Track(id, kind, at, now, velocity)
+            for future in self._waiting.pop(id, ()):
+                future.set(track)
+
+    async def next(self, id: str, within: float) -> Track | None:
+        """Wait for the next report of an object; None: there is none in this time since the last one."""
+        future = Future[Track]()
+        waiting = self._waiting.setdefault(id, [])
+        waiting.append(future)
+        kernel = self._core.kernel
+        known = self.known.get(id)
+        since = kernel.now if known is None else known.time
+        try:
+            if await kernel.within(future, since + within, EventKind.TIMER, FLEET):
+                return future.result()
+            return None
+        finally:
+            if future in waiting:
+                waiting.remove(future)
+
+    def meeting(self, track: Track, drone: Drone, height: float) -> Point:
+        """Return where a drone that leaves now meets an object, at a height above it.
+
+        If it never catches up with it, that is where the object is now.
+        """
+        now = self._core.kernel.now
+        early = 0.0
+        late = SOONEST
+        while self._way_there(track, drone, height, now, late) > late:
+            early = late
+            late *= 2
+            if late > LATEST:
+                return self._above(track, height, now)
+        while late - early > SOONEST:
+            middle = (early + late) / 2
+            if self._way_there(track, drone, height, now, middle) > middle:
+                early = middle
+            else:
+                late = middle
+        return self._above(track, height, now + late)
+
+    def _way_there(
+        self, track: Track, drone: Drone, height: float, now: float, after: float
+    ) -> float:
+        """Return how many seconds a drone needs to where an object is after others."""
+        core = self._core
+        point = self._above(track, height, now + after)
+        return flight_seconds(drone.category, core.airspace, drone.location, [point], 0.0)
+
+    def _above(self, track: Track, height: float, when: float) -> Point:
+        """Return the point above an object at a time, on the map."""
+        width, depth = self._core.airspace.size
+        x, y, z = track.place(when)
+        return min(max(x, 0.0), width), min(max(y, 0.0), depth), z + height
+
+
+TRIP_FIELDS = (
+    Field(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
+    Field(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
+    Field(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
+)
+"""What trips have that may follow what moves."""
+LONGEST_GAP = 5.0
+"""Seconds between two reports from which on they say nothing of a velocity."""
+SOONEST = 0.1
+"""Seconds to which a meeting is reckoned exactly."""
+LATEST = 600.0
+"""Seconds from which on there is no meeting."""

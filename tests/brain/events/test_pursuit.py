@@ -1,0 +1,182 @@
+"""Targets that move, and actions along the way, in the simulated world of a package alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from math import dist
+from typing import Any
+
+import pytest
+
+from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.simulate import Outcome, simulate
+from pluto_fleet.shared.domain.actions import BUILT_IN
+from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.errors import ActionFailed
+from pluto_fleet.shared.domain.fields import Entity, FieldType
+from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, Mover, WorldData
+from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.events.company import AlongAction, AlongField, CompanyOf, launch_accompanied
+from pluto_fleet.shared.events.declared import Creator, Event, EventType
+from pluto_fleet.shared.events.follow import FOLLOW
+from pluto_fleet.shared.events.raising import EventsOf
+from pluto_fleet.shared.events.tracks import TRIP_FIELDS, TracksOf
+from pluto_fleet.shared.fleet.policies import nearest
+from pluto_fleet.shared.flow.run import Run
+from plutoc_blocks.drone_allocator.step import allocate_drone
+from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.kit import apps
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Trip(apps.Trip):
+    """A trip that may follow what moves, with an action along its way."""
+
+    track: str | None = None
+    reach: float = 0.5
+    lost_after: float = 2.0
+    along: Mapping[str, Any] | None = None
+
+
+ALONG = AlongField(name="along", on=Entity.TRIP, type=FieldType.ALONG, label="On the way")
+
+
+def walker(*path: tuple[float, float], speed: float = 0.3, starts: float = 0.0) -> Mover:
+    """Return a person that walks."""
+    return Mover(name="t1", kind="person", path=path, speed=speed, starts=starts)
+
+
+async def flow(run: Run[Any]) -> Status:
+    """create → allocate → launch → watch."""
+    status = run.status
+    if run.at in (None, "pursue"):
+        status = create_mission(run, status)
+    while True:
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
+        status = await watch_trip(run, launch_accompanied(run, status))
+        if status is not Status.STANDBY:
+            return status
+
+
+def flown(
+    trips: Sequence[Trip], *movers: Mover, look: Any = None, drones: int = 1, chase: Any = None
+) -> Outcome:
+    """Fly trips, each of a mission, in a world with these movers."""
+    along = {"look": AlongAction(name="look", hook=look)}
+    creators = {} if chase is None else {"intruder": Creator(block="pursue", hook=chase)}
+    app: Any = apps.app(flow).given
+    app = replace(
+        app,
+        trip=Trip,
+        fields=(*app.fields, *TRIP_FIELDS, ALONG),
+        actions={**BUILT_IN, "follow": FOLLOW},
+        parts=(EventsOf((EventType(name="intruder"),), creators), TracksOf(), CompanyOf(along)),
+    )
+    fleet = FleetData(
+        airspace=Airspace(),
+        drones=[
+            DroneData(id=f"cf{n}", category="scout", home=(float(n), 0.5, 0.0))
+            for n in range(1, drones + 1)
+        ],
+        world=WorldData(movers=movers),
+    )
+    missions: list[Any] = []
+    for number, trip in enumerate(trips):
+        missions.append(apps.mission(f"m{number}", trip, index=number))
+    return simulate(app, missions, fleet, seed=1, faults=Faults(), until=None, on_event=None)
+
+
+def photos(outcome: Outcome) -> list[Mapping[str, Any]]:
+    """Return the photos that were kept."""
+    results = outcome.standing["results"]
+    return [one["value"]["$photo"] for one in results if "$photo" in (one["value"] or {})]
+
+
+def following(**more: Any) -> Trip:
+    """Return a trip that takes a picture of what moves."""
+    return Trip(name="picture", action="take_photo", target=(4.0, 4.0, 1.2), track="t1", **more)
+
+
+def test_a_drone_meets_what_moves_and_has_it_on_its_picture() -> None:
+    mover = walker((8.0, 8.0), (2.0, 2.0))
+    (photo,) = photos(flown([following()], mover))
+    assert [track for track, _, _ in photo["tracks"]] == ["t1"]
+    assert "person" in photo["sees"]
+
+
+def test_one_that_turns_is_pursued_again() -> None:
+    mover = walker((8.0, 8.0), (6.0, 8.0), (6.0, 2.0), (19.0, 2.0), speed=0.4)
+    outcome = flown([following()], mover)
+    (photo,) = photos(outcome)
+    assert [track for track, _, _ in photo["tracks"]] == ["t1"]
+
+
+def test_a_track_without_news_fails_the_trip() -> None:
+    mover = walker((9.0, 9.0), (9.5, 9.0), speed=0.5)  # it leaves after a second
+    outcome = flown([following()], mover)
+    mission = outcome.standing["missions"]["m0"]
+    assert mission["status"] == "FAILED"
+    assert mission["reason"] == 'track "t1" has had no news for 2 s'
+
+
+def test_follow_stays_within_reach_and_takes_pictures() -> None:
+    trip = Trip(
+        name="f",
+        action="follow",
+        target=(4.0, 4.0, 1.2),
+        track="t1",
+        parameters={"for": 10.0, "every": 2.0},
+    )
+    outcome = flown([trip], walker((6.0, 8.0), (6.0, 1.0), speed=0.25))
+    taken = photos(outcome)
+    assert len(taken) == 6
+    for photo in taken:
+        ((_, _, at),) = photo["tracks"]
+        assert dist(photo["position"][:2], at[:2]) < 0.6
+
+
+def test_an_action_along_the_way_sees_what_moves_and_ends_with_the_leg() -> None:
+    ended: list[float] = []
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        try:
+            while True:
+                for seen in await context.live(drone).sees():
+                    context.emit("intruder", id=seen.track, at=seen.at, track=seen.track)
+                await context.sleep(0.2)
+        finally:
+            ended.append(context.now)
+
+    made: list[Event] = []
+    chase = lambda event, context: made.append(event)
+    patrol = Trip(name="p", action="take_photo", target=(9.0, 0.5, 1.2), along={"action": "look"})
+    outcome = flown([patrol], walker((6.0, 0.0), (6.0, 1.0), speed=0.02), look=look, chase=chase)
+    assert [event.track for event in made] == ["t1"]
+    assert outcome.count("event.raised") == 1
+    (done,) = (event["t"] for event in outcome.events if event["event"] == "trip.completed")
+    assert ended and done - ended[0] == pytest.approx(1.0)  # the photo at the end takes a second
+
+
+def test_what_an_action_along_the_way_raises_fails_the_trip() -> None:
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        await context.sleep(1.0)
+        raise ActionFailed("the lens is dirty")
+
+    patrol = Trip(name="p", action="take_photo", target=(9.0, 0.5, 1.2), along={"action": "look"})
+    outcome = flown([patrol], look=look)
+    assert outcome.standing["missions"]["m0"]["reason"] == "look failed: the lens is dirty"
+
+
+def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
+    line = Trip(
+        name="line",
+        action="take_photo",
+        source=(2.0, 4.0, 1.2),
+        target=(10.0, 4.0, 1.2),
+        along={"action": "take_photo", "metres": 2.0},
+    )
+    taken = photos(flown([line]))
+    xs = [photo["position"][0] for photo in taken]
+    assert xs == pytest.approx([2.0, 4.0, 6.0, 8.0, 10.0], abs=0.3)
