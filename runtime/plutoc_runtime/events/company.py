@@ -278,7 +278,7 @@ class Company(Part):
             if (why := self._out_of_reach(drone, point)) is not None:
                 return Failed(f"track {quoted(trip.track)} {why}")
             put(trip, target=point)
-            core.orders.redirect(flight.order)
+            core.orders.redirect({**flight.order, "company": True})
 
     def _out_of_reach(self, drone: Drone, point: Point) -> str | None:
         """Return why a drone cannot fly to a point, and home from there, or None."""
