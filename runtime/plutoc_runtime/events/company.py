@@ -45,6 +45,14 @@ class FlyingDrone(LiveDrone):
 
     __slots__ = ()
 
+    def change_to(self, drone: Drone) -> None:
+        """Be another drone from now on, which has taken over."""
+        self._drone = drone
+
+    def is_of(self, drone: Drone) -> bool:
+        """Return whether it is this drone's flight; another may have taken over."""
+        return True
+
     async def sees(self) -> list[Sighting]:
         """Return what moves in the view of its camera now."""
         return [
@@ -159,6 +167,8 @@ class Company(Part):
         self._along = along
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
+        self._live: dict[str, FlyingDrone] = {}
+        """By the names of missions, the drones of the actions along their ways."""
 
     def tell(self, message: Mapping[str, Any]) -> None:
         """Take over that a flight has arrived."""
@@ -195,6 +205,15 @@ class Company(Part):
             task.over = partial(_end, state, flight)
             arrival.watch(partial(_cancel, task))
 
+    def hand_over(self, flight: Flight, drone: Drone) -> None:
+        """Let what goes on beside a flight go on with another drone; its id has just changed."""
+        before = flight.id.rpartition("+")[0]
+        before = before if flight.relieved == 1 else f"{before}+{flight.relieved - 1}"
+        if before in self._arrivals:
+            self._arrivals[flight.id] = self._arrivals.pop(before)
+        if flight.mission.name in self._live:
+            self._live[flight.mission.name].change_to(drone)
+
     # Along the way
 
     async def _call(
@@ -207,6 +226,7 @@ class Company(Part):
         hook = action.hook
         assert hook is not None
         live = FlyingDrone(core.kernel, core.orders, drone, mission_key(state.mission.index))
+        self._live[state.mission.name] = live
         new_context = core.context or Context
         context = new_context(
             core.kernel, core.results, core.log, state.mission, lambda: state.flight, live
@@ -231,6 +251,7 @@ class Company(Part):
             return None
         finally:
             live.release()
+            del self._live[state.mission.name]
             take_over(state, hook)
 
     async def _repeat(

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..domain.actions import PHOTO, Action, Parameter
+from ..domain.actions import PHOTO, Action, Parameter, Plain
 from ..domain.errors import Failure, FlightFailed
 from ..domain.keeper import put
 from ..domain.quantities import Type
 from ..domain.text import duration, quoted
-from ..time.kernel import mission_key
+from ..flow.own_action import NO_MORE, way_home
+from ..time.kernel import EventKind, Future, mission_key
 from .company import track_of
 from .tracks import Tracks
 
 if TYPE_CHECKING:
     from ..flow.flight import Flight
-    from ..flow.mission import MissionState
+    from ..flow.mission import Core, MissionState
+    from ..time.kernel import Key
 
+LONGEST = 60.0
+"""Seconds of following that the battery of one drone must hold before it sets out."""
 STEP = 0.5
 """Seconds from one look at where it is to the next."""
 
@@ -25,6 +30,10 @@ STEP = 0.5
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FollowAction(Action):
     """Stays within reach of the trip's target for a time, and takes a picture each time that so much has passed."""
+
+    def lasts(self, parameters: Mapping[str, Plain]) -> float:
+        """Return how many seconds plans reckon with: what is longer is for several drones, one after the other."""
+        return min(LONGEST, Action.lasts(self, parameters))
 
     async def act(self, state: MissionState, flight: Flight) -> None:
         """Follow it, and complete or fail the flight."""
@@ -39,8 +48,6 @@ class FollowAction(Action):
         core = state.core
         trip: Any = flight.trip
         kernel, key = core.kernel, mission_key(state.mission.index)
-        tracks: Tracks = core.parts[Tracks]
-        id = track_of(trip)
         ends = kernel.now + trip.parameters["for"]
         picture = kernel.now
         while True:
@@ -51,19 +58,38 @@ class FollowAction(Action):
                 picture += trip.parameters["every"]
             if now >= ends:
                 return
-            track = None if id is None else tracks.known.get(id)
-            if id is not None:
-                if track is None or now - track.time > trip.lost_after:
-                    since = duration(trip.lost_after)
-                    raise FlightFailed(
-                        Failure.ACTION, f"track {quoted(id)} has had no news for {since}"
-                    )
-                point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
-                put(trip, target=point)
-                await core.orders.ask("go", flight.drone, stops=[point])
-            wait = min(picture, ends, now + STEP) - kernel.now
-            if wait > 0.0:
-                await kernel.sleep(wait, key=key)
+            way = way_home(core, flight.flier)
+            left = flight.flier.battery_level - flight.flier.category.reserve
+            if way is not None and way >= left:
+                raise FlightFailed(Failure.BATTERY, NO_MORE)
+            await self._stay_near(core, flight, min(picture, ends, now + STEP), key)
+
+    async def _stay_near(self, core: Core, flight: Flight, until: float, key: Key) -> None:
+        """Fly to where the target is, and on with it, until a time; raise what befalls the drone."""
+        trip: Any = flight.trip
+        kernel, id = core.kernel, track_of(trip)
+        failed = Future[object]()
+        if id is None:
+            number = core.orders.give("hold", flight.drone, failed.set)
+        else:
+            tracks: Tracks = core.parts[Tracks]
+            track = tracks.known.get(id)
+            if track is None or kernel.now - track.time > trip.lost_after:
+                since = duration(trip.lost_after)
+                raise FlightFailed(
+                    Failure.ACTION, f"track {quoted(id)} has had no news for {since}"
+                )
+            point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
+            put(trip, target=point)
+            number = core.orders.give("go", flight.drone, failed.set, stops=[point])
+        try:
+            await kernel.within(failed, until, EventKind.TIMER, key)
+            if failed.is_set and isinstance(failed.result(), FlightFailed):
+                raise failed.result()  # type: ignore[misc]  # it was asked what it is
+            if failed.is_set:  # it has arrived
+                await kernel.sleep(until - kernel.now, key=key)
+        finally:
+            core.orders.forget(number)
 
 
 async def _nothing(*_: object) -> None:

@@ -105,6 +105,14 @@ class Orders:
 
     # All else
 
+    def give(self, do: str, drone: str, answer: Answer, **more: object) -> int:
+        """Give an order, and call this with what came of it, unless it is forgotten; return its number."""
+        return self._give({"do": do, "drone": drone, **more}, answer)
+
+    def forget(self, number: int) -> None:
+        """Want no answer to an order any more."""
+        self._answers.pop(number, None)
+
     async def ask(self, do: str, drone: str, **more: object) -> Any:
         """Give an order, and return what came of it; raise `FlightFailed`. Cancelling this cancels the order."""
         outcome: Future[Any] = Future()

@@ -63,10 +63,12 @@ class Queue:
         self.served: Callable[[], None] = lambda: None
         """Called after a serving, if some still wait and a drone that is too low is not being charged."""
         self.entered: Callable[[Mission[Any]], object] | None = None
-        """Called with each mission that enters."""
+        """Called with each mission that is about to enter."""
 
     def enter(self, mission: Mission[Any], policy: Policy, priority: int) -> Request:
         """Request a drone for a mission's next trip; it is given at the end of this instant or later."""
+        if self.entered is not None:
+            self.entered(mission)
         self._arrivals -= 1
         rank = (priority, self._arrivals)
         request = Request(self._reach, mission, policy, rank, self.kernel.now)
@@ -76,8 +78,6 @@ class Queue:
             insort(self.requests, request, key=_by_rank)
         self._fresh.append(request)
         self.changed()
-        if self.entered is not None:
-            self.entered(mission)
         return request
 
     def leave(self, request: Request) -> None:

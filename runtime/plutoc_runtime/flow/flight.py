@@ -31,6 +31,7 @@ class Flight(Future[Status]):
         "launched_at",
         "mission",
         "own_action",
+        "relieved",
         "retry",
         "round",
         "trip",
@@ -62,13 +63,15 @@ class Flight(Future[Status]):
         """Whether an action of the app's own has begun: from then on it may have been done."""
         self.beside: Point | None = None
         """Where the action is done, if that is not at the trip's target."""
+        self.relieved = 0  # how often another drone has taken over
         self.heard = False
         """Whether the mission's graph has gone on from its end."""
 
     @property
     def id(self) -> str:
         """`mission/trip/round/attempt`: a flight has the same id in every run."""
-        return f"{self.mission.name}/{self.trip.name}/{self.round}/{self.attempt}"
+        again = f"+{self.relieved}" if self.relieved else ""
+        return f"{self.mission.name}/{self.trip.name}/{self.round}/{self.attempt}{again}"
 
     @property
     def drone(self) -> str:

@@ -121,13 +121,19 @@ async def _call(state: MissionState, hook: Hook, /, *args: object, **named: obje
         take_over(state, hook)
 
 
+def way_home(core: Core, drone: Drone) -> float | None:
+    """Return the share of its battery that a drone needs home from where it is; None: no way leads there."""
+    return needed(drone.category, core.airspace, drone.location, (), drone.home)
+
+
 async def while_it_suffices(core: Core, drone: Drone, key: Key, until: float = -inf) -> None:
     """Wait while the battery of a hovering drone holds more than the way home and its reserve take.
 
     Until then, for as long as plans reckon with, half of the reserve will do: it is there for chance and traffic.
     """
-    kernel, category = core.kernel, drone.category
-    way = needed(category, core.airspace, drone.location, (), drone.home)
+    kernel = core.kernel
+    category = drone.category
+    way = way_home(core, drone)
     if way is None:
         await Future[None]()  # no rest suffices where no way leads home
         return

@@ -123,6 +123,19 @@ class Transitions:
         facts = {"result": value_data(value)} if self._kept else {}
         self._note_trip("action.result", mission, trip, trip.drone, value=shown(value), **facts)
 
+    def set_out(self, drone: Drone) -> None:
+        """Count a flight of a drone."""
+        put(drone, trips=drone.trips + 1)
+        self._changes.drone(drone)
+
+    def hand_over(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """Give a trip in flight another drone: that is no attempt of its own."""
+        before = trip.drone
+        put(trip, drone=drone)
+        self._changes.trip(mission, trip)
+        of = None if before is None else before.id
+        self._note_trip("trip.handed_over", mission, trip, drone, of=of)
+
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
         reason = bounded(reason, LONGEST)

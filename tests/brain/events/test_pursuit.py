@@ -16,11 +16,13 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.fields import Entity, FieldType
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, Mover, WorldData
+from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.company import AlongAction, AlongField, CompanyOf, launch_accompanied
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
 from pluto_fleet.shared.events.follow import FOLLOW
 from pluto_fleet.shared.events.raising import EventsOf
+from pluto_fleet.shared.events.relief import watch_relieved
 from pluto_fleet.shared.events.tracks import TRIP_FIELDS, TracksOf
 from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.run import Run
@@ -60,13 +62,27 @@ async def flow(run: Run[Any]) -> Status:
             return status
 
 
+async def relieved(run: Run[Any]) -> Status:
+    """create → allocate → launch → watch, with relief."""
+    status = create_mission(run, run.status)
+    status = await allocate_drone(run, status, block="allocate", policy=nearest)
+    launch_accompanied(run, status)
+    return await watch_relieved(run, relief=0.15)
+
+
 def flown(
-    trips: Sequence[Trip], *movers: Mover, look: Any = None, drones: int = 1, chase: Any = None
+    trips: Sequence[Trip],
+    *movers: Mover,
+    look: Any = None,
+    drones: int = 1,
+    chase: Any = None,
+    flow: Any = flow,
+    category: Category = apps.SCOUT,
 ) -> Outcome:
     """Fly trips, each of a mission, in a world with these movers."""
     along = {"look": AlongAction(name="look", hook=look)}
     creators = {} if chase is None else {"intruder": Creator(block="pursue", hook=chase)}
-    app: Any = apps.app(flow).given
+    app: Any = apps.app(flow, categories=(category,)).given
     app = replace(
         app,
         trip=Trip,
@@ -135,6 +151,44 @@ def test_follow_stays_within_reach_and_takes_pictures() -> None:
     for photo in taken:
         ((_, _, at),) = photo["tracks"]
         assert dist(photo["position"][:2], at[:2]) < 0.6
+
+
+def test_one_drone_after_the_other_follows_without_a_gap() -> None:
+    trip = Trip(
+        name="f",
+        action="follow",
+        target=(4.0, 4.0, 1.2),
+        track="t1",
+        parameters={"for": 200.0, "every": 1.0},
+    )
+    there_and_back = walker((2.0, 6.0), (8.0, 6.0), (2.0, 6.0), (8.0, 6.0), (2.0, 6.0), speed=0.08)
+    weak = Category(name="scout", flight_time=120.0, charge_time=100.0)
+    outcome = flown([trip], there_and_back, drones=4, flow=relieved, category=weak)
+    assert outcome.standing["missions"]["m0"]["status"] == "COMPLETED"
+    assert outcome.standing["missions"]["m0"]["attempts"] == 1
+    assert outcome.count("trip.handed_over") >= 3
+    assert outcome.count("drone.drained") == 0
+    taken = photos(outcome)
+    assert len(taken) == 201
+    for photo in taken:
+        ((_, _, at),) = photo["tracks"]
+        assert dist(photo["position"][:2], at[:2]) < 1.0
+
+
+def test_without_relief_a_battery_ends_the_trip() -> None:
+    trip = Trip(
+        name="f",
+        action="follow",
+        target=(4.0, 4.0, 1.2),
+        track="t1",
+        parameters={"for": 200.0, "every": 1.0},
+    )
+    weak = Category(name="scout", flight_time=120.0, charge_time=1e9)
+    outcome = flown(
+        [trip], walker((2.0, 6.0), (18.0, 6.0), speed=0.05), flow=relieved, category=weak
+    )
+    assert "only just suffices" in outcome.standing["missions"]["m0"]["reason"]
+    assert outcome.count("drone.drained") == 0
 
 
 def test_an_action_along_the_way_sees_what_moves_and_ends_with_the_leg() -> None:
