@@ -21,6 +21,11 @@ class EventContext(Context):
         super().__init__(*given)
         self._events = events
 
+    @property
+    def missions(self) -> tuple[Mission[Any], ...]:
+        """All missions that have not ended, in their order; a hook changes none but its own."""
+        return self._events.living
+
     def emit(
         self,
         event: str,
@@ -63,11 +68,6 @@ class CreatorContext(EventContext):
     ) -> None:
         super().__init__(events, *given)
         self._cancel = cancel
-
-    @property
-    def missions(self) -> tuple[Mission[Any], ...]:
-        """The missions that have not ended, in their order; a creator can only look at them."""
-        return self._events.living
 
     def cancel(self, mission: Mission[Any], why: str) -> None:
         """End a mission as CANCELLED, wherever it is; one that has ended stays as it is."""
