@@ -229,9 +229,18 @@ class Events(Part):
 
     def release(self, mission: Mission[Any]) -> None:
         """Let the drone go that hovers for a mission: the next allocation decides whose it is."""
+        core = self._core
         drone = self.reserved.pop(mission.name, None)
-        if drone is not None:
-            self._core.fleet.dismiss(drone)
+        if drone is None:
+            return
+        core.fleet.engage(drone)
+        core.fleet.become(drone, DroneStatus.FREE)
+
+        def look() -> None:
+            if drone.status is DroneStatus.FREE and not drone.telemetry.landed:
+                core.fleet.dismiss(drone)  # nobody has taken it
+
+        core.kernel.at(core.kernel.now, EventKind.ALLOCATE, FLEET, look)
 
     # What is made of it
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -126,8 +126,17 @@ class Tracks(Part):
         return min(max(x, 0.0), width), min(max(y, 0.0), depth), z + height
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackField(Field):
+    """The field of a trip with the track that it follows."""
+
+    def wanted(self, value: object, evaluators: Container[str]) -> str:
+        """Return what a value must be that a hook has set, if it is not that."""
+        return "" if value is None or type(value) is str else "the id of a track"
+
+
 TRIP_FIELDS = (
-    Field(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
+    TrackField(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
     Field(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
     Field(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
 )

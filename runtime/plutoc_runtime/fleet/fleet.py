@@ -109,7 +109,7 @@ class Fleet:
             and (self._after_trip is _STAY or docked(telemetry.location, drone.home))
         ):
             # it is down already where it shall be, with enough in its battery
-            self._become(drone, _FREE)
+            self.become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
         else:
@@ -134,7 +134,7 @@ class Fleet:
 
     def send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)
-        self._become(drone, status)
+        self.become(drone, status)
 
         async def run() -> None:
             await errand(drone)
@@ -142,7 +142,7 @@ class Fleet:
 
         self.errands[drone] = self._kernel.spawn(run(), self._key(drone), f"{drone.id} {what}")
 
-    def _become(self, drone: Drone, status: DroneStatus) -> None:
+    def become(self, drone: Drone, status: DroneStatus) -> None:
         if drone.status is not status:
             put(drone, status=status)
             if self.mended and status in _SETTLED:
@@ -175,15 +175,15 @@ class Fleet:
         if self._is_docked(drone) and drone.status in _UNDER_WAY and level < reserve - 0.005:
             self._trace.note("drone.drained", drone=drone.id, level=level)
         if level > reserve and not retired:
-            self._become(drone, _FREE)
+            self.become(drone, _FREE)
         elif not self._is_docked(drone):
             return False
         elif retired:
-            self._become(drone, DroneStatus.OFFLINE)
+            self.become(drone, DroneStatus.OFFLINE)
         elif drone.category.charge_time == inf:
-            self._become(drone, _FREE)  # the queue puts it aside
+            self.become(drone, _FREE)  # the queue puts it aside
         else:
-            self._become(drone, DroneStatus.CHARGING)
+            self.become(drone, DroneStatus.CHARGING)
             self._free_after(drone.charging(reserve) + 0.001, drone)
         return True
 
@@ -193,7 +193,7 @@ class Fleet:
         def look() -> None:
             charging = drone.status is DroneStatus.CHARGING
             if charging and drone.battery_level > drone.category.reserve:
-                self._become(drone, _FREE)
+                self.become(drone, _FREE)
             elif charging:
                 self._free_after(10.0, drone)  # it should be charged by now
 
@@ -226,7 +226,7 @@ class Fleet:
     async def fly_home(self, drone: Drone) -> None:
         """Fly a drone home; one that lands beside its dock each time is lost there."""
         for _ in range(FLIGHTS_HOME):
-            self._become(drone, DroneStatus.RETURNING)
+            self.become(drone, DroneStatus.RETURNING)
             self.queue.homeward.add(drone)
             try:
                 await self._orders.ask("home", drone.id)
@@ -245,7 +245,7 @@ class Fleet:
 
     async def _recovered(self, drone: Drone, reason: str, repaired: bool = False) -> bool:
         """Recover a drone; return False if it is lost."""
-        self._become(drone, _RECOVERING)
+        self.become(drone, _RECOVERING)
         home = await self._orders.ask("recover", drone.id)  # true, or what a lost drone says
         if drone in self.lost:
             self._lose(drone, self.lost[drone].reason)
@@ -259,7 +259,7 @@ class Fleet:
 
     def _lose(self, drone: Drone, reason: str) -> None:
         self.unready[drone] = reason
-        self._become(drone, DroneStatus.LOST)
+        self.become(drone, DroneStatus.LOST)
 
     # After an interruption, and when people look after drones
 
@@ -293,7 +293,7 @@ class Fleet:
 
     def flies_on(self, drone: Drone) -> None:
         """Take over a drone that has been flying for a mission since before an interruption."""
-        self._become(drone, DroneStatus.BUSY)
+        self.become(drone, DroneStatus.BUSY)
 
     def retire(self, drone: Drone) -> None:
         """Allocate this drone to no further mission; its current trip goes on to its end."""

@@ -151,7 +151,7 @@ def test_an_own_event_breaks_a_flight_off_and_charges_no_attempt() -> None:
     assert settled(brain, 2.0) == []
     raised(brain, 3.0, mission="patrol")
     orders = settled(brain, 3.0)
-    assert [order["do"] for order in orders] == ["break_off", "hold", "cancel", "fly"]
+    assert [order["do"] for order in orders] == ["break_off", "fly"]
     row = brain.mission("patrol")
     assert row["status"] == "RUNNING" and row["attempts"] == 1
     assert row["todo"][0].get("attempt", 1) == 1
