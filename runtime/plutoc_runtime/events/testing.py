@@ -1,0 +1,83 @@
+"""What tests of hooks are written with in an app with events, beside `alone/testing.py`."""
+
+from __future__ import annotations
+
+from typing import Any, Generic, NamedTuple, cast
+
+from ..alone.testing import AppKit, Given, KitContext, M, T
+from ..domain.model import Mission, Point, Sighting
+from .declared import Event
+from .raising import EventsOf
+
+
+class Emitted(NamedTuple):
+    """An event that a hook has raised."""
+
+    event: str
+    facts: dict[str, Any]
+
+
+class EventKitContext(KitContext):
+    """A hook's context, with what a test gives to it and reads back."""
+
+    def __init__(self, *given: Any) -> None:
+        super().__init__(*given)
+        self.emitted: list[Emitted] = []
+        """The events that the hook has raised."""
+        self.stored: list[object] = []
+        """The results that it has kept."""
+        self.missions: tuple[Mission[Any], ...] = ()
+        """The missions that it can look at."""
+        self.cancelled: list[tuple[Mission[Any], str]] = []
+        """The missions that a creator has cancelled, with its reasons."""
+        self.sights: list[Sighting] = []
+        """What the camera of its drone sees."""
+
+    def emit(self, event: str, **facts: Any) -> None:
+        """Raise an event."""
+        self.emitted.append(Emitted(event, facts))
+
+    def store(self, value: object) -> None:
+        """Keep a result of the trip in flight."""
+        self.stored.append(value)
+
+    def cancel(self, mission: Mission[Any], why: str) -> None:
+        """End a mission."""
+        self.cancelled.append((mission, why))
+
+    def live(self, drone: Any) -> Any:
+        """Return the drone of this action, whose sensors can be read while it flies."""
+        return _SeeingDrone(super().live(drone), self)
+
+
+class _SeeingDrone:
+    """A live drone whose camera sees what the test says."""
+
+    def __init__(self, live: Any, context: EventKitContext) -> None:
+        self._live, self._context = live, context
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._live, name)
+
+    async def sees(self) -> list[Sighting]:
+        """Return what moves in the view of its camera."""
+        return [*self._context.sights]
+
+
+class EventAppKit(AppKit[M, T, Given], Generic[M, T, Given]):
+    """What the hooks of an app with events are given, for one test."""
+
+    def context(self) -> EventKitContext:
+        """Return a context, for the hooks that it is handed to."""
+        return EventKitContext(self.clock, self._store, self._none)
+
+    def event(self, name: str, *, at: Point | None = None, **facts: Any) -> Event:
+        """Return an occurrence of an event, for a creator."""
+        types = {
+            kind.name: kind
+            for part in self._app.parts
+            if isinstance(part, EventsOf)
+            for kind in part.types
+        }
+        given = {"id": f"{name}-1", "time": self.clock.now, **facts}
+        return cast("Event", types[name].type(name=name, at=at, **given))
