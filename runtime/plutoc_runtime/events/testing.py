@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Generic, NamedTuple, cast
+from typing import Any, Generic, NamedTuple
 
 from ..alone.testing import AppKit, Given, KitContext, M, T
 from ..domain.model import Mission, Point, Sighting
@@ -80,4 +80,4 @@ class EventAppKit(AppKit[M, T, Given], Generic[M, T, Given]):
             for kind in part.types
         }
         given = {"id": f"{name}-1", "time": self.clock.now, **facts}
-        return cast("Event", types[name].type(name=name, at=at, **given))
+        return types[name].type(name=name, at=at, **given)
