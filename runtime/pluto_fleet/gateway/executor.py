@@ -45,6 +45,10 @@ def _nothing() -> None:
     """Does nothing: the flight has begun already."""
 
 
+def _ignore(_: str) -> None:
+    """Does nothing: nobody wants to know of arrivals."""
+
+
 class Executor:
     """Flies jobs, and obeys single commands, with the drones' own controls."""
 
@@ -73,6 +77,10 @@ class Executor:
             self._measuring = Measuring(kernel, controls.telemetry, self._drones, flown)
         self._jobs: dict[str, Task[None]] = {}
         """The jobs in progress, by the drones' ids."""
+        self._turned: dict[str, Callable[[Order], object]] = {}
+        """By the drones' ids, what sends a job that is on its way to other stops."""
+        self.arrived: Callable[[str], object] = _ignore
+        """Called with a flight at the end of its last leg, if its order says that this shall be told."""
         self._rescues: dict[str, Task[bool]] = {}
         """The latest rescue of each drone."""
         self.telemetry: Mapping[str, Telemetry] = controls.telemetry
@@ -101,12 +109,33 @@ class Executor:
         self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
     ) -> None:
         drone = order["drone"]
+        self._turned[drone] = partial(self._turn, begins=begins, report=report)
         try:
             result = await self._flown(order, begins)
         except FlightFailed as error:
             result = motors_cut(drone) if drone in self._cut else error
         del self._jobs[drone]
+        self._turned.pop(drone, None)
         report(result)
+
+    def redirect(self, order: Order) -> None:
+        """Send a job to other stops; one whose action has begun goes on with that."""
+        turn = self._turned.get(order["drone"])
+        if turn is not None:
+            turn(order)
+
+    def _turn(
+        self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
+    ) -> None:
+        drone = order["drone"]
+        self._jobs.pop(drone).cancel()
+        self._controls.break_off(drone)
+        self.fly(order, begins, report)
+
+    async def go(self, drone: str, stops: Sequence[Point]) -> None:
+        """Fly to these stops from wherever it is, and hover, without a job of its own."""
+        self._refuse_if_cut(drone)
+        await self.travels(drone, partial(self._to, drone, stops), partial(self.begins, drone))
 
     async def _flown(self, order: Order, begins: Callable[[], object]) -> object:
         controls = self._controls
@@ -131,6 +160,9 @@ class Executor:
         if way.target is not None and self._beside is not None:
             here = controls.telemetry[drone].location
             self._beside(is_beside(drone, flight, way.target, here))
+        self._turned.pop(drone, None)
+        if order.get("company"):
+            self.arrived(flight)
         if action is None:
             return None
         begins()

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..drones.lag import Lag
 from ..drones.real_fleet import RealDrone
-from ..jobs.controls import FleetDrone, Read, Write
+from ..jobs.controls import FleetDrone, Read, See, Trigger, Write
 from ..jobs.link import Link
 from ..jobs.reports import (
     Down,
@@ -24,7 +24,7 @@ from ..jobs.reports import (
     result_data,
 )
 from ..shared.domain.errors import BadInput, Cancelled, FlightFailed
-from ..shared.hooks.plain_data import value_data
+from ..shared.hooks.plain_data import point_of, value_data
 from ..shared.time.kernel import FLEET, EventKind, Kernel, Task
 from ..simulation.body import SimulatedDrone
 from .descent import Descent
@@ -70,8 +70,8 @@ class Line(Link):
         self._is_heard = gateway.descent is None
         self.under_way: dict[object, Task[Any]] = {}
         """The orders that are answered when they are done, by their ids."""
-        self._busy: dict[str, None] = {}
-        """The drones that carry one of those out."""
+        self._busy: dict[str, object] = {}
+        """The drones that carry one of those out, each with its id if another order may come in its place."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return a drone's telemetry, which is always current."""
@@ -120,9 +120,10 @@ class Line(Link):
         drone = order.get("drone", "")
         gateway = self.gateway
         if do in _ONE_AT_A_TIME:
+            self._replace_what_waits(drone)
             if drone in self._busy or gateway.jobs.is_flown_by(drone):
                 raise Busy(f"{drone} was told to do something while it does something else")
-            self._busy[drone] = None
+            self._busy[drone] = order["id"] if do in _WAITS else None
             if do != "hold":
                 gateway.jobs.moves_on(drone)
         if do == "down":
@@ -131,6 +132,12 @@ class Line(Link):
         task = gateway.kernel.spawn(answered(gateway, order), key, f"{drone} is told to {do}")
         self.under_way[order["id"]] = task
         task.over = partial(self._ended, order)
+
+    def _replace_what_waits(self, drone: str) -> None:
+        """Call off that a drone hovers, or goes somewhere, for an order that comes in its place."""
+        number = self._busy.get(drone)
+        if number is not None and number in self.under_way:
+            self.under_way[number].cancel()
 
     def _ended(self, order: Order, task: Task[Any]) -> None:
         do = order["do"]
@@ -429,6 +436,16 @@ async def _write(gateway: Gateway, order: Order) -> None:
     await gateway.controls.do(order["drone"], Write(order["name"], order["value"]))
 
 
+async def _trigger(gateway: Gateway, order: Order) -> object:
+    trigger = Trigger(order["action"], order["parameters"])
+    return value_data(await gateway.controls.do(order["drone"], trigger))
+
+
+async def _see(gateway: Gateway, order: Order) -> object:
+    seen = await gateway.controls.do(order["drone"], See())
+    return [[one.track, one.kind, [*one.at]] for one in seen]
+
+
 async def _recover(gateway: Gateway, order: Order) -> bool | str:
     """Bring a drone home; if it is lost, return what it says of that itself."""
     if await gateway.recover(order["drone"]):
@@ -466,11 +483,17 @@ _AT_ONCE: Mapping[str, Callable[[Line, Order], object]] = {
     "cancel": Line.cancel,
     "heartbeat": lambda line, order: None,
     "break_off": lambda line, order: line.gateway.break_off(order["drone"]),
+    "redirect": lambda line, order: line.gateway.executor.redirect(order),
     "mended": lambda line, order: line.gateway.executor.mended(order["drone"]),
     "forget": lambda line, order: line.gateway.jobs.forget(order["flight"]),
 }
 _ANSWERED: Mapping[str, Answered] = {
     "hold": lambda gateway, order: gateway.executor.hold(order["drone"]),
+    "go": lambda gateway, order: gateway.executor.go(
+        order["drone"], [*map(point_of, order["stops"])]
+    ),
+    "act": _trigger,
+    "sees": _see,
     "home": lambda gateway, order: gateway.executor.home(order["drone"]),
     "land": lambda gateway, order: gateway.executor.land(order["drone"]),
     "recover": _recover,
@@ -483,7 +506,9 @@ _ANSWERED: Mapping[str, Answered] = {
     "down": _down,
 }
 """What is answered when it is done."""
-_ONE_AT_A_TIME = frozenset({"hold", "home", "land", "recover"})
+_ONE_AT_A_TIME = frozenset({"hold", "go", "home", "land", "recover"})
 """What a drone does only while it does nothing else."""
+_WAITS = frozenset({"hold", "go"})
+"""In whose place another of those may come."""
 _ALWAYS = frozenset({"call", "join", "mishap", "down", "cancel"})
 """What is also obeyed while all drones are brought down."""

@@ -64,6 +64,20 @@ _TYPES: dict[str, Any] = {
 
 _FACTS: dict[object, tuple[str, ...]] = {
     "fly": ("id", "drone", "flight", "stops", "action", "parameters", "item", "seconds", "beside"),
+    "redirect": (
+        "id",
+        "drone",
+        "flight",
+        "stops",
+        "action",
+        "parameters",
+        "item",
+        "seconds",
+        "beside",
+    ),
+    "go": ("id", "drone", "stops"),
+    "act": ("id", "drone", "action", "parameters"),
+    "sees": ("id", "drone"),
     "attach": ("id", "flight"),
     "cancel": ("order",),
     "heartbeat": (),

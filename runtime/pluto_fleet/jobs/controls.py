@@ -82,6 +82,17 @@ class Write(NamedTuple):
     value: float
 
 
+class Trigger(NamedTuple):
+    """Do a built-in action at once, be the drone on its way or not; what comes of it is its result."""
+
+    action: str
+    parameters: Mapping[str, Plain]
+
+
+class See(NamedTuple):
+    """Return what moves in the view of its camera, as `Sighting`s."""
+
+
 class Cut(NamedTuple):
     """Switch its motors off now, wherever it is; only ever on a user's explicit command.
 
@@ -89,7 +100,7 @@ class Cut(NamedTuple):
     """
 
 
-Command = TakeOff | GoTo | Land | Hold | Act | Read | Write | Cut
+Command = TakeOff | GoTo | Land | Hold | Act | Trigger | See | Read | Write | Cut
 
 
 class Controls(Protocol):

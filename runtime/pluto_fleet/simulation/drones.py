@@ -8,7 +8,7 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
+from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, See, TakeOff, Trigger, Write
 from ..jobs.reports import motors_cut
 from ..shared.alone.faults import CARRYING_HOME, Faults, draw
 from ..shared.domain.actions import BUILT_IN, Plain
@@ -210,6 +210,18 @@ class SimulatedNavigation:
             await Future[None]()  # until it is broken off
         return value
 
+    async def _trigger(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> object:
+        """Do a built-in action at once, be it on its way or not."""
+        return self._in_the_air(drone).act(action, parameters, None)
+
+    async def _see(self, drone: str) -> object:
+        """Return what moves in the view of its camera."""
+        return self._world.moving(self._in_the_air(drone).location, self._kernel.now)
+
+    def tracks(self) -> Mapping[str, object]:
+        """Return where everything is now that moves in the world."""
+        return self._world.tracks(self._kernel.now)
+
     async def _hold(self, drone: str) -> None:
         """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
@@ -313,6 +325,8 @@ CARRIES_OUT: dict[type[Command], Callable[..., Coroutine[Any, Any, Any]]] = {
     Land: SimulatedNavigation._land,
     Hold: SimulatedNavigation._hold,
     Act: SimulatedNavigation._act,
+    Trigger: SimulatedNavigation._trigger,
+    See: SimulatedNavigation._see,
     Read: SimulatedNavigation._read,
     Write: SimulatedNavigation._write,
     Cut: SimulatedNavigation._cut,

@@ -45,6 +45,8 @@ class Body(KnownState):
         self._drawn: Mapping[Failure, float] = {}
         self._began = 0.0
         self._flown = 0.0
+        self._cut_at = -inf
+        """When it was told to hover while it was on its way, the last time."""
         self.stand(drone.home, 1.0)
 
     def stand(self, at: Point, level: float) -> None:
@@ -85,6 +87,7 @@ class Body(KnownState):
         self.check()
         now = self._clock.now
         motion = self.motion
+        moves = self._moves_at(now)
         rises = self._landed
         if rises:  # the battery drains from now on, and faults are due
             self._charge = self._charge.changing(
@@ -96,11 +99,19 @@ class Body(KnownState):
             self.check()  # a fault at take-off leaves it on the ground
         legs = list[Leg]()
         here = self.location
-        for there, before, seconds, after in motion.stages(way, self.category.speed, rises, lands):
+        speed = self.category.speed
+        stages = (
+            motion.goes_on(way, speed)
+            if moves and not lands
+            else motion.stages(way, speed, rises, lands)
+        )
+        for there, before, seconds, after in stages:
             x, y, z = there
             factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
             leaves = now + factor * before
-            legs.append(Leg(here, there, leaves, leaves + factor * seconds, motion.smooth))
+            legs.append(
+                Leg(here, there, leaves, leaves + factor * seconds, motion.smooth and not moves)
+            )
             here = there
             now += factor * (before + seconds + after)
         self.turn(legs, self._clock.now, lands_at=now if lands else inf)
@@ -110,7 +121,17 @@ class Body(KnownState):
         """Hover where it is, if it still takes commands."""
         self.settle()
         if not self._landed and self.down is None:
+            if self._moves_at(self._clock.now):
+                self._cut_at = self._clock.now
             self.turn([resting(self.location, self._clock.now)], self._clock.now)
+
+    def _moves_at(self, now: float) -> bool:
+        """Return whether it is on its way, or was until this very instant: then it need not start from rest."""
+        if self._landed:
+            return False
+        return self._cut_at == now or any(
+            leg.leaves < now < leg.arrives and leg.start != leg.end for leg in self._legs
+        )
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged from its touch-down on."""

@@ -54,8 +54,7 @@ class IdealDrones:
     def tracks(self) -> dict[str, Any]:
         """Return where everything is now that moves in the world."""
         self._seen = now = self._clock.now
-        places = ((mover, mover.at(now)) for mover in self.world.movers)
-        return {mover.name: {"kind": mover.kind, "at": [*at, 0.0]} for mover, at in places if at}
+        return self.world.tracks(now)
 
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from math import inf
 from operator import attrgetter
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..domain.fleet_data import Feature, Source, WorldData
 from ..domain.model import Photo, Sighting
@@ -77,6 +77,11 @@ class World:
             tracks=tracks,
             sharpness=sharpness,
         )
+
+    def tracks(self, time: float) -> dict[str, Any]:
+        """Return where everything is at a time that moves, as it is told."""
+        places = ((mover, mover.at(time)) for mover in self.movers)
+        return {mover.name: {"kind": mover.kind, "at": [*at, 0.0]} for mover, at in places if at}
 
     def moving(self, point: Point, time: float) -> tuple[Sighting, ...]:
         """Return what moves in the view of a camera that looks straight down from a point."""

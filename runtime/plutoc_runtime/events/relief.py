@@ -16,7 +16,7 @@ from .company import Company
 from .tracks import Tracks
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone
+    from ..domain.model import Drone, Point
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
     from ..flow.run import Run
@@ -100,7 +100,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     return True
 
 
-def _beside(state: MissionState, flight: Flight, drone: Drone) -> Any:
+def _beside(state: MissionState, flight: Flight, drone: Drone) -> Point:
     """Return where the drone that is relieved will be met."""
     core = state.core
     track_id = getattr(flight.trip, "track", None)
