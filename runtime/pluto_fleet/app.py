@@ -6,7 +6,7 @@ classes for itself, and several apps fly in one process.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, make_dataclass
 from dataclasses import field as dataclass_field
 from functools import lru_cache
@@ -23,6 +23,10 @@ from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
 from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
+from .shared.events.company import AlongAction, AlongField, CompanyOf
+from .shared.events.declared import Creator, EventType
+from .shared.events.raising import EventsOf
+from .shared.events.tracks import TrackField, TracksOf
 
 if TYPE_CHECKING:
     from .shared.brain import Brain
@@ -87,6 +91,7 @@ def described(given: Any) -> App:
         evaluators={name: given.evaluators[name] for name in about["evaluators"]},
         resumes=tuple(about["resumes"]),
         results=tuple(about["results"]),
+        parts=_parts(about),
         package=runtime.rpartition(".")[0] or runtime,
         seam=brain.SEAM,
         given=given,
@@ -120,7 +125,39 @@ def _field(data: Mapping[str, Any]) -> Field:
     known = {"name": data["name"], "label": data["label"], "default": data["default"]}
     if data.get("own"):
         return OwnField(**known, on=Entity(data["on"]), type=Type(data["type"]))
-    return Field(**known, on=Entity(data["on"]), type=FieldType(data["type"]))
+    kind = data["type"]
+    of_class = _FIELDS.get(kind, Field)
+    types = {one.value: one for one in (*Type, *FieldType)}
+    return of_class(**known, on=Entity(data["on"]), type=types[kind])
+
+
+_FIELDS: Mapping[str, type[Field]] = {
+    Type.TEXT.value: TrackField,
+    FieldType.ALONG.value: AlongField,
+}
+"""The fields that are no app's own, by the types that only those have."""
+
+
+def _parts(about: Mapping[str, Any]) -> tuple[shared.PartOf, ...]:
+    """Return what an app has beside missions and drones, as far as a library must know it."""
+    if "events" not in about:
+        return ()
+    types = [
+        EventType(name=one["name"], parameters=_parameters(one["parameters"]))
+        for one in about["events"]
+    ]
+    creators = {
+        one["name"]: Creator(block="", hook=_nobody) for one in about["events"] if one["creates"]
+    }
+    along = {
+        one["name"]: AlongAction(name=one["name"], parameters=_parameters(one["parameters"]))
+        for one in about["along"]
+    }
+    return EventsOf(types, creators), TracksOf(), CompanyOf(along)
+
+
+def _nobody(*_: object) -> None:
+    """Stand for a creator: only the brain calls it."""
 
 
 def _category(data: Mapping[str, Any]) -> Category:
@@ -130,12 +167,14 @@ def _category(data: Mapping[str, Any]) -> Category:
 
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
-    parameters = tuple(
-        Parameter(name=one["name"], type=Type(one["type"]), default=one["default"])
-        for one in data["parameters"]
-    )
     known = {key: data[key] for key in ("name", "repeat", "takes")}
-    return Action(**known, parameters=parameters, hook=hook)
+    return Action(**known, parameters=_parameters(data["parameters"]), hook=hook)
+
+
+def _parameters(given: Iterable[Mapping[str, Any]]) -> tuple[Parameter, ...]:
+    return tuple(
+        Parameter(name=one["name"], type=Type(one["type"]), default=one["default"]) for one in given
+    )
 
 
 @lru_cache(maxsize=100)

@@ -44,6 +44,11 @@ def result_of(
 ) -> SimulationResult:
     """Return an outcome in objects, and bring these missions up to date."""
     standing = outcome.standing
+    named = {mission.name: mission for mission in missions}
+    missions = [
+        named.get(name) or app.mission(name=name, trips=[], index=row["index"])
+        for name, row in standing["missions"].items()  # events have made some of them
+    ]
     for mission in missions:
         record.update(app, mission, standing["missions"][mission.name])
     return SimulationResult(

@@ -68,6 +68,8 @@ class Simulation:
             slack=fleet.motion.slack,
             max_airborne=fleet.max_airborne,
         )
+        if world.movers:
+            gateway.tracker = self._navigation.tracks
         bodies = self._navigation.bodies
         self._changed = dict.fromkeys(bodies)
         """The drones whose motion has changed since the brain was told."""

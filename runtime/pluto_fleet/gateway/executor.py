@@ -118,6 +118,11 @@ class Executor:
         self._turned.pop(drone, None)
         report(result)
 
+    @property
+    def is_busy(self) -> bool:
+        """Whether any drone has a job."""
+        return bool(self._jobs)
+
     def redirect(self, order: Order) -> None:
         """Send a job to other stops; one whose action has begun goes on with that."""
         turn = self._turned.get(order["drone"])

@@ -48,6 +48,8 @@ TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
 Answered = Callable[["Gateway", "Order"], Coroutine[Any, Any, object]]
 
 
+TRACKED = 0.5
+"""Seconds from one look at what moves to the next."""
 LOOKS = 6
 """How often it is looked, in the time that a brain may be silent, whether it is."""
 
@@ -89,6 +91,7 @@ class Line(Link):
             gateway.heard = gateway.kernel.now
         if not self._is_obeyed(do):
             return
+        gateway.look_at_tracks()
         if do in _AT_ONCE:
             _AT_ONCE[do](self, order)
         else:
@@ -219,6 +222,10 @@ class Gateway:
         """Gives a drone that joins to the controls; raises `BadInput` if they cannot have it."""
         self.rehearse: Rehearse | None = None
         """Has mishaps happen to simulated drones; None: they are real."""
+        self.tracker: Callable[[], Mapping[str, Any]] | None = None
+        """Says where things are that move; None: nobody knows of any."""
+        self._looks = False
+        """Whether it is looked at them."""
         self.traffic: Traffic | None = None
         """Keeps drones apart, if configured."""
         if apart > 0:
@@ -242,6 +249,7 @@ class Gateway:
             self._acts_beside,
             self.flown if measures else None,
         )
+        self.executor.arrived = self._arrives
         self.drones, self._airspace = tuple(drones), airspace
         self.keys = {drone.id: FLEET + 1 + drone.index for drone in drones}
         """The keys of their events in the kernel."""
@@ -296,6 +304,26 @@ class Gateway:
         """Tell the brain in command, if there is one, how a command went."""
         if self.commander is not None:
             self.commander.take({"flown": command})
+
+    def _arrives(self, flight: str) -> None:
+        """Tell the brain in command, if there is one, that a flight is at the end of its last leg."""
+        if self.commander is not None:
+            self.commander.take({"arrived": flight})
+
+    def look_at_tracks(self) -> None:
+        """Tell the brain again and again where what moves is, as long as any drone flies."""
+        if self.tracker is not None and not self._looks:
+            self._looks = True
+            self._look()
+
+    def _look(self) -> None:
+        kernel = self.kernel
+        if self.tracker is not None and self.commander is not None:
+            tell = partial(self.commander.take, {"tracks": self.tracker()})
+            kernel.at(kernel.now, EventKind.FLIGHT, FLEET, tell)
+        self._looks = self.flies or self.executor.is_busy
+        if self._looks:
+            kernel.at(kernel.now + TRACKED, EventKind.FLIGHT, FLEET, self._look)
 
     def join(self, joining: Mapping[str, Any]) -> str:
         """Take a drone in, unless it is there already; return why that cannot be, or nothing."""

@@ -193,13 +193,14 @@ class Bound:
         what, name = event["event"], event.get("mission", "")
         if what == "trip.delayed":
             self.last = max(self.last, event["until"])
-        elif what == "mission.repeated" and event["round"] <= self._rounds[name]:
+        elif what == "mission.repeated" and event["round"] <= self._rounds.get(name, 0):
             self._flights[name] = 0
         elif what == "trip.launched":
             self.last = max(self.last, event["t"])
-            self._flights[name] = flights = self._flights[name] + 1
-            if flights >= self._most[name]:
-                trips = counted(self._most[name] // FLIGHTS, "trip")
+            self._flights[name] = flights = self._flights.get(name, 0) + 1
+            most = self._most.get(name, FLIGHTS)
+            if flights >= most:
+                trips = counted(most // FLIGHTS, "trip")
                 said = f"mission {quoted(name)} has set out {flights} times for {trips}"
                 return Enough(f"{said}, and nothing ends that; {MORE}")
         return None
