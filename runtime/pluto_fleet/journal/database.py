@@ -53,6 +53,10 @@ TABLES = {
   number INTEGER PRIMARY KEY, -- in the order in which actions were done
   text TEXT NOT NULL
 )""",
+    "happening": """CREATE TABLE happening (
+  id TEXT PRIMARY KEY, -- of an event that was raised
+  text TEXT NOT NULL
+) WITHOUT ROWID""",
     "app": """CREATE TABLE app (
   fact TEXT PRIMARY KEY, -- epoch, clock, stopped, commands, joined
   text TEXT NOT NULL
@@ -64,6 +68,7 @@ PUT = {
     "trip": "INSERT OR REPLACE INTO trip VALUES (?, ?, ?)",
     "drone": "INSERT OR REPLACE INTO drone VALUES (?, ?)",
     "result": "INSERT OR REPLACE INTO result VALUES (?, ?)",
+    "happening": "INSERT OR REPLACE INTO happening VALUES (?, ?)",
     "app": "INSERT OR REPLACE INTO app VALUES (?, ?)",
 }
 """How a row is put into each table in place of the one with its key."""

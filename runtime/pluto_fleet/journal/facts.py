@@ -196,6 +196,28 @@ class ResultRow(TypedDict):
     place: Metres | None
 
 
+class OccurrenceFacts(TypedDict):
+    """What is known of an event that was raised, beside its own fields."""
+
+    id: str
+    name: str
+    time: float
+    at: NotRequired[Metres]
+    track: NotRequired[str]
+    mission: NotRequired[str]
+    trip: NotRequired[str]
+    drone: NotRequired[str]
+
+
+class HappeningRow(TypedDict):
+    """An event that was raised, and what has come of it."""
+
+    event: OccurrenceFacts
+    open: bool
+    made: NotRequired[str]
+    why: NotRequired[str]
+
+
 class ClockRow(TypedDict):
     """When the app first began, and how far the clock of the hours has drifted since."""
 
@@ -273,6 +295,11 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.launched": _FLIGHT,
     ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
     "action.begun": {**_TRIP, "drone": str},
+    "action.result": {**_FLIGHT, "result": Any},
+    "trip.relieving": {**_TRIP, "drone": str},
+    "trip.handed_over": {**_FLIGHT, "of?": str | None},
+    "event.raised": {"id": str, "kind": str, "raised": float},
+    "event.over": {"id": str, "made?": str, "why?": str},
     "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
@@ -371,7 +398,7 @@ def check(event: Mapping[str, Any]) -> None:
     if not isinstance(t, (float, int)) or not 0 <= t <= LATEST:
         raise ValueError(_unfit(kind, "t", t))
     _hold(event, _TESTS.get(kind) or (_OF_A_DRONE if kind.startswith("drone.") else ()))
-    if kind == "trip.completed" and not _is_value(event["result"]):
+    if kind in ("trip.completed", "action.result") and not _is_value(event["result"]):
         raise ValueError(_unfit(kind, "result", event["result"]))
     if kind == FLEW and "seconds" in event:
         if not _SECONDS(event["seconds"]) or not 0 <= event["seconds"] <= LATEST:
@@ -415,6 +442,7 @@ _ROWS: Mapping[str, Decoder[Any]] = {
     "trip": Decoder(TripRow),
     "drone": Decoder(DroneRow),
     "result": Decoder(ResultRow),
+    "happening": Decoder(HappeningRow),
 }
 _APP: Mapping[str, Decoder[Any]] = {
     "epoch": Decoder(dict[Literal["is"], int]),

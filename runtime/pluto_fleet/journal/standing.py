@@ -27,6 +27,8 @@ class Standing:
         self.missions: dict[str, Record] = {}
         self.drones: dict[str, Record] = {}
         self.results: list[Record] = []
+        self.happenings: dict[str, Record] = {}
+        """The events that were raised, by their ids."""
         self.app: Record = {"clock": {"began": None, "drift": 0.0}, "stopped": None}
         self._trips: dict[str, dict[int, Record]] = {}
         self.take(rows)
@@ -47,6 +49,8 @@ class Standing:
                 case "result", (int(number),):
                     del self.results[number:]
                     self.results.append(dict(row))
+                case "happening", (str(id),):
+                    self.happenings[id] = dict(row)
                 case "app", (str(fact),):
                     self.app[fact] = row["is"]
         for name in changed:
@@ -65,7 +69,12 @@ class Standing:
     @property
     def data(self) -> Record:
         """All of it, as a brain takes it to go on."""
-        return {"missions": self.missions, "drones": self.drones, "results": self.results}
+        return {
+            "missions": self.missions,
+            "drones": self.drones,
+            "results": self.results,
+            "happenings": self.happenings,
+        }
 
     def row_of(self, mission: str) -> Record:
         """Return the row of a mission alone."""

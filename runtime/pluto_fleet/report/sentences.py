@@ -99,6 +99,19 @@ def _clock_moved(event: Fact) -> str | None:
     return said if abs(by) >= 1.0 else None
 
 
+def _raised(event: Fact) -> str:
+    at = event.get("at")
+    where = f" at {place(at)}" if at else ""
+    what = f", track {event['track']}" if event.get("track") else ""
+    return f"event {event['kind']} happens{where}{what} ({event['id']})"
+
+
+def _over(event: Fact) -> str:
+    made = event.get("made")
+    came = f"mission {made} begins" if made else f"no mission: {event.get('why')}"
+    return f"event {event['id']}: {came}"
+
+
 _NAMED = 50
 """The most missions that one line names."""
 
@@ -121,6 +134,11 @@ _SENTENCES: Mapping[str, Say] = {
     "mission.decided": "a person has decided: {answer}",
     "trip.interrupted": "trip {trip} interrupted; it will be flown again",
     "trip.skipped": "trip {trip} skipped",
+    "trip.relieving": "{drone} sets out to relieve the drone of trip {trip}",
+    "trip.handed_over": "{drone} takes over trip {trip} from {of}",
+    "action.result": "trip {trip}, on the way ({drone}): {value}",
+    "event.raised": _raised,
+    "event.over": _over,
     "trip.prioritised": "trip {trip} has priority {priority}",
     "drone.joined": "{drone} joins the fleet",
     "drone.mishap": "{drone}: a mishap is rehearsed: {kind}",

@@ -364,17 +364,19 @@ class Events(Part):
 
     def rows(self) -> list[Row]:
         """Return the rows of what has happened, or come of it, since the last call."""
-        changed: list[Row] = [("event", (id,), _row(self.happenings[id])) for id in self._changed]
+        changed: list[Row] = [
+            ("happening", (id,), _row(self.happenings[id])) for id in self._changed
+        ]
         self._changed.clear()
         return changed
 
     def standing(self) -> dict[str, Any]:
         """Return the rows of all that has happened, by its id."""
-        return {"events": {id: _row(one) for id, one in self.happenings.items()}}
+        return {"happenings": {id: _row(one) for id, one in self.happenings.items()}}
 
     def restore(self, standing: Mapping[str, Any]) -> None:
         """Take over what has happened in an earlier run."""
-        for id, row in standing.get("events", {}).items():
+        for id, row in standing.get("happenings", {}).items():
             kind = self._types.get(row["event"]["name"], EventType(name=row["event"]["name"]))
             known = {one.name for one in kind.parameters} | {*_OF_ALL}
             facts = {name: value for name, value in row["event"].items() if name in known}

@@ -79,7 +79,7 @@ def test_an_event_makes_a_mission_that_flies() -> None:
         ("fly", "chase person/picture/0/1")
     ]
     assert brain.mission("chase person")["status"] == "RUNNING"
-    assert brain.standing()["events"]["intruder-1"]["made"] == "chase person"
+    assert brain.standing()["happenings"]["intruder-1"]["made"] == "chase person"
     brain.tell({"done": orders[0]["id"]}, 9.0)
     settled(brain, 9.0)
     assert brain.mission("chase person")["status"] == "COMPLETED"
@@ -100,7 +100,7 @@ def test_a_creator_may_make_none() -> None:
     brain = charged(app=app_with())
     raised(brain, 1.0, at=[4.0, 2.0], fields={"kind": "cat"})
     settled(brain, 1.0)
-    row = brain.standing()["events"]["intruder-1"]
+    row = brain.standing()["happenings"]["intruder-1"]
     assert not brain.standing()["missions"]
     assert row["why"] == "its creator made no mission of it"
     assert brain.over == 1.0
@@ -117,7 +117,7 @@ def test_a_wrong_event_is_refused_with_what_is_wrong() -> None:
     ):
         with pytest.raises(BadInput, match=f"^{re.escape(message)}"):
             brain.command({"command": "raise", "event": "intruder", **request}, 1.0)
-    assert not brain.standing()["events"]
+    assert not brain.standing()["happenings"]
 
 
 @pytest.mark.parametrize(
@@ -138,7 +138,7 @@ def test_what_a_creator_makes_is_checked(made: Callable[..., object], wrong: str
     brain = charged(app=app_with(made))
     raised(brain, 1.0, at=[4.0, 2.0])
     settled(brain, 1.0)
-    why = brain.standing()["events"]["intruder-1"]["why"]
+    why = brain.standing()["happenings"]["intruder-1"]["why"]
     assert wrong in why, why
     assert not brain.standing()["missions"]
 
@@ -191,15 +191,15 @@ def test_a_late_mission_is_an_event() -> None:
     settled(brain, 0.0)
     orders = settled(brain, 5.0)
     assert [order["do"] for order in orders][:1] == ["break_off"]
-    assert brain.standing()["events"]["late/patrol/5.0"]["event"]["mission"] == "patrol"
+    assert brain.standing()["happenings"]["late/patrol/5.0"]["event"]["mission"] == "patrol"
 
 
 def test_what_has_happened_survives_the_app() -> None:
     brain = charged(app=app_with(), recorded=True)
     raised(brain, 1.0, id="door", at=[4.0, 2.0])
     settled(brain, 1.0)  # its creator waits until that is durable, and the app is killed
-    rows = {("event", key): row for table, key, row in brain.rows() if table == "event"}
-    assert rows[("event", ("door",))]["open"]
+    rows = {("happening", key): row for table, key, row in brain.rows() if table == "happening"}
+    assert rows[("happening", ("door",))]["open"]
     later = charged(app=app_with(), recorded=True)
     later.restore(brain.standing(), 0.0)
     later.go_on({}, {"cf1": {}}, 0.0)
@@ -207,7 +207,7 @@ def test_what_has_happened_survives_the_app() -> None:
     later.tell({"durable": 1000}, 0.0)
     settled(later, 0.0)
     assert [*later.standing()["missions"]] == ["chase person"]
-    assert not later.standing()["events"]["door"]["open"]
+    assert not later.standing()["happenings"]["door"]["open"]
     assert raised(later, 1.0, id="door", at=[4.0, 2.0]) == "event door has happened already"
 
 
@@ -222,5 +222,5 @@ def test_a_hook_raises_an_event_of_its_own() -> None:
     brain = charged(app=replace(app_with(), flow=apps.flow(watch=watch)))
     brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
     settled(brain, 0.0)
-    event = brain.standing()["events"]["seen"]["event"]
+    event = brain.standing()["happenings"]["seen"]["event"]
     assert event["mission"] == "patrol" and event["drone"] == "cf1" and event["kind"] == "dog"

@@ -19,7 +19,12 @@ class Disk:
     """The rows that are durable, of a brain that may be killed."""
 
     def __init__(self) -> None:
-        self.rows: dict[str, dict[Any, Any]] = {"mission": {}, "trip": {}, "drone": {}, "event": {}}
+        self.rows: dict[str, dict[Any, Any]] = {
+            "mission": {},
+            "trip": {},
+            "drone": {},
+            "happening": {},
+        }
         self.results: list[Any] = []
 
     def write(self, brain: Brain) -> None:
@@ -45,7 +50,7 @@ class Disk:
             "missions": missions,
             "drones": {id: row for (id,), row in self.rows["drone"].items()},
             "results": self.results,
-            "events": {id: row for (id,), row in self.rows["event"].items()},
+            "happenings": {id: row for (id,), row in self.rows["happening"].items()},
         }
 
 
@@ -79,7 +84,7 @@ def test_each_has_happened_once(acts: list[tuple[str, str]]) -> None:
             brain = charged(app=app_with(), recorded=True)
             brain.restore(disk.standing(), 0.0)
             brain.go_on(brain.standing()["missions"], {"cf1": {}}, 0.0)
-    rows = brain.standing()["events"]
+    rows = brain.standing()["happenings"]
     assert {*rows} == raised
     assert not any(row["open"] for row in rows.values())
     missions = [row["made"] for row in rows.values()]
