@@ -20,7 +20,6 @@ RESERVED = frozenset(
         *(
             "OwnAction",
             "Photo",
-            "TypedAction",
             "Run",
             "Status",
             "Trip",

@@ -43,7 +43,7 @@ def flow_file(plan: Plan) -> str:
         declared=declared_of(plan.checked),
         place="at" if _asked_in_loops(plan.body) else "run.at",
     )
-    in_branch = replace(scope, mission="run.mission")
+    in_branch = replace(scope, mission="run.mission", notes=False)
     lines = list(body_lines(plan.body, scope))
     functions = [
         Function(name=one.name, path=one.path, lines=list(body_lines(one.body, in_branch)))
@@ -93,13 +93,11 @@ def _imports(graph: Graph, written: str) -> list[Import]:
     if "hooks." in written:
         imports += names(".", "hooks")
     if "declared(" in written:
-        imports += names("._runtime.flow.declared", "declared")
+        imports += names("._runtime.flow.run", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
-    if any(action.returns is None for action in graph.actions):
+    if graph.actions:
         imports += names("._runtime.flow.own_action", "OwnAction")
-    if any(action.returns for action in graph.actions):
-        imports += names("._runtime.flow.typed_action", "TypedAction")
     if any(action.returns == PHOTO for action in graph.actions):
         imports += names("._runtime.domain.model", "Photo")
     if any(action.parameters for action in graph.actions):
@@ -174,9 +172,9 @@ def _action(action: Action) -> str:
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
     if action.takes is not None:
         arguments.append(f"takes={literal(action.takes)}")
-    if action.returns is None:
-        return call("OwnAction", arguments)
-    return call("TypedAction", [*arguments, f"returns={python_result(action.returns)}"])
+    if action.returns is not None:
+        arguments.append(f"returns={python_result(action.returns)}")
+    return call("OwnAction", arguments)
 
 
 def _parameter(parameter: Parameter) -> str:

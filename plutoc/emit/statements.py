@@ -51,6 +51,8 @@ class Scope:
     """Where the innermost loop begins."""
     place: str = "run.at"
     """Where a mission goes on that was interrupted."""
+    notes: bool = True
+    """Where the mission waits is noted here; in a branch it waits at the fork."""
     in_loop: bool = False
     """A loop of the plan lies between here and the `Dispatch` around it."""
 
@@ -61,13 +63,17 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
         match step:
             case Call(node=node):
                 yield f"# {node.declaration}"
+                if _waits(node.block.step) and not node.block.named:
+                    yield from _noted((node.name,), scope)
                 yield from _go_through(_call(node, (), scope), following)
             case Join(gate=gate, branches=branches):
                 yield f"# {_picture(step)}"
+                yield from _noted(_firsts(step), scope)
                 functions = tuple(branch.name for branch in branches if not branch.idle)
                 yield from _go_through(_call(gate, functions, scope), following)
             case Watch():
                 yield f"# {_watched(step)}"
+                yield from _noted(_names_watched(step), scope)
                 first, *rest = _wait(step, scope)
                 yield from (*_go_through(first, following), *rest)
             case Switch():
@@ -150,6 +156,20 @@ def _watched(watch: Watch) -> str:
             return _picture(join)
 
 
+def _names_watched(watch: Watch) -> tuple[str, ...]:
+    match watch.instead:
+        case Call():
+            return tuple(node.name for node in watch.watchers)
+        case Join() as join:
+            return _firsts(join)
+
+
+def _noted(blocks: Iterable[str], scope: Scope) -> Iterator[str]:
+    """Yield the statement that notes at which blocks the mission waits."""
+    if scope.notes:
+        yield f"run.state.block = {literal(', '.join(blocks))}"
+
+
 def _keywords(node: Node, scope: Scope) -> Iterator[str]:
     block = node.block
     if block.named:
@@ -203,8 +223,12 @@ def _choice(node: Node, choice: Choice, scope: Scope) -> str:
 
 def _picture(join: Join) -> str:
     """`launch -> [watch, timer] -> first = GateFIFO`."""
-    firsts = ", ".join(branch.path.split(" -> ")[1] for branch in join.branches)
-    return f"{join.fork.name} -> [{firsts}] -> {join.gate.declaration}"
+    return f"{join.fork.name} -> [{', '.join(_firsts(join))}] -> {join.gate.declaration}"
+
+
+def _firsts(join: Join) -> tuple[str, ...]:
+    """Return the block with which each branch of a fork begins."""
+    return tuple(branch.path.split(" -> ")[1] for branch in join.branches)
 
 
 def _switch(switch: Switch, scope: Scope) -> Iterator[str]:

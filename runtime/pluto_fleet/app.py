@@ -58,13 +58,12 @@ class App(shared.App):
         made: Brain = self.brain.Brain(self.given, fleet, space=space, hooks=hooks)
         return made
 
-    def perform(self, brain: Any, request: Mapping[str, Any], now: float) -> str:
+    def perform(self, brain: Any, request: Mapping[str, Any], now: float) -> None:
         """Have a brain carry out a command; raise the library's `BadInput` if it cannot be done."""
         try:
-            said: str = brain.command(request, now)
+            brain.command(request, now)
         except self.brain.BadInput as error:
             raise BadInput(str(error)) from None
-        return said
 
 
 def described(given: Any) -> App:

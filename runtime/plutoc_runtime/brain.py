@@ -22,12 +22,9 @@ from .fleet.fleet import Fleet
 from .fleet.orders import Order, Orders
 from .fleet.queue import Queue
 from .fleet.reach import Reach
-from .flow.blame import waiting_at
-from .flow.changes import Changes
 from .flow.control import Control
 from .flow.engine import Engine
 from .flow.flight import Limits
-from .flow.going_on import GoingOn
 from .flow.mission import Core
 from .flow.record import (
     Row,
@@ -38,7 +35,7 @@ from .flow.record import (
     standing_of,
     whereabouts_of,
 )
-from .flow.transitions import Transitions
+from .flow.transitions import Changes, Transitions
 from .time.hours import Hours
 from .time.kernel import Future
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
@@ -73,7 +70,8 @@ class Brain:
         """
         charges = fleet.get("charges_at_home", True)
         app = moving(app, Motion(**fleet.get("motion", {})), charges=charges)
-        self._app, recorded = app, fleet.get("recorded", False)
+        recorded = fleet.get("recorded", False)
+        self._app = app
         of_day = Hours(fleet.get("began", 0.0), fleet.get("zone", "UTC"))
         self._kernel = kernel = ToldTime(hooks, of_day)
         kernel.drift = fleet.get("drift", 0.0)
@@ -108,7 +106,6 @@ class Brain:
         self._engine = engine = Engine(core, self._states)
         self._parts = [make(engine) for make in app.parts]
         core.parts.update((type(part), part) for part in self._parts)
-        self._going_on = GoingOn(engine)
         self._control = Control(engine)
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
@@ -130,7 +127,7 @@ class Brain:
         self._kernel.call(now, ONLY_WHAT_IS_READY, self._restore, standing)
 
     def _restore(self, standing: Mapping[str, Any]) -> None:
-        self._going_on.restore(standing)
+        self._engine.restore(standing)
         for part in self._parts:
             part.restore(standing)
 
@@ -144,12 +141,12 @@ class Brain:
 
     def _go_on(self, given: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
         missions, drones = given
-        self._going_on.go_on(missions, drones)
+        self._engine.go_on(missions, drones)
         for part in self._parts:
             part.go_on()
         self._engine.look_after_the_end()
 
-    def command(self, request: Mapping[str, Any], now: float) -> str:
+    def command(self, request: Mapping[str, Any], now: float) -> None:
         """Do what a person wants, or what was found out; raise `BadInput` with the reason why it cannot be done.
 
         `{"command": "leave" or "cancel", "mission": …}`: take it out of its graph, to `go_on` later, or never.
@@ -161,14 +158,14 @@ class Brain:
         `retire` or `bring-back` a drone; `join`, a new `drone` with its `category` and `home`, which is
         free when `go_on` says how it is.
         """
-        return self._kernel.call(now, ONLY_WHAT_IS_READY, self._perform, request)
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._perform, request)
 
-    def _perform(self, request: Mapping[str, Any]) -> str:
+    def _perform(self, request: Mapping[str, Any]) -> None:
         for part in self._parts:
             if request["command"] in part.commands:
-                done: str = part.commands[request["command"]](request)
-                return done
-        return self._control.perform(request)
+                part.commands[request["command"]](request)
+                return
+        self._control.perform(request)
 
     def tell(self, message: Mapping[str, Any], now: float) -> None:
         """Take over what has happened outside; what is unknown is ignored.
@@ -264,16 +261,11 @@ class Brain:
     def whereabouts(self) -> Mapping[str, Any]:
         """Return where each mission that has not ended is in its graph.
 
-        `lives`: whether it is in its graph at all; `block`: the declaration of the block at which it
-        waits; its `drone`, whether that is just `allocated`, or `flies`; `until` when it is delayed.
+        `lives`: whether it is in its graph at all; `block`: the name of the block at which it waits, several
+        in a fork; its `drone`, whether that is just `allocated`, or `flies`; `until` when it is delayed.
         """
-        found = {}
-        for name, state in self._states.items():
-            if not state.ended:
-                task = state.task
-                block = "" if task is None else waiting_at(task.coroutine, self._app.flow)
-                found[name] = whereabouts_of(state, block)
-        return found
+        states = self._states.items()
+        return {name: whereabouts_of(state) for name, state in states if not state.ended}
 
     def _hear(self, event: Event) -> None:
         self._disk.said += 1

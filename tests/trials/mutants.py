@@ -17,8 +17,7 @@ from pluto_fleet.journal.recorder import Recorder
 from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.status import DroneStatus
 from pluto_fleet.shared.fleet.fleet import Fleet
-from pluto_fleet.shared.flow import record
-from pluto_fleet.shared.flow.going_on import GoingOn
+from pluto_fleet.shared.flow import engine, record
 from pluto_fleet.shared.hooks import plain_data
 
 Plant = Callable[[pytest.MonkeyPatch], None]
@@ -81,12 +80,12 @@ def done_is_written_before_the_action(patch: pytest.MonkeyPatch) -> None:
 
 @mutant("waits until|once more", seed=3)
 def delays_are_forgotten_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
-    really = GoingOn._restored
+    really = record.restored
 
-    def restored(self: GoingOn, name: str, record: Any) -> Any:
-        return really(self, name, {**record, "delay": None, "waited": []})
+    def restored(core: Any, name: str, row: Any, new_state: Any) -> Any:
+        return really(core, name, {**row, "delay": None, "waited": []}, new_state)
 
-    patch.setattr(GoingOn, "_restored", restored)
+    patch.setattr(engine, "restored", restored)
 
 
 @mutant("and went on with")
@@ -130,17 +129,17 @@ def what_may_have_been_done_is_done_again(patch: pytest.MonkeyPatch) -> None:
 
 @mutant("results were there", seed=6, example="alfalfa")
 def results_are_lost_when_it_goes_on(patch: pytest.MonkeyPatch) -> None:
-    patch.setattr(GoingOn, "_restore_results", lambda self, rows: None)
+    patch.setattr(engine, "restore_results", lambda *_: None)
 
 
 @mutant("yet serves|item|before it was free again", seed=6)
 def a_stopped_missions_carrier_is_given_away(patch: pytest.MonkeyPatch) -> None:
-    really = GoingOn._restored
+    really = record.restored
 
-    def restored(self: GoingOn, name: str, record: Any) -> Any:
-        return really(self, name, {**record, "carrier": None})
+    def restored(core: Any, name: str, row: Any, new_state: Any) -> Any:
+        return really(core, name, {**row, "carrier": None}, new_state)
 
-    patch.setattr(GoingOn, "_restored", restored)
+    patch.setattr(engine, "restored", restored)
 
 
 @mutant("before that was on record")

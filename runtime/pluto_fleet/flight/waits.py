@@ -227,7 +227,7 @@ def of_mission(
         )
     if where is None or not where["lives"] or where["flies"]:
         return None
-    block = where["block"].partition(" ")[0]
+    block = where["block"]
     promises = record["promises"]
     if (until := where["until"] or 0.0) > now:
         trip = record["todo"][0]["name"] if record["todo"] else ""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from ..flight.control import ANSWERS, PRIORITY
@@ -25,18 +23,10 @@ END = "end"
 
 ENDED = (Status.COMPLETED, Status.FAILED, Status.CANCELLED)
 
-_BRANCHES = re.compile(r"\[(.*)\]")
-_WORD = re.compile(r"\w+")
 
-
-@cache
-def blocks_of(declaration: str) -> tuple[str, ...]:
-    """Return the names of the blocks that are declared: two for `launch -> [watch, timer] -> first = GateFIFO`, one for `wait = Clock`."""
-    branches = _BRANCHES.search(declaration.partition("(")[0])
-    if branches is not None:
-        return tuple(word[0] for part in branches[1].split(",") if (word := _WORD.search(part)))
-    word = _WORD.match(declaration)
-    return (word[0],) if word is not None else ()
+def blocks_of(where: Mapping[str, Any]) -> list[str]:
+    """Return the names of the blocks at which a mission waits."""
+    return where["block"].split(", ") if where["block"] else []
 
 
 LONGEST_REASON = 200
@@ -79,7 +69,9 @@ def living_row(
     `first` are the missions after which it comes and that have not ended. `resumes` are the blocks that allocate drones, `priority` is that of a trip whose record has none;
     `fleet` returns why no drone flies its trip yet.
     """
-    status, todo, at = Status(record["status"]), record["todo"], blocks_of(where["block"])
+    status = Status(record["status"])
+    todo = record["todo"]
+    at = blocks_of(where)
     moments = {name: where.get(name, known) for name, known in record["promises"].items()}
     opens = None if at or status is not Status.UNEXECUTED else moments.get("opens")
     until = where["until"] or opens
@@ -99,7 +91,7 @@ def living_row(
     trips += [_trip(trip, "WAITING", priority) for trip in todo]
     # once its trips are done, a block has yet to decide
     stands = Status.STANDBY if status in ENDED else status
-    row = _row(name, record, stands, str(record["reason"]), trips, [*at], wait)
+    row = _row(name, record, stands, str(record["reason"]), trips, at, wait)
     row["drone"] = where["drone"]
     row["until"] = until
     row["due"] = moments.get("deadline")

@@ -7,7 +7,7 @@ left to chance is drawn by `seed/flight/leg`, so it depends on no other flight a
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import inf
+from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ..domain.actions import BUILT_IN, MEASURE, PHOTO, PICK, USUAL_QUANTITY
@@ -24,6 +24,10 @@ if TYPE_CHECKING:
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
     from .world import World
+
+
+MOMENT = 0.001
+"""Seconds by which sums of floats may be off, and more."""
 
 
 class Body(KnownState):
@@ -100,18 +104,16 @@ class Body(KnownState):
         legs = list[Leg]()
         here = self.location
         speed = self.category.speed
-        stages = (
-            motion.goes_on(way, speed)
-            if moves and not lands
-            else motion.stages(way, speed, rises, lands)
-        )
-        for there, before, seconds, after in stages:
+        for there, before, seconds, after in motion.stages(way, speed, rises, lands):
             x, y, z = there
             factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
             leaves = now + factor * before
-            legs.append(
-                Leg(here, there, leaves, leaves + factor * seconds, motion.smooth and not moves)
-            )
+            goes_on = moves and there != here
+            if goes_on:
+                seconds = motion.at_speed(dist(here, there), speed)
+                moves = False  # it rests at the end of this leg
+            smooth = motion.smooth and not goes_on
+            legs.append(Leg(here, there, leaves, leaves + factor * seconds, smooth))
             here = there
             now += factor * (before + seconds + after)
         self.turn(legs, self._clock.now, lands_at=now if lands else inf)
@@ -130,7 +132,7 @@ class Body(KnownState):
         if self._landed:
             return False
         return self._cut_at == now or any(
-            leg.leaves < now < leg.arrives and leg.start != leg.end for leg in self._legs
+            leg.leaves < now < leg.arrives - MOMENT and leg.start != leg.end for leg in self._legs
         )
 
     def touch_down(self, now: float) -> None:

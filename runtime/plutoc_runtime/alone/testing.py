@@ -18,8 +18,7 @@ from ..domain.keeper import Keeper, Kept, hand_to, put, reading
 from ..domain.model import Drone, Mission, Point, ResultStore, Trip, put_back
 from ..domain.status import RUNNING, Status, TripStatus
 from ..domain.trace import Trace
-from ..flow.changes import Changes
-from ..flow.transitions import Transitions
+from ..flow.transitions import Changes, Transitions
 from ..hooks.calls import call_hook, hook_name
 from ..hooks.context import Context, LiveDrone, can_wait, results_for
 from ..time.kernel import FLEET, EventKind, Future, Task

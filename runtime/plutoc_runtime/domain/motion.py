@@ -84,12 +84,9 @@ class Motion:
         """Return the seconds straight down, to the ground."""
         return self.climb(metres, min(speed, SINKS * self.limit))
 
-    def goes_on(
-        self, way: Sequence[tuple[float, float, float]], speed: float
-    ) -> Iterator[tuple[tuple[float, float, float], float, float, float]]:
-        """Yield the same as `stages` of a drone that is at its speed already, and stops at the end only."""
-        for here, there in pairwise(way):
-            yield there, 0.0, self.pace * dist(here, there) / min(speed, self.limit), 0.0
+    def at_speed(self, metres: float, speed: float) -> float:
+        """Return the seconds of a leg on which a drone sets out at its speed, and not from rest."""
+        return self.pace * metres / min(speed, self.limit)
 
     def stages(
         self, way: Sequence[tuple[float, float, float]], speed: float, rises: bool, lands: bool

@@ -109,14 +109,14 @@ class Events(Part):
     def happen(
         self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception] = BadInput
     ) -> str:
-        """Note an occurrence, and let come of it what comes; return what came of it at once, for people.
+        """Note an occurrence, and let come of it what comes; return its id.
 
         `given` may have `id`, `at`, `track`, `mission`, `trip`, `drone` and the event's own `fields`.
         """
         facts = self._read(name, given, wrong)
         id = facts["id"]
         if id in self.happenings:
-            return f"event {id} has happened already"
+            return str(id)
         kind = self._types[name]
         event = event_of(kind, {**facts, "name": name, "time": round(self._core.kernel.time(), 6)})
         happening = Happening(event, is_open=name in self._creators)
@@ -128,12 +128,12 @@ class Events(Part):
                 future.set(event)
         if happening.open:
             self._ask_creator(happening)
-        return f"event {id} has happened"
+        return str(id)
 
-    def _raise(self, request: Mapping[str, Any]) -> str:
+    def _raise(self, request: Mapping[str, Any]) -> None:
         """Raise an event as a person, or another program, wants."""
         given = {name: value for name, value in request.items() if name not in ("command", "event")}
-        return self.happen(str(request.get("event")), given)
+        self.happen(str(request.get("event")), given)
 
     def _read(
         self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from operator import is_
 from typing import TYPE_CHECKING, Any
 
-from ..domain.errors import ANY_ERROR, Cancelled, HookFault, MissionFailed
+from ..domain.errors import Cancelled, HookFault, MissionFailed
 from ..domain.fields import Entity
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import Keeper, keeper_of, put_trips, trips_of
@@ -46,7 +46,7 @@ async def ask(run: Run[Any], hook: Hook, *args: object, edits: bool = False) -> 
         raise
     except NOT_ITS_OWN:
         raise
-    except ANY_ERROR as error:
+    except BaseException as error:
         undo(run.mission)
         raise fault_of(hook, error) from error
     take_over(state, hook)

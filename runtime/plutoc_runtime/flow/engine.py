@@ -1,35 +1,37 @@
-"""The engine: starts missions, runs each through its graph, and handles its end."""
+"""The engine: starts missions, runs each through its graph, takes it out and back, and handles its end."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import Cancelled, Failure, FlightFailed, HookFault, MissionFailed
 from ..domain.fields import Entity
-from ..domain.keeper import Keeper, keep, keeper_of, trips_of
-from ..domain.model import Mission
-from ..domain.status import FAILED, UNEXECUTED, Status
+from ..domain.keeper import Keeper, keep, keeper_of, put, trips_of
+from ..domain.status import FAILED, RUNNING, STANDBY, UNEXECUTED, Status
 from ..domain.text import said
-from ..time.kernel import FLEET, Future, Task, mission_key
-from .blame import as_crash, blame, blamed, traced
+from ..fleet.orders import failure_of
+from ..hooks.plain_data import value_of
+from ..time.kernel import FLEET, Future, Task
 from .mission import Core, MissionState
 from .promises import Promises
+from .record import Record, restore_drone, restore_results, restored
 from .run import Run
 
 if TYPE_CHECKING:
-    from ..domain.model import Trip
+    from ..domain.model import Drone, Mission, Trip
+    from .flight import Flight
 
 
 class Engine:
     """All missions of one running app."""
 
     def __init__(self, core: Core, states: dict[str, MissionState]) -> None:
-        self.core, self.states = core, states
-        app = core.app
+        self.core = core
+        self.states = states
         kinds = {Entity.MISSION: core.app.mission, Entity.TRIP: core.app.trip}
-        self._fields = {(kinds[field.on], field.name): field for field in app.fields}
+        self._fields = {(kinds[field.on], field.name): field for field in core.app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
         self._expected = 0  # what may begin more of them
@@ -84,29 +86,29 @@ class Engine:
         self.keep(mission, trips_of(mission))
         return MissionState(self.core, mission, self._doomed)
 
-    def keep(self, mission: Mission[Any], trips: Iterable[Trip]) -> Keeper:
-        """Have a mission kept, with trips that it has or had: from now on hooks may write what they may."""
+    def keep(self, mission: Mission[Any], trips: Iterable[Trip]) -> None:
+        """Have a mission kept, with trips that it has: from now on hooks may write what they may."""
         core = self.core
         keeper = keeper_of(mission) or Keeper(core.kernel.time, self._fields, core.app.evaluators)
         keep(keeper, mission, trips)
-        return keeper
 
     def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
         if self.done.is_set:
             self.done = Future()
-        core, mission, key = self.core, state.mission, mission_key(state.mission.index)
-        run = Run(mission, state, key)
-        run.at, run.status = state.at, status
+        mission = state.mission
+        run = Run(mission, state, state.key)
+        run.at = state.at
+        run.status = status
+        state.block = ""
         waits = mission.promises and status is UNEXECUTED
-        flow = self.promises.in_time(run) if waits else core.app.flow(run)
-        run.task = state.task = task = core.kernel.spawn(flow, key, mission.name)
-        task.over = partial(self._ended, state)
+        flow = self.promises.in_time(run) if waits else self.core.app.flow(run)
+        run.task = state.task = state.spawn(flow, mission.name)
+        run.task.over = partial(self._ended, state)
         self._begun += 1
 
     def _doomed(self, state: MissionState) -> None:
-        key, name = mission_key(state.mission.index), f"{state.mission.name} is doomed"
-        self.core.kernel.spawn(self._call_off(state), key, name)
+        state.spawn(self._call_off(state), f"{state.mission.name} is doomed")
 
     async def _call_off(self, state: MissionState) -> None:
         """Cancel a mission once the coroutine that found out that it must end has had its turn.
@@ -117,6 +119,8 @@ class Engine:
             state.task.cancel()
         elif state.suspended and self.states[state.mission.name] is state:
             self._end(state, FAILED, state.doom or "it was called off", was_out=True)
+
+    # Out of the graph
 
     def suspend(self, state: MissionState) -> None:
         """Take a mission out of its graph; its flight is broken off, and what has its item waits there.
@@ -147,42 +151,142 @@ class Engine:
         self._end(state, status, reason, was_out=was_out)
 
     def _leave(self, state: MissionState) -> None:
-        task, state.task = state.task, None
         self.promises.waiting.pop(state.mission.name, None)
+        task = state.task
+        state.task = None
         if task is not None:
             self._begun -= 1
             task.over = None
             task.cancel()
 
+    # From rows, and back into the graph
+
+    def restore(self, standing: Record) -> None:
+        """Have missions, drones and results as their rows say; each mission is out of its graph."""
+        core = self.core
+        for id, row in standing.get("drones", {}).items():
+            if (drone := core.fleet.named(id)) is not None:
+                restore_drone(drone, row, core.fleet)
+        missions = standing.get("missions", {}).items()
+        for name, row in sorted(missions, key=lambda named: int(named[1]["index"])):
+            self.states[name] = restored(core, name, row, self.new_state)
+        restore_results(standing.get("results", ()), self.states, core.results)
+        for state in self.states.values():
+            self.promises.watch(state.mission)
+        core.changes.clear(len(core.results.results))
+        if seconds := standing.get("shift"):
+            self._shift(seconds)
+
+    def _shift(self, seconds: float) -> None:
+        """Postpone every pending delay by the seconds in which everything was stopped."""
+        for name, state in self.states.items():
+            if state.ended or (state.delay is None and state.paused is None):
+                continue
+            state.postpone(seconds)
+            if state.paused is not None:
+                state.paused += seconds
+            self.core.changes.mission(name)
+
+    def go_on(self, missions: Mapping[str, Record], drones: Mapping[str, Record]) -> None:
+        """Let these missions go on, and take over the drones that none needs.
+
+        A mission may have the `report` of the end of its flight; the others stay out of their graphs.
+        """
+        fleet = self.core.fleet
+        engaged: set[Drone] = set()
+        for name, state in self.states.items():
+            if state.ended or state.task is not None:
+                continue
+            if name in missions:
+                self._resume(state, missions[name].get("report"), engaged)
+            elif drones:
+                self._keep_out(state, engaged)
+        for id, report in drones.items():
+            drone = fleet.named(id)
+            if drone is not None and drone not in engaged and drone not in fleet.errands:
+                fleet.take_up(drone, report)
+        self.look_for_the_end()
+
+    def _keep_out(self, state: MissionState, engaged: set[Drone]) -> None:
+        """Keep the drone that has, or may have, a mission's item."""
+        flight = state.unsettled
+        if flight is not None and flight.trip.item is not None:
+            state.holds = flight.flier
+        drone = state.carrier or state.holds
+        if drone is not None:
+            engaged.add(drone)
+            state.keep_carrier(drone)
+
+    def _resume(self, state: MissionState, report: Record | None, engaged: set[Drone]) -> None:
+        """Let a mission go on; add the drones that it needs."""
+        core = self.core
+        mission = state.mission
+        flight = state.flight
+        if state.holds is not None and state.holds is not state.carrier:
+            core.fleet.recover(state.holds)  # it may have had the mission's item
+        state.holds = None
+        state.goes_on = flight is not None and not flight.heard
+        if flight is not None and not flight.is_set:
+            engaged.add(flight.flier)
+            state.goes_on = True
+            put(mission, status=RUNNING)
+            core.fleet.flies_on(flight.flier)
+            self._hear(state, flight, report)
+        if state.carrier is not None and state.carrier not in engaged:
+            engaged.add(state.carrier)
+            state.keep_carrier(state.carrier)
+        if state.doom is not None:  # it is to be ended at once
+            return
+        resumes = core.app.resumes
+        if state.at is not None and state.at not in resumes and resumes:
+            state.at = resumes[0]  # a person has said so
+        status = STANDBY if mission.attempts or state.interrupted else UNEXECUTED
+        if not state.goes_on:
+            put(mission, status=status, reason="")
+        self.enter(state, status)
+
+    def _hear(self, state: MissionState, flight: Flight, report: Record | None) -> None:
+        """Register for the end of a flight; if it is known, report it at once, before any time-out."""
+        if report is None:
+            self.core.orders.attach(flight.drone, partial(state.reported, flight), flight.id)
+        else:
+            failed = "failure" in report
+            state.reported(flight, failure_of(report) if failed else value_of(report.get("value")))
+
+    # The end
+
     def _ended(self, state: MissionState, task: Task[Status]) -> None:
         """End a mission by the outcome of its coroutine."""
         self._begun -= 1
-        error, reason = task.error, ""
+        error = task.error
+        status = FAILED
+        reason = ""
         if error is None:
             status = task.result()
             if status is FAILED:
                 reason = state.mission.reason or "the graph ended it as FAILED"
         elif isinstance(error, MissionFailed):
-            status, reason = FAILED, str(error)
+            reason = str(error)
             if isinstance(error, HookFault) and error.detail:
-                self._tell(error, state.mission)
+                self._tell(state, error.detail)
         elif isinstance(error, Cancelled):
-            status, reason = FAILED, state.doom or "it was called off"
+            reason = state.doom or "it was called off"
         elif (keeper := keeper_of(state.mission)) is not None and keeper.changed:
+            from traceback import format_tb  # only where something has gone wrong
+
             reason = f"by a bug of Pluto, or of a hook that has changed the mission: {said(error)}"
-            status = FAILED
-            self._tell(HookFault(reason, traced(error)), state.mission)
+            self._tell(state, "".join(format_tb(error.__traceback__)) + said(error))
         else:
-            crash = as_crash(error)
-            blame(crash, self.core.app.flow)
-            self.core.kernel.crash(crash)
+            if not isinstance(error, Exception):  # a `SystemExit` would pass for a normal end
+                error = RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
+            self.core.kernel.crash(error)
             return
         self._end(state, status, reason)
 
-    def _tell(self, fault: HookFault, mission: Mission[Any]) -> None:
-        """Log where a hook failed, and which block called it."""
-        block = blamed(fault, self.core.app.flow)
-        self.core.log(fault.detail + (f"\nin block {block}" if block else ""), mission.name)
+    def _tell(self, state: MissionState, detail: str) -> None:
+        """Log what went wrong, and at which block."""
+        block = f"\nin block {state.block}" if state.block else ""
+        self.core.log(detail + block, state.mission.name)
 
     def look_for_the_end(self) -> None:
         """Set `done` if every mission has ended, or was suspended, or waits for others that were."""
@@ -193,7 +297,7 @@ class Engine:
         self, state: MissionState, status: Status, reason: str, *, was_out: bool = False
     ) -> None:
         """End a mission; `was_out`: it was out of its graph already, and its flight is broken off."""
-        mission, fleet = state.mission, self.core.fleet
+        fleet = self.core.fleet
         flight = state.in_flight
         if flight is not None and state.question is None:
             why = f"its mission ended: {reason or status.value}"
@@ -210,6 +314,6 @@ class Engine:
         state.allocated = state.carrier = state.carries = state.holds = None
         state.question = state.held = state.paused = state.delay = None
         state.ended = True
-        self.core.transitions.end(mission, status, reason)
-        self.promises.ended(mission)
+        self.core.transitions.end(state.mission, status, reason)
+        self.promises.ended(state.mission)
         self.look_for_the_end()

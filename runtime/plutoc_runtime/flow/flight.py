@@ -84,8 +84,10 @@ class Flight(Future[Status]):
 
         Without an action it hovers there, for one of the app's own.
         """
-        trip, action = self.trip, self.action
-        source, item = trip.source, trip.item
+        trip = self.trip
+        action = self.action
+        source = trip.source
+        item = trip.item
         return {
             "do": "fly",
             "drone": self.flier.id,
@@ -117,17 +119,14 @@ class Branch(Protocol):
 class Limit:
     """How long a trip may take, from when on, and the reason that is given if it takes longer."""
 
-    __slots__ = ("flight", "overdue", "since", "span")
+    __slots__ = ("flight", "overdue", "span", "until")
 
     flight: Flight  # the flight that it is set for
 
     def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
-        self.since, self.span, self.overdue = since, span, overdue
-
-    @property
-    def until(self) -> float:
-        """When it is reached."""
-        return self.since + self.span
+        self.span = span
+        self.until = since + span
+        self.overdue = overdue
 
     def is_void(self, branch: Branch) -> bool:
         """Return whether the flight has ended, or the branch that set the limit."""
@@ -153,7 +152,8 @@ class Limits:
 
         A branch waits for one flight at a time; `number` counts its limits on that.
         """
-        limit.flight, self._set[branch, number] = flight, limit
+        limit.flight = flight
+        self._set[branch, number] = limit
         if not limit.until >= self._due_at:  # what is not a number means now
             self._wait(limit.until)
 
@@ -165,13 +165,14 @@ class Limits:
 
     def _look(self) -> None:
         """Expire what is due, and wait for the next."""
-        now, self._due_at = self._kernel.now, inf
+        now = self._kernel.now
+        self._due_at = inf
         for (branch, number), limit in tuple(self._set.items()):
             if limit.is_void(branch) or not limit.until > now:
                 del self._set[branch, number]
                 # after a hook of the mission at that instant, as if it were in a branch of its own
-                key, expire = branch.key + number, partial(limit.expire, branch)
-                self._kernel.at(now, EventKind.TIMER, key, expire)
+                key = branch.key + number
+                self._kernel.at(now, EventKind.TIMER, key, partial(limit.expire, branch))
             else:
                 self._due_at = min(self._due_at, limit.until)
         if self._due_at < inf:

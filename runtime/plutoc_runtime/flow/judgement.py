@@ -7,7 +7,7 @@ from operator import is_
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.actions import PICK, RELEASE
-from ..domain.errors import ANY_ERROR, HookFault
+from ..domain.errors import HookFault
 from ..domain.guard import unless_by_a_person
 from ..domain.plain import as_a
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status
@@ -28,7 +28,8 @@ _CONTENT = Verdict()  # the verdict of an evaluator that asks for nothing
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
     """Apply a verdict; an invalid one is a fault of the evaluator."""
-    mission, core = run.mission, run.core
+    mission = run.mission
+    core = run.core
     name = hook_name(hook)
     who = f"evaluator {name}"
     if not issubclass(type(verdict), Verdict):
@@ -36,7 +37,8 @@ def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status
     verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
     if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
         return COMPLETED
-    redo, add = _listed(who, "redo", verdict.redo), _listed(who, "add", verdict.add)
+    redo = _listed(who, "redo", verdict.redo)
+    add = _listed(who, "add", verdict.add)
     for line in _listed(who, "log", verdict.log):
         core.log(text_of(line, f"<{class_of(line)}>"), mission.name)
     if verdict.fail is not None or not (_is_ok(who, verdict.ok) or redo or add):
@@ -74,7 +76,7 @@ def _listed(who: str, field: str, value: object) -> Sequence[Any]:
     try:
         if issubclass(type(value), Sequence) and not issubclass(type(value), (str, bytes)):
             return tuple(cast("Sequence[Any]", value))
-    except ANY_ERROR as error:
+    except BaseException as error:  # noqa: BLE001 - it is of a class of a hook's own
         unless_by_a_person(error)
     raise HookFault(f"{who} must give `{field}` as a list or a tuple, not as {class_of(value)}")
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass, field
 from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import FlightFailed
@@ -28,17 +28,16 @@ if TYPE_CHECKING:
     from ..fleet.queue import Queue
     from ..hooks.context import Context
     from ..hooks.plain_data import Data
-    from ..time.kernel import Task
+    from ..time.kernel import Key, Task
     from ..time.told import ToldTime
-    from .changes import Changes
     from .record import Row
-    from .transitions import Transitions
+    from .transitions import Changes, Transitions
 
 
 class Part:
     """What some apps have beside missions and drones, such as events; it may keep rows of its own."""
 
-    commands: Mapping[str, Callable[[Mapping[str, Any]], str]] = MappingProxyType({})
+    commands: Mapping[str, Callable[[Mapping[str, Any]], None]] = MappingProxyType({})
     """What people can have it do, by the names of commands."""
 
     def tell(self, message: Mapping[str, Any]) -> None:
@@ -87,6 +86,8 @@ class Core:
             self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
 
 
+T = TypeVar("T")
+
 Delay = tuple[str, str, int, int]  # a delay: block, trip, round, attempt
 
 
@@ -100,6 +101,8 @@ class MissionState:
     """Called when it must end, even if its graph would continue."""
     task: Task[Status] | None = None  # the coroutine that runs its flow
     at: str | None = None  # the last block reached at which it can resume after an interruption
+    block: str = ""
+    """At which block it waits now: `watch, timer` at the first blocks of a fork's branches."""
     goes_on: bool = False
     """It resumes behind a launch: the allocator and the launcher let it pass, up to its flight."""
     interrupted: bool = False  # a flight of it was interrupted and does not count
@@ -124,13 +127,11 @@ class MissionState:
     """The first result that its evaluator has not seen, as far as its graph has gone on since."""
     paused: float | None = None  # since when a person has it wait
     question: str | None = None  # whether an action was done: what a person is asked
-    held: str | None = (
-        None  # why it does not fit the app as it is now: a person is asked whether it goes on
-    )
+    held: str | None = None
+    """Why it does not fit the app as it is now: a person is asked whether it goes on."""
     answer: str | None = None  # what a person has answered
-    accepted: str | None = (
-        None  # a block that the app has no more, from which a person lets it go on
-    )
+    accepted: str | None = None
+    """A block that the app has no more, from which a person lets it go on."""
     replanned: bool = False  # whether a person has changed its trips
     unfit: Data | None = None
     """Its record, if the app as it is now cannot take it: it is kept as it is."""
@@ -156,11 +157,26 @@ class MissionState:
         _, over, begins = self.delay
         return max(over, begins - self.core.kernel.drift) if begins else over
 
+    def postpone(self, seconds: float) -> None:
+        """Have its delay last longer, if it has one."""
+        if self.delay is not None:
+            place, over, begins = self.delay
+            self.delay = (place, over + seconds, begins)
+
     def end(self, reason: str) -> None:
         """End it as FAILED, wherever it is in its graph; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
             self.doomed(self)
+
+    @property
+    def key(self) -> Key:
+        """Its place among events at one instant."""
+        return mission_key(self.mission.index)
+
+    def spawn(self, coroutine: Coroutine[Any, Any, T], name: str) -> Task[T]:
+        """Start a coroutine in its name."""
+        return self.core.kernel.spawn(coroutine, self.key, name)
 
     @property
     def in_flight(self) -> Flight | None:
@@ -172,14 +188,17 @@ class MissionState:
 
     def launch(self, drone: Drone, **more: object) -> None:
         """Send a drone on the next trip, by an order that says `more`."""
-        core, mission, last = self.core, self.mission, self.flight
+        core = self.core
+        mission = self.mission
+        last = self.flight
         trip = current_of(mission)
         if core.fleet.errands:
             core.fleet.engage(drone)
         retry = last is not None and last.trip is trip and last.failed
-        action, now = core.app.actions[trip.action], core.kernel.now
-        self.flight = flight = Flight(mission, trip, drone, action, now, retry)
-        self.allocated, self.calls = None, 0
+        action = core.app.actions[trip.action]
+        self.flight = flight = Flight(mission, trip, drone, action, core.kernel.now, retry)
+        self.allocated = None
+        self.calls = 0
         core.transitions.launch(mission, trip, drone)
         core.orders.fly(drone.id, partial(self.reported, flight), {**flight.order, **more})
 
@@ -192,9 +211,8 @@ class MissionState:
         elif flight.action.hook is None:
             self.complete(flight, result)
         elif flight.called_off is None and flight.own_action is None:
-            mission, act = self.mission, flight.action.act(self, flight)
-            key, name = mission_key(mission.index), f"{mission.name}: {flight.trip.action}"
-            flight.own_action = self.core.kernel.spawn(act, key, name)
+            name = f"{self.mission.name}: {flight.trip.action}"
+            flight.own_action = self.spawn(flight.action.act(self, flight), name)
 
     def break_off(self, flight: Flight) -> None:
         """Stop a flight where it is: no answer to it counts any more, and nothing more begins."""
@@ -216,7 +234,8 @@ class MissionState:
         trip = flight.trip
         if trip.item is not None:
             if trip.action == PICK:
-                self.carries, self.carrier = trip.item, flight.flier
+                self.carries = trip.item
+                self.carrier = flight.flier
             elif trip.action == RELEASE:
                 self.carries = self.carrier = None
         self.question = self.answer = None
@@ -229,15 +248,21 @@ class MissionState:
             self._take_done(flight, result, found_out=True)
             flight.set(self.mission.status)
             return
-        reason = str(result)
-        if self.carries is not None:
-            reason = f"{reason}, with {self.carries.name} aboard"
         lost = self.carries is not None
-        self.carries = self.carrier = self.question = self.answer = None
-        self.core.transitions.fail(self.mission, flight.trip, reason)
+        reason = self._take_failed(flight, str(result))
         flight.set(self.mission.status)
         if lost:
             self.end(reason)
+
+    def _take_failed(self, flight: Flight, reason: str) -> str:
+        """Fail a flight's trip; return the reason, with the item that is lost."""
+        reason = self._and_its_item(reason)
+        self.carries = self.carrier = self.question = self.answer = None
+        self.core.transitions.fail(self.mission, flight.trip, reason)
+        return reason
+
+    def _and_its_item(self, reason: str) -> str:
+        return reason if self.carries is None else f"{reason}, with {self.carries.name} aboard"
 
     def interrupt(self, flight: Flight) -> None:
         """Take back a flight that was broken off before its action was done."""
@@ -251,24 +276,19 @@ class MissionState:
 
     def _lose(self, reason: str) -> None:
         """End the mission: the drone that carries its item cannot fly on."""
-        if self.carries is not None:
-            reason = f"{reason}, with {self.carries.name} aboard"
+        reason = self._and_its_item(reason)
         self.carries = self.carrier = self.allocated = None
         self.end(reason)
 
     def fail(self, flight: Flight, reason: str, *, mends: bool = True) -> None:
         """Fail a flight's trip; with an item aboard, or unless it `mends`, the mission ends as well."""
-        of_drone = reason  # a drone's own trouble does not depend on what it carries
-        if self.carries is not None:
-            reason = f"{reason}, with {self.carries.name} aboard"
-            mends = False
-        self.carries = self.carrier = self.question = self.answer = None
-        self.core.transitions.fail(self.mission, flight.trip, reason)
-        self.core.fleet.recover(flight.flier, of_drone)
+        mends = mends and self.carries is None
+        why = self._take_failed(flight, reason)
+        self.core.fleet.recover(flight.flier, reason)  # its own trouble, whatever it carries
         if mends:
             flight.set(self.mission.status)
         else:
-            self.end(reason)
+            self.end(why)
 
     def abort(self, reason: str) -> None:
         """Fail the trip in flight: it has timed out, or a hook asks for it.
@@ -276,7 +296,8 @@ class MissionState:
         A drone in another process may have done the action by the time that it is told: what came of
         an action that is not safe to repeat is reported first.
         """
-        core, flight = self.core, self.in_flight
+        core = self.core
+        flight = self.in_flight
         if flight is None or flight.called_off is not None:
             return
         repeatable = flight.action.hook is not None or flight.action.repeat == "safe"

@@ -8,16 +8,17 @@ from math import inf
 from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
-from ..domain.errors import ANY_ERROR, ActionFailed, Failure, FlightFailed, HookFault
+from ..domain.errors import ActionFailed, Failure, FlightFailed, HookFault
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import reading
-from ..domain.plain import as_a
-from ..domain.text import LONGEST_REASON, bounded, text_of
+from ..domain.model import Photo
+from ..domain.plain import as_a, plain_of
+from ..domain.text import LONGEST_REASON, bounded, class_of, shown, text_of
 from ..fleet.reach import needed
 from ..hooks.calls import Hook, call_hook, fault_of, trace_of
 from ..hooks.context import Context, LiveDrone, can_wait
 from ..hooks.plain_data import keepable
-from ..time.kernel import EventKind, Future, mission_key
+from ..time.kernel import EventKind, Future
 from .asking import kept_by, take_over
 
 if TYPE_CHECKING:
@@ -35,10 +36,13 @@ MOMENT = 0.01  # seconds by which sums of floats may be off, and more
 class OwnAction(Action):
     """An action of the app's own, done by its hook."""
 
+    returns: type[object] | None = None
+    """The type of all that its hook gives; None: it may give anything."""
+
     async def act(self, state: MissionState, flight: Flight) -> None:
         """Call the hook, and complete or fail the flight by its outcome."""
         try:
-            value = await self._value(state, flight)
+            value = self._checked(await self._value(state, flight))
         except FlightFailed as error:
             state.fail(flight, str(error))
         except HookFault as fault:
@@ -47,10 +51,28 @@ class OwnAction(Action):
         else:
             state.complete(flight, keepable(value))
 
+    def _checked(self, value: object) -> object:
+        """Return a result as one of the type that is declared; any other is a fault of the hook."""
+        if self.returns is None:
+            return value
+        plain = as_a(self.returns, value)
+        if self.returns is Photo and type(value) is Photo:
+            plain = value
+        if plain is None:
+            wanted = f"hook {self.name} must return {_SAID[self.returns]}"
+            reason = f"{wanted}, not {_given(value)}"
+            raise HookFault(reason, reason)
+        return plain
+
     async def _value(self, state: MissionState, flight: Flight) -> object:
         """Return the hook's result; raise `FlightFailed` if it or the drone fails."""
-        core, mission, trip, drone = state.core, state.mission, flight.trip, flight.flier
-        hook, kernel, key = self.hook, core.kernel, mission_key(mission.index)
+        core = state.core
+        mission = state.mission
+        trip = flight.trip
+        drone = flight.flier
+        hook = self.hook
+        kernel = core.kernel
+        key = state.key
         assert hook is not None
         flight.begun = True
         core.transitions.begin_action(mission, trip, drone)
@@ -60,15 +82,15 @@ class OwnAction(Action):
         new_context = core.context or Context
         context = new_context(kernel, core.results, core.log, mission, lambda: state.flight, live)
         call = _call(state, hook, drone, trip, context, **trip.parameters)
-        work = kernel.spawn(call, key, f"{mission.name}: {self.name}")
-        hover = kernel.spawn(core.orders.ask("hold", drone.id), key, f"{drone.id} hovers")
+        work = state.spawn(call, f"{mission.name}: {self.name}")
+        hover = state.spawn(core.orders.ask("hold", drone.id), f"{drone.id} hovers")
         until = kernel.now + self.lasts(trip.parameters)
-        suffices = while_it_suffices(core, drone, key, until)
-        rest = kernel.spawn(suffices, key, f"{drone.id}'s battery")
-        over, began = Future[None](), kernel.now
-        work.watch(over.set)
-        hover.watch(over.set)
-        rest.watch(over.set)
+        suffices = while_it_suffices(core, drone, state.key, until)
+        rest = state.spawn(suffices, f"{drone.id}'s battery")
+        over = Future[None]()
+        began = kernel.now
+        for task in (work, hover, rest):
+            task.watch(over.set)
         try:
             await over
             if kernel.now == began and not hover.is_set:
@@ -83,28 +105,29 @@ class OwnAction(Action):
             why = bounded(text_of(error) or "it does not say why", LONGEST_REASON)
             raise FlightFailed(Failure.ACTION, f"{self.name} failed: {why}") from error
         finally:
-            work.cancel()
-            hover.cancel()
-            rest.cancel()
+            for task in (work, hover, rest):
+                task.cancel()
             if live is not None:
                 live.release()
         return value
 
     async def was_done(self, state: MissionState, flight: Flight) -> bool | None:
         """Ask the hook that can tell whether it was done: `pollinate` has `pollinate_done`."""
-        core, hook, name = state.core, self.hook, f"{self.name}_done"
-        assert hook is not None
+        core = state.core
+        name = f"{self.name}_done"
+        assert self.hook is not None
         if name in core.app.actions or name in core.app.evaluators:
             return None  # something else has this name
-        probe: Hook | None = getattr(sys.modules.get(hook.__module__), name, None)
-        answer: object = None
+        probe: Hook | None = getattr(sys.modules.get(self.hook.__module__), name, None)
+        if probe is None:
+            return None
         try:
-            if probe is not None:
-                answer = await call_hook(core.kernel, reading(), probe, flight.flier, flight.trip)
+            answer = await call_hook(core.kernel, reading(), probe, flight.flier, flight.trip)
         except NOT_ITS_OWN:
             raise
-        except ANY_ERROR as error:  # it cannot tell: a person must
+        except BaseException as error:  # noqa: BLE001 - it cannot tell: a person must
             core.log(trace_of(error), state.mission.name)
+            return None
         return as_a(bool, answer)
 
 
@@ -115,7 +138,7 @@ async def _call(state: MissionState, hook: Hook, /, *args: object, **named: obje
             return await call_hook(state.core.kernel, context, hook, *args, **named)
     except (ActionFailed, *NOT_ITS_OWN):
         raise
-    except ANY_ERROR as error:
+    except BaseException as error:
         raise fault_of(hook, error) from error
     finally:
         take_over(state, hook)
@@ -148,3 +171,20 @@ async def while_it_suffices(core: Core, drone: Drone, key: Key, until: float = -
         if 0.0 < left < seconds:
             seconds = left
         await kernel.sleep(seconds, EventKind.ALLOCATE, key)
+
+
+def _given(value: object) -> str:
+    if value is None:
+        return "None"
+    is_odd = type(plain_of(value)) in (int, float) and as_a(float, value) is None
+    why = "not finite, or too large" if is_odd else class_of(value)
+    return f"{bounded(shown(value), 100)}, which is {why}"
+
+
+_SAID: dict[type[object], str] = {
+    bool: "True or False",
+    int: "a whole number",
+    float: "a number",
+    str: "a text",
+    Photo: "a Photo",
+}

@@ -34,7 +34,9 @@ class Promises:
     """The promises of all missions of one running app."""
 
     def __init__(self, core: Core, states: dict[str, MissionState], waits: Waits) -> None:
-        self._core, self._states, self._waits = core, states, waits
+        self._core = core
+        self._states = states
+        self._waits = waits
         self.waiting: dict[str, Future[str]] = {}
         """Of each mission that waits for others: set to which has ended, when it must look again."""
         self._waited_for: dict[str, list[str]] = {}
@@ -52,13 +54,14 @@ class Promises:
         """Notice when a mission is late."""
         deadline = moment_of(mission, "deadline", self._core.kernel.drift)
         put(mission, deadline=deadline)
-        kernel, key = self._core.kernel, mission_key(mission.index)
+        kernel = self._core.kernel
         if deadline is None or mission.late:
             return
         if deadline < kernel.now:
             self._look(mission)  # it passed while the app did not run
         else:  # what ends at that very instant has ended before
-            kernel.at(deadline, EventKind.ALLOCATE, key, partial(self._look, mission))
+            look = partial(self._look, mission)
+            kernel.at(deadline, EventKind.ALLOCATE, mission_key(mission.index), look)
 
     def _watch_all(self) -> None:
         """Called when the clock has moved: what is due at an hour is so at another time of the app."""
@@ -84,7 +87,8 @@ class Promises:
 
     async def in_time(self, run: Run[Any]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
-        mission, names = run.mission, run.mission.promises.get("after", ())
+        mission = run.mission
+        names = mission.promises.get("after", ())
         for name in names:
             self._refuse_vain(name)
         for name in names:

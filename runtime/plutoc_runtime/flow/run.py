@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Coroutine, Sequence
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
+from ..domain.errors import MissionFailed
 from ..domain.keeper import current_of
 from ..domain.model import Mission
 from ..domain.status import UNEXECUTED, Status
@@ -26,22 +27,26 @@ class Run(Generic[M]):
     __slots__ = ("_depth", "at", "core", "key", "mission", "state", "status", "task")
 
     def __init__(self, mission: M, state: MissionState, key: Key, depth: int = 0) -> None:
-        self.mission, self.state, self.key, self._depth = mission, state, key, depth
+        self.mission = mission
+        self.state = state
         self.core = state.core
+        self.key = key
         self.task: Task[Status] | None = None  # the coroutine of this branch
         self.at: str | None = None
         """The block at which an interrupted mission resumes; None: it begins."""
         self.status = UNEXECUTED  # its status when it begins, or resumes
+        self._depth = depth
 
     def meets(self, block: str) -> None:
         """Note a block that waits or allocates: here the mission can resume after an interruption.
 
         Not within a fork, and not with a drone allocated: an interruption takes both away.
         """
-        state = self.state
-        if self._depth or state.allocated is not None or state.at == block:
+        if self._depth:
             return
-        if block in self.core.app.resumes:
+        state = self.state
+        state.block = block
+        if state.allocated is None and state.at != block and block in self.core.app.resumes:
             state.at = block
             self.core.changes.mission(self.mission.name)
 
@@ -81,6 +86,10 @@ def launch(run: Run[Any], **more: object) -> None:
         raise RuntimeError(f"mission {run.mission.name} has no drone to launch")
 
 
+Branch = Callable[[Run[M], Status], Way]
+"""A branch of a fork; it returns the status with which it arrives at the gate."""
+
+
 def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     """Return the flight, to be awaited: it gives the mission's status at its end.
 
@@ -96,5 +105,10 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
     return flight
 
 
-Branch = Callable[[Run[M], Status], Way]
-"""A branch of a fork; it returns the status with which it arrives at the gate."""
+def declared(block: str, status: object, statuses: tuple[Status, ...]) -> Status:
+    """Return the status that a block of another package gave; raise `MissionFailed` if it does not declare it."""
+    if isinstance(status, Status) and status in statuses:
+        return status
+    given = status.value if isinstance(status, Status) else f"a {type(status).__name__}"
+    listed = " or ".join(one.value for one in statuses) or "no status"
+    raise MissionFailed(f"block {block} gave {given}, and it declares {listed}")

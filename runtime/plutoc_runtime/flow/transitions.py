@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..domain.fields import Entity
 from ..domain.keeper import (
@@ -25,9 +26,76 @@ if TYPE_CHECKING:
     from ..domain.status import Status
     from ..domain.trace import Trace
     from ..time.kernel import Kernel
-    from .changes import Changes
+    from .flight import Flight
 
 LONGEST = 3_000  # characters of a reason; longer than any that a hook may give
+
+
+class Stands(Protocol):
+    """What is known of a mission beside what hooks see of it."""
+
+    flight: Flight | None
+    gone: dict[Trip, int]
+    evaluated: int
+    judged: int
+
+
+class Changes:
+    """Which missions, trips and drones have changed since their rows were taken."""
+
+    def __init__(self, states: Mapping[str, Stands], *, kept: bool) -> None:
+        """`kept`: whether rows are kept at all; else nothing is noted."""
+        self._states = states
+        self.kept = kept
+        self.missions: dict[str, None] = {}
+        self.trips: dict[Trip, str] = {}
+        """With the names of their missions."""
+        self.drones: dict[Drone, None] = {}
+        self.results = 0
+        """How many results are known."""
+
+    def mission(self, name: str) -> None:
+        """Note that a mission has changed."""
+        if self.kept:
+            self.missions[name] = None
+
+    def trip(self, mission: Mission[Any], trip: Trip) -> None:
+        """Note that a trip has changed, and its mission."""
+        if self.kept:
+            self.missions[mission.name] = None
+            self.trips[trip] = mission.name
+
+    def drone(self, drone: Drone) -> None:
+        """Note that a drone has changed."""
+        if self.kept:
+            self.drones[drone] = None
+
+    def moved_on(self, mission: Mission[Any]) -> None:
+        """Note that a mission's graph has gone on from the end of its last flight."""
+        state = self._states.get(mission.name)
+        if state is None:
+            return  # it is just being created
+        if state.flight is not None:
+            state.flight.heard = True
+        state.judged = state.evaluated
+        if self.kept:
+            self.missions[mission.name] = None
+
+    def leave(self, mission: Mission[Any], trips: Iterable[Trip]) -> None:
+        """Note that a mission has these trips no more; in its round their names are taken."""
+        state = self._states.get(mission.name)
+        if state is None:
+            return
+        for trip in trips:
+            state.gone[trip] = mission.round
+            self.trip(mission, trip)
+
+    def clear(self, results: int) -> None:
+        """Forget what has changed: all of it is known, and so many results."""
+        self.missions.clear()
+        self.trips.clear()
+        self.drones.clear()
+        self.results = results
 
 
 class Transitions:
@@ -258,4 +326,5 @@ class Transitions:
 
 
 _EXECUTING = TripStatus.EXECUTING
-_COMPLETED, _FAILED = TripStatus.COMPLETED, TripStatus.FAILED
+_COMPLETED = TripStatus.COMPLETED
+_FAILED = TripStatus.FAILED

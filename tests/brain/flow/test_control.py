@@ -9,7 +9,7 @@ import pytest
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.errors import BadInput, MissionFailed
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.flow.declared import declared
+from pluto_fleet.shared.flow.run import declared
 from tests.brain.hand import charged, settled, trip
 
 
@@ -64,18 +64,18 @@ def test_a_command_that_cannot_be_done_is_refused_with_the_reason(
 
 def test_a_trip_to_come_is_skipped_or_replaced() -> None:
     brain = flying()
-    said = brain.command({"command": "skip", "mission": "a", "trip": "2"}, 1.0)
-    assert (said, todo(brain, "a")) == ("trip 2 is skipped", ["1", "3"])
+    brain.command({"command": "skip", "mission": "a", "trip": "2"}, 1.0)
+    assert todo(brain, "a") == ["1", "3"]
     new = [{**trip(6.0), "name": "x"}, trip(7.0)]
-    said = brain.command({"command": "change-trips", "mission": "a", "trips": new}, 1.0)
-    assert (said, todo(brain, "a")) == ("mission a has 3 trips to do", ["1", "x", "3"])
+    brain.command({"command": "change-trips", "mission": "a", "trips": new}, 1.0)
+    assert todo(brain, "a") == ["1", "x", "3"]
     brain.close()
 
 
 def test_a_mission_is_cancelled_with_a_status_and_a_reason_and_is_over_then() -> None:
     brain = flying()
     cancel = {"command": "cancel", "mission": "a"}
-    assert brain.command({**cancel, "reason": "rain"}, 1.0) == "a has ended"
+    brain.command({**cancel, "reason": "rain"}, 1.0)
     assert [order["do"] for order in settled(brain, 1.0)] == ["break_off", "recover"]
     stands = brain.standing()["missions"]["a"]
     assert (stands["status"], stands["reason"], stands["ended"]) == ("CANCELLED", "rain", True)
@@ -89,7 +89,7 @@ def test_a_mission_is_cancelled_with_a_status_and_a_reason_and_is_over_then() ->
 def test_a_paused_mission_has_left_its_graph_and_keeps_no_drone() -> None:
     brain = flying()
     assert brain.living == 2
-    assert brain.command({"command": "leave", "mission": "a"}, 1.0) == "a has left its graph"
+    brain.command({"command": "leave", "mission": "a"}, 1.0)
     orders = settled(brain, 1.0)
     assert [order["do"] for order in orders] == ["break_off", "recover"]
     assert brain.living == 1
@@ -101,11 +101,11 @@ def test_a_paused_mission_has_left_its_graph_and_keeps_no_drone() -> None:
 
 def test_a_retired_drone_is_given_to_no_mission_until_it_is_back() -> None:
     brain = charged(2)
-    assert brain.command({"command": "retire", "drone": "cf1"}, 0.0) == "cf1 is retired"
+    brain.command({"command": "retire", "drone": "cf1"}, 0.0)
     assert brain.drones()["cf1"]["status"] == "OFFLINE"
     brain.begin([{"trips": [trip(3.0)]}, {"trips": [trip(3.0)]}], 1.0)
     assert [order["drone"] for order in settled(brain, 1.0)] == ["cf2"]
-    assert brain.command({"command": "bring-back", "drone": "cf1"}, 2.0) == "cf1 is back"
+    brain.command({"command": "bring-back", "drone": "cf1"}, 2.0)
     assert [order["drone"] for order in settled(brain, 2.0)] == ["cf1"]
     brain.close()
 
@@ -161,7 +161,7 @@ def test_a_higher_priority_is_given_to_one_trip_alone() -> None:
     brain.begin([{"name": name, "trips": [trip(3.0)]} for name in "abc"], 0.0)
     (order,) = settled(brain, 0.0)
     request = {"command": "prioritise", "mission": "c", "trip": "1", "priority": 5}
-    assert brain.command(request, 1.0) == "trip 1 has priority 5"
+    brain.command(request, 1.0)
     brain.tell({"done": order["id"], "telemetry": {"cf1": {"landed": True}}}, 9.0)
     assert [order["flight"] for order in settled(brain, 9.0)] == ["c/1/0/1"]
     brain.close()

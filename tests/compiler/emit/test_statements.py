@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.abc import InspectLoader
 from random import Random
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import hypothesis.strategies as st
@@ -36,6 +36,8 @@ class Run:
     plan: Plan
     diary: Diary
     at: Place
+    state: Any = field(default_factory=SimpleNamespace)
+    """Where it waits is noted there."""
 
 
 def step(run: Run, status: Status, *ways: Any, block: str, **_: object) -> Status:

@@ -44,7 +44,7 @@ TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
 
 
 def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
-    record, block = record_of("STANDBY", TRIP), "allocate = DroneAllocator"
+    record, block = record_of("STANDBY", TRIP), "allocate"
     assert text(row(record, block)) == "waits for a drone (1)"
     assert row(record, block, allocated=True, drone="cf1")["wait"] is None
     assert row(record, block, flies=True, drone="cf1")["drone"] == "cf1"
@@ -115,21 +115,6 @@ def test_a_mission_that_goes_on_is_shown_with_the_drone_that_has_its_item() -> N
     assert recorded_row("a", record)["drone"] is None
 
 
-DECLARATIONS = {
-    "wait = Clock": ("wait",),
-    "allocate = DroneAllocator(policy: nearest)": ("allocate",),
-    "say = MissionModifier(hook: tell, to: [1, 2])": ("say",),
-    "launch -> [watch, timer] -> first = GateFIFO": ("watch", "timer"),
-    "launch -> [watch, limit -> other] -> all = GateFunnel": ("watch", "limit"),
-    "": (),
-}
-
-
-@pytest.mark.parametrize("declaration", DECLARATIONS)
-def test_a_declaration_above_a_call_names_its_blocks(declaration: str) -> None:
-    assert blocks_of(declaration) == DECLARATIONS[declaration]
-
-
 def test_a_mission_is_only_ever_at_blocks_of_its_graph_be_it_in_a_fork() -> None:
     """Where it stands after each event of a flight."""
     flown, met = example("alfalfa"), set[tuple[str, ...]]()
@@ -137,7 +122,7 @@ def test_a_mission_is_only_ever_at_blocks_of_its_graph_be_it_in_a_fork() -> None
     blocks = {node.name for node in analyse(source)[0].graph.nodes}
 
     def look() -> None:
-        met.update(blocks_of(one["block"]) for one in simulation.brain.whereabouts().values())
+        met.update(tuple(blocks_of(one)) for one in simulation.brain.whereabouts().values())
 
     kernel = VirtualTime()
     simulation = Simulation(flown.app, flown.fleet, kernel, 0, Faults(), lambda event: None)

@@ -40,6 +40,7 @@ async def flow(run: Run[Mission]) -> Status:
         # launch = TripLauncher
         status = launch_trip(run, status)
         # launch -> [watch, timer] -> first = GateFIFO
+        run.state.block = "watch, timer"
         status = await watch(
             run,
             # timer = TimerMonitor(default: 5 min)
@@ -54,6 +55,7 @@ async def flow(run: Run[Mission]) -> Status:
                 return status
             continue  # -> allocate
         # judge = MissionEvaluator(hook: find_blooms)
+        run.state.block = "judge"
         status = await evaluate_mission(
             run, status, hook=hooks.find_blooms, evaluator=mission.evaluator
         )
