@@ -24,7 +24,7 @@ from plutoc.check.phrases import (
 )
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
-from plutoc.graph.model import Edge, Graph, Node
+from plutoc.graph.model import Action, Edge, Graph, Node
 from plutoc.graph.wording import all_of
 from plutoc_runtime.domain.status import Status
 
@@ -38,6 +38,30 @@ def no_creator(graph: Graph) -> Diagnostic:
         f"no block of `{graph.name}` makes missions",
         help="declare a block that makes them and begin with `start -> NAME`; "
         "`plutoc blocks` lists the kinds",
+    )
+
+
+def no_event(graph: Graph, creator: Node) -> Diagnostic:
+    known = [event.name for event in graph.events] or ["EVENT"]
+    return error(
+        "P2003",
+        (graph, creator.name_span),
+        f"no event leads to `{creator.name}`, which makes missions of events",
+        help=f"add `{known[0]} -> {creator.name}`",
+    )
+
+
+def event_elsewhere(graph: Graph, edge: Edge, creators: Sequence[Node]) -> Diagnostic:
+    """An event that leads to a block, or to the creator of the user's missions."""
+    names = [node.name for node in creators]
+    draw = "" if graph.node[edge.target].block.creates else f", and draw `BLOCK -> {edge.target}`"
+    lead = f"lead it to {all_of(names)}" if names else f"lead it to one{draw}"
+    return error(
+        "P2004",
+        (graph, edge.span),
+        f"the event `{edge.source}` leads to `{edge.target}`, which does not make missions of events",
+        related=tuple(related_to(graph, n.name_span, "missions are made here") for n in creators),
+        help=f"{lead}; such a block has a hook of the app's own, a `creator`",
     )
 
 
@@ -85,6 +109,15 @@ def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
 def _named(graph: Graph, creator: Node) -> str:
     following = [edge.target for edge in graph.outgoing[creator.name]]
     return f", {all_of(following)}" if following else ""
+
+
+def along_nothing(graph: Graph, action: Action) -> Diagnostic:
+    return error(
+        "P2029",
+        (graph, action.span),
+        f"`{action.name}` is done along the way, and no drone ever flies: no block launches a trip",
+        help="lead the missions through a block that launches, or remove the action",
+    )
 
 
 # What nothing reaches

@@ -8,14 +8,16 @@ from dataclasses import dataclass, replace
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
+from plutoc.emit import reactions
 from plutoc.emit.callables import carried_functions, imports_of, names_of
 from plutoc.emit.embed import OURS
 from plutoc.emit.model_file import fields_of
 from plutoc.emit.python import Import, call, import_lines, items, literal, names, python_result
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines, bound
+from plutoc.emit.written import parameter
 from plutoc.graph.hooks import PHOTO
-from plutoc.graph.model import Action, Graph, Hook, Node, Parameter, Shown
+from plutoc.graph.model import Action, Graph, Hook, Node, Shown
 from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
@@ -56,6 +58,7 @@ def flow_file(plan: Plan) -> str:
     return render(
         "flow.py",
         app=graph.name,
+        kind="EventApp" if graph.reacts else "App",
         imports=import_lines([*_imports(graph, written), *imports_of(scope.names)]),
         start=start,
         lines=lines,
@@ -85,7 +88,7 @@ def _asked_in_loops(body: Body) -> bool:
 def _imports(graph: Graph, written: str) -> list[Import]:
     imports = [
         *names("._runtime.domain.actions", "BUILT_IN"),
-        *names("._runtime.domain.app", "App"),
+        *names(*(("._runtime.domain.event", "EventApp") if graph.reacts else _PLAIN)),
         *names("._runtime.flow.run", "Run"),
         *names("._runtime.domain.status", "Status", *_statuses(written)),
         *names(".model", "CATEGORIES", "FIELDS", "Mission", "Trip"),
@@ -96,9 +99,17 @@ def _imports(graph: Graph, written: str) -> list[Import]:
         imports += names("._runtime.flow.declared", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
-    if any(action.returns is None for action in graph.actions):
+    if graph.events:
+        imports += names(".model", "EVENTS")
+    if "Creator(" in written:
+        imports += names("._runtime.domain.event", "Creator")
+    if graph.follows:
+        imports += names("._runtime.domain.follow", "FOLLOW")
+    if any(action.along for action in graph.actions):
+        imports += names("._runtime.flow.along_action", "AlongAction")
+    if any(action.returns is None and not action.along for action in graph.actions):
         imports += names("._runtime.flow.own_action", "OwnAction")
-    if any(action.returns for action in graph.actions):
+    if any(action.returns and not action.along for action in graph.actions):
         imports += names("._runtime.flow.typed_action", "TypedAction")
     if any(action.returns == PHOTO for action in graph.actions):
         imports += names("._runtime.domain.model", "Photo")
@@ -108,6 +119,9 @@ def _imports(graph: Graph, written: str) -> list[Import]:
             *names("._runtime.domain.quantities", "Type"),
         ]
     return imports
+
+
+_PLAIN = ("._runtime.domain.app", "App")
 
 
 def _statuses(written: str) -> list[str]:
@@ -124,6 +138,8 @@ def _app(plan: Plan) -> list[str]:
     """Return the arguments of the `App`."""
     graph, entries = plan.checked.graph, plan.checked.entries
     own = "".join(_entry(action) for action in graph.actions)
+    if graph.follows:
+        own = f'        "follow": FOLLOW,\n{own}'
     evaluators = [hook for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
     arguments = [
         f"name={literal(graph.name)}",
@@ -140,9 +156,14 @@ def _app(plan: Plan) -> list[str]:
         arguments.append(f"evaluators={{{functions}}}")  # a line each
     if graph.results:
         arguments.append(f"results=(\n{''.join(map(_shown, graph.results))}    )")
-    if entries:
-        names = "".join(f"{literal(name)}," for name in entries)
+    resumes = [name for name in entries if not graph.node[name].block.creates]
+    if resumes:
+        names = "".join(f"{literal(name)}," for name in resumes)
         arguments.append(f"resumes=({names})")
+    if graph.events:
+        arguments.append("events=EVENTS")
+    if creators := tuple(reactions.creators(graph)):
+        arguments.append(f"creators=({''.join(f'{one},' for one in creators)})")
     return arguments
 
 
@@ -170,20 +191,15 @@ def _entry(action: Action) -> str:
 def _action(action: Action) -> str:
     arguments = [f"name={literal(action.name)}"]
     if action.parameters:
-        arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
+        arguments.append(f"parameters={items(map(parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
     if action.takes is not None:
         arguments.append(f"takes={literal(action.takes)}")
-    if action.returns is None:
-        return call("OwnAction", arguments)
-    return call("TypedAction", [*arguments, f"returns={python_result(action.returns)}"])
-
-
-def _parameter(parameter: Parameter) -> str:
-    arguments = [f"name={literal(parameter.name)}", f"type=Type.{parameter.type.name}"]
-    if parameter.default is not None:
-        arguments.append(f"default={literal(parameter.default)}")
-    return call("Parameter", arguments)
+    if action.returns is not None:
+        arguments.append(f"returns={python_result(action.returns)}")
+    if action.along:
+        return call("AlongAction", arguments)
+    return call("OwnAction" if action.returns is None else "TypedAction", arguments)
 
 
 def declared_of(checked: Checked) -> Mapping[str, str]:

@@ -53,6 +53,8 @@ _COLOURS = {
     Role.EVALUATOR: "function",
     Role.MODIFIER: "function",
     Role.POLICY: "function",
+    Role.CREATOR: "function",
+    Role.EVENT: "event",
     Role.BLOCK: "variable",
     Role.KIND: "class",
     Role.FIELD: "property",
