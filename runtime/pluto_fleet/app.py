@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=type)
 
-_WHERE = ".domain.app"
+_WHERE = ".domain."
 """The module of a brain in which its description of an app is."""
 
 
@@ -67,7 +67,7 @@ def described(given: Any) -> App:
     """Return the app that a package describes as its `APP`; raise `BadInput` if their seams do not match."""
     if isinstance(given, App):
         return given
-    runtime = type(given).__module__.removesuffix(_WHERE)
+    runtime = type(given).__module__.rpartition(_WHERE)[0]
     brain = import_module(f"{runtime}.brain")
     check(given.name, brain.SEAM)
     brain.put_guard(IN_A_PROCESS)
@@ -120,7 +120,9 @@ def _field(data: Mapping[str, Any]) -> Field:
     known = {"name": data["name"], "label": data["label"], "default": data["default"]}
     if data.get("own"):
         return OwnField(**known, on=Entity(data["on"]), type=Type(data["type"]))
-    return Field(**known, on=Entity(data["on"]), type=FieldType(data["type"]))
+    kind = data["type"]
+    of_blocks = kind in {one.value for one in FieldType}  # else it is the one of what is done along
+    return Field(**known, on=Entity(data["on"]), type=FieldType(kind) if of_blocks else Type(kind))
 
 
 def _category(data: Mapping[str, Any]) -> Category:
