@@ -41,6 +41,7 @@ _SYMBOLS = {
     Role.CATEGORY: types.SymbolKind.Struct,
     Role.BLOCK: types.SymbolKind.Object,
     Role.FIELD: types.SymbolKind.Field,
+    Role.EVENT: types.SymbolKind.Event,
 }
 """All others are functions."""
 

@@ -30,8 +30,10 @@ def graph_file(checked: Checked) -> str:
     """Return the text of `graph.json`; what is not true of a block or an edge is left out."""
     drawn = picture(checked)
     nodes = checked.graph.nodes
-    names = [*checked.graph.sources[1:], *(node.name for node in nodes)]
-    spots = laid_out(names, [(one.source, one.target) for one in drawn.arrows], {})
+    names = [node.name for node in nodes]
+    spots = laid_out(
+        names, [(one.source, one.target) for one in drawn.arrows], {}, checked.graph.sources[1:]
+    )
     kinds = {node.block.name: first_line(node.block) for node in nodes}
     return _TEXT.format(
         kinds=",\n".join(f"{_text(kind)}: {_text(doc)}" for kind, doc in kinds.items()),

@@ -93,6 +93,11 @@ class Known:
         return (*(event.name for event in self.graph.events), *EVENTS)
 
     @cached_property
+    def own_sources(self) -> tuple[str, ...]:
+        """Those of them that are sure to be meant: `start`, and the app's own events."""
+        return (START, *(event.name for event in self.graph.events))
+
+    @cached_property
     def sources(self) -> tuple[str, ...]:
         """What an arrow can begin at that is no block."""
         return (START, *(event for event in self.events if event not in self.blocks))

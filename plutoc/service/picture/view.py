@@ -71,10 +71,11 @@ class _View:
 
     def data(self) -> Data:
         document = self.document
-        names = [*self.events, *self.declared]
+        names = list(self.declared)
         ways = [(way.source, way.target) for way in self.ways]
         implicit = list(self._implicit())
-        spots = laid_out(names, [*ways, *((name, END) for name, _ in implicit)], self.positions)
+        ways += ((name, END) for name, _ in implicit)
+        spots = laid_out(names, ways, self.positions, self.events)
         bad = [s for s in document.file.app.statements if isinstance(s, BadStatement)]
         return {
             "app": document.graph.name,
