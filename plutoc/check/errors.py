@@ -26,6 +26,7 @@ from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
 from plutoc.graph.model import Action, Edge, Graph, Node
 from plutoc.graph.wording import all_of
+from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.status import Status
 
 # Where missions come in
@@ -53,15 +54,13 @@ def no_event(graph: Graph, creator: Node) -> Diagnostic:
 
 def event_elsewhere(graph: Graph, edge: Edge, creators: Sequence[Node]) -> Diagnostic:
     """An event that leads to a block, or to the creator of the user's missions."""
-    names = [node.name for node in creators]
-    draw = "" if graph.node[edge.target].block.creates else f", and draw `BLOCK -> {edge.target}`"
-    lead = f"lead it to {all_of(names)}" if names else f"lead it to one{draw}"
+    names = [f"`{node.name}`" for node in creators] or ["a block that does"]
     return error(
         "P2004",
         (graph, edge.span),
         f"the event `{edge.source}` leads to `{edge.target}`, which does not make missions of events",
         related=tuple(related_to(graph, n.name_span, "missions are made here") for n in creators),
-        help=f"{lead}; such a block has a hook of the app's own, a `creator`",
+        help=f"lead it to {joined(names, 'or')}: it has a hook of the app's own, a `creator`",
     )
 
 
@@ -113,7 +112,7 @@ def _named(graph: Graph, creator: Node) -> str:
 
 def along_nothing(graph: Graph, action: Action) -> Diagnostic:
     return error(
-        "P2029",
+        "P2028",
         (graph, action.span),
         f"`{action.name}` is done along the way, and no drone ever flies: no block launches a trip",
         help="lead the missions through a block that launches, or remove the action",

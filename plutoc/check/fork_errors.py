@@ -187,7 +187,7 @@ def written_twice(
 
 def interrupted_twice(graph: Graph, first: Node, second: Node, way: Way) -> Diagnostic:
     return error(
-        "P2028",
+        "P2027",
         (graph, second.name_span),
         f"`{second.name}` and `{first.name}` wait for the same event, `{second.event}`, at one time",
         label="the second one",

@@ -256,10 +256,10 @@ def unknown_type(
 def unknown_repeat(
     source: Source, name: Name, known: Sequence[str], types: Sequence[str]
 ) -> Diagnostic:
-    """A last word of an action that is none of the three."""
+    """A last word of an action that is none of those that there are."""
     return error(
         "P1027",
-        f"whether an action may be repeated is said by {either(known)}, not `{name.text}`",
+        f"an action ends with {either(known)}, not with `{name.text}`",
         source,
         name.span,
         help=(

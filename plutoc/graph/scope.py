@@ -9,6 +9,7 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, names
 from plutoc.graph.app_names import taken_app_name
 from plutoc.graph.built_in import ACTIONS, EVENTS
+from plutoc.graph.built_in import ALONG as ALONG_BUILT_IN
 from plutoc.graph.names import Style
 from plutoc.graph.uncertain_names import bad_statements
 from plutoc.source import Source
@@ -65,7 +66,7 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
         name = declared.name
         first = lower.setdefault(name.text.lower(), declared)
         if declared.role in _HOOKS and name.text.lower() in ACTIONS and not declared.again:
-            found.append(errors.built_in_name(file.source, name, ACTION, declared.role == ACTION))
+            found.append(errors.built_in_name(file.source, name, ACTION, _may_be_along(declared)))
         elif declared.role == EVENT and name.text.lower() in EVENTS:
             found.append(errors.built_in_name(file.source, name, EVENT))
         elif first is not declared and first.name.text == name.text:
@@ -82,6 +83,10 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
         if role and bad.name:
             scope.setdefault(bad.name.text, Declared(name=bad.name, role=role))
     return scope
+
+
+def _may_be_along(declared: Declared) -> bool:
+    return declared.role == ACTION and declared.name.text in ALONG_BUILT_IN
 
 
 def spoilt_names(source: Source, found: Sequence[Diagnostic]) -> list[str]:
