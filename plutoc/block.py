@@ -44,12 +44,13 @@ ANY_SAME = same(*IN_GRAPH)
 
 
 class HookKind(Enum):
-    """The four kinds of code that a developer adds."""
+    """The five kinds of code that a developer adds."""
 
     ACTION = "action"
     EVALUATOR = "evaluator"
     MODIFIER = "modifier"
     POLICY = "policy"
+    CREATOR = "creator"
 
 
 class Gate(Enum):
@@ -80,6 +81,8 @@ class HookParam:
     kind: HookKind
     doc: str
     required: bool = True
+    handed: bool = True
+    """Its step gets it. If not, the app's description has it: it is called before a mission is there."""
     passes: bool = False
     """The hook's own parameters are written beside it, and its step gets them by name."""
     instead: str = ""
@@ -103,7 +106,28 @@ class Choice:
     """Makes of the app's hook what the options are."""
 
 
-AnyParam = Param | HookParam | Choice
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventParam:
+    """The name of an event: one of the app's own, or a built-in one. It must be given."""
+
+    name: str
+    doc: str
+    required: bool = True
+
+
+AnyParam = Param | HookParam | Choice | EventParam
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Given:
+    """Where a parameter is given, these functions stand for the block's own, and get it by name.
+
+    So an app that does not use it carries nothing of it.
+    """
+
+    param: str
+    step: Callable[..., Any]
+    limit: Callable[..., Any] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,6 +158,8 @@ class Block:
     guarded: Transitions = field(default_factory=dict)
     """Accepted only where an edge's guard says so."""
     params: tuple[AnyParam, ...] = ()
+    given: tuple[Given, ...] = ()
+    """Of parameters without a default, those for which there are other functions."""
     narrowed: tuple[Narrowed, ...] = ()
     emits_by_hook: bool = False
     """Where its hook declares `emits`, it emits exactly those."""
@@ -151,7 +177,7 @@ class Block:
     """
 
     creates: bool = False
-    """The mission begins here; exactly one in a graph."""
+    """Missions begin here: those of the user behind `start`, and those that a hook makes of an event."""
     holds: bool = False
     """A mission may rest here for a time that the user chose."""
     allocates: bool = False
@@ -161,7 +187,9 @@ class Block:
     watches: bool = False
     """Ends with the outcome of the trip in flight, and does nothing else before."""
     limits: bool = False
-    """Watches, and fails the trip itself; goes beside a block that only watches."""
+    """Watches, and ends the flight itself; goes beside a block that only watches."""
+    interrupts: bool = False
+    """It limits a flight by an event, which ends no trip: that waits again, as if it had not flown."""
     limit: Callable[..., Any] | None = None
     """What it adds to a wait for the end of the trip, so that one wait can stand for several blocks.
 
@@ -174,6 +202,8 @@ class Block:
     """Starts a finished mission once more."""
     retries: bool = False
     """Puts a failed trip back."""
+    skips: bool = False
+    """Leaves a failed trip out."""
     bound: str | None = None
     """The parameter that bounds how often it does so; 0 is no bound."""
     gate: Gate | None = None
@@ -191,12 +221,7 @@ class Block:
     @property
     def needs_trip(self) -> bool:
         """Whether a mission that comes with no trip left to fly ends there, FAILED."""
-        return self.allocates or self.retries
-
-    @property
-    def asks(self) -> bool:
-        """Whether its step gets what a user wrote: in the source, in the missions file."""
-        return bool(self.params or self.needs or self.uses)
+        return self.allocates or self.retries or self.skips
 
     def param(self, name: str) -> AnyParam | None:
         """Return the parameter of that name."""

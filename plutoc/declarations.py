@@ -12,7 +12,18 @@ from keyword import iskeyword
 from sys import float_info
 from typing import Any
 
-from plutoc.block import Block, Choice, Gate, HookKind, HookParam, Narrowed, Param
+from plutoc.block import (
+    AnyParam,
+    Block,
+    Choice,
+    EventParam,
+    Gate,
+    Given,
+    HookKind,
+    HookParam,
+    Narrowed,
+    Param,
+)
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
@@ -27,9 +38,11 @@ _FLAGS = (
     "launches",
     "watches",
     "limits",
+    "interrupts",
     "evaluates",
     "repeats",
     "retries",
+    "skips",
 )
 
 
@@ -44,7 +57,12 @@ def mistakes_in(block: Block) -> Iterator[str]:
         yield from _function("limit", block.limit)
     for field in ("transitions", "guarded"):
         yield from _transitions(field, getattr(block, field))
-    yield from _all("params", block.params, (Param, HookParam, Choice), _param)
+    yield from _all("params", block.params, (Param, HookParam, Choice, EventParam), _param)
+    yield from _all("given", block.given, (Given,), _given)
+    for one in block.given if type(block.given) is tuple else ():
+        functions = [one.step, *([one.limit] if one.limit is not None else [])]
+        for function in functions if type(one) is Given else ():
+            yield from _function("given", function)
     yield from _all("narrowed", block.narrowed, (Narrowed,), _narrowed)
     yield from _all("needs", block.needs, (Field,), _field)
     for field in ("reads", "uses"):
@@ -113,7 +131,7 @@ def _name(one: str) -> str | None:
     return None if is_name(one) else f"holds {_called(one)}, which is no name"
 
 
-def _param(one: Param | HookParam | Choice) -> str | None:
+def _param(one: AnyParam) -> str | None:
     if not is_name(one.name) or one.name in _GIVEN:
         return f"holds a parameter whose name is {_called(one.name)}"
     if not is_text(one.doc):
@@ -122,6 +140,8 @@ def _param(one: Param | HookParam | Choice) -> str | None:
         right = type(one.type) is Type and _is_plain(one.default) and _is_plain(one.least)
     elif isinstance(one, HookParam):
         right = type(one.kind) is HookKind and (one.instead == "" or is_name(one.instead))
+    elif isinstance(one, EventParam):
+        right = type(one.required) is bool
     else:
         options = isinstance(one.options, Mapping) and all(map(is_name, one.options))
         right = options and one.default in one.options and type(one.hook) in _HOOKS
@@ -147,6 +167,10 @@ def _is_plain(value: object) -> bool:
         case int() | float():
             return type(value) in (int, float, bool) and abs(value) <= float_info.max
     return value is None
+
+
+def _given(one: Given) -> str | None:
+    return None if is_name(one.param) else f"holds {_called(one)}"
 
 
 def _narrowed(one: Narrowed) -> str | None:

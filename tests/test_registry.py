@@ -38,7 +38,7 @@ BLOCKS = (Block(name="Scan", doc="Scans.", step=print, transitions=ANY_SAME),)
 def test_ours_are_there_without_an_installation() -> None:
     """A checkout compiles."""
     assert registry.installed_packages()[0] == "std"
-    assert len(registry.blocks_of("std")) == 13
+    assert len(registry.blocks_of("std")) == 15
 
 
 def test_package_is_found_by_its_entry_point(install: Install) -> None:

@@ -24,8 +24,9 @@ from plutoc.check.phrases import (
 )
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
-from plutoc.graph.model import Edge, Graph, Node
+from plutoc.graph.model import Action, Edge, Graph, Node
 from plutoc.graph.wording import all_of
+from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.status import Status
 
 # Where missions come in
@@ -38,6 +39,28 @@ def no_creator(graph: Graph) -> Diagnostic:
         f"no block of `{graph.name}` makes missions",
         help="declare a block that makes them and begin with `start -> NAME`; "
         "`plutoc blocks` lists the kinds",
+    )
+
+
+def no_event(graph: Graph, creator: Node) -> Diagnostic:
+    known = [event.name for event in graph.events] or ["EVENT"]
+    return error(
+        "P2003",
+        (graph, creator.name_span),
+        f"no event leads to `{creator.name}`, which makes missions of events",
+        help=f"add `{known[0]} -> {creator.name}`",
+    )
+
+
+def event_elsewhere(graph: Graph, edge: Edge, creators: Sequence[Node]) -> Diagnostic:
+    """An event that leads to a block, or to the creator of the user's missions."""
+    names = [f"`{node.name}`" for node in creators] or ["a block that does"]
+    return error(
+        "P2004",
+        (graph, edge.span),
+        f"the event `{edge.source}` leads to `{edge.target}`, which does not make missions of events",
+        related=tuple(related_to(graph, n.name_span, "missions are made here") for n in creators),
+        help=f"lead it to {joined(names, 'or')}: it has a hook of the app's own, a `creator`",
     )
 
 
@@ -85,6 +108,15 @@ def into_creator(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
 def _named(graph: Graph, creator: Node) -> str:
     following = [edge.target for edge in graph.outgoing[creator.name]]
     return f", {all_of(following)}" if following else ""
+
+
+def along_nothing(graph: Graph, action: Action) -> Diagnostic:
+    return error(
+        "P2028",
+        (graph, action.span),
+        f"`{action.name}` is done along the way, and no drone ever flies: no block launches a trip",
+        help="lead the missions through a block that launches, or remove the action",
+    )
 
 
 # What nothing reaches

@@ -35,10 +35,11 @@ def is_over(place: Place) -> bool:
     return place.status is Status.COMPLETED or place.facts.spent
 
 
-def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
+def leaving(node: Node, place: Place, number: int | None, *, breaks: bool = False) -> Iterator[Way]:
     """Yield each status with which a mission can leave a block, with its facts then.
 
     A block that can be reached again without a flight has a number, for its remembered answer.
+    `breaks`: it launches a flight that an event may break off.
     """
     facts, bound = place.facts, bound_of(node)
     if facts.spent and node.block.needs_trip:
@@ -52,7 +53,7 @@ def leaving(node: Node, place: Place, number: int | None) -> Iterator[Way]:
     if said and OUTCOMES[said - 1] in emitted:
         emitted = (OUTCOMES[said - 1],)
     for status in emitted:
-        for behind in _behind(node, facts, status, bound):
+        for behind in _behind(node, facts, status, bound, breaks):
             yield status, behind if number is None else _remembered(node, behind, status, number)
 
 
@@ -70,19 +71,24 @@ def elsewhere(facts: Facts) -> Facts:
     return facts._replace(said=0) if facts.said else facts
 
 
-def _behind(node: Node, facts: Facts, status: Status, bound: int) -> tuple[Facts, ...]:
+def _behind(
+    node: Node, facts: Facts, status: Status, bound: int, breaks: bool
+) -> tuple[Facts, ...]:
     if bound and status is Status.FAILED:
         return (facts._replace(attempts=max(facts.attempts, bound)),)
     if node.block.launches:
+        # a trip that goes well is followed by another, which has not been flown yet; one whose
+        # flight was broken off comes next again, and was not charged
+        again = [(Status.STANDBY, facts.attempts)] if breaks and facts.attempts else []
         return tuple(
-            Facts(
-                launched=True,
-                outcome=outcome,
-                # a trip that goes well is followed by another, which has not been flown yet
-                attempts=facts.attempts if outcome is Status.FAILED else 0,
+            Facts(launched=True, outcome=outcome, attempts=attempts)
+            for outcome, attempts in (
+                *((one, facts.attempts if one is Status.FAILED else 0) for one in OUTCOMES),
+                *again,
             )
-            for outcome in OUTCOMES
         )
+    if node.block.skips:
+        return (facts._replace(attempts=0),)
     if node.block.allocates:
         return (facts._replace(allocated=True, outcome=None),)
     if node.block.evaluates and facts.spent != (status is Status.FAILED):

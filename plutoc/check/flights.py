@@ -19,6 +19,13 @@ _MOST_SHOWN = 9
 """The most blocks that are shown beside the first."""
 
 
+def along_nothing(graph: Graph) -> list[Diagnostic]:
+    """Find actions that are done on the way where no drone ever flies."""
+    if any(node.block.launches for node in graph.nodes):
+        return []
+    return [errors.along_nothing(graph, action) for action in graph.actions if action.along]
+
+
 def undrawn(flow: Flow) -> list[Diagnostic]:
     """Find launches without an allocation since the previous launch."""
     return _first(
@@ -116,7 +123,7 @@ def _is_failure(flow: Flow, place: Place, target: Place) -> bool:
         return True
     if node.block.evaluates or node.block.repeats:
         return False
-    return not (node.block.watches or bound_of(node))
+    return not (node.block.watches or node.block.skips or bound_of(node))
 
 
 def repeated_unjudged(flow: Flow) -> list[Diagnostic]:

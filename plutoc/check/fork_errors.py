@@ -185,11 +185,24 @@ def written_twice(
     )
 
 
+def interrupted_twice(graph: Graph, first: Node, second: Node, way: Way) -> Diagnostic:
+    return error(
+        "P2027",
+        (graph, second.name_span),
+        f"`{second.name}` and `{first.name}` wait for the same event, `{second.event}`, at one time",
+        label="the second one",
+        related=(related_to(graph, first.name_span, "the first one"),),
+        help="one of them is enough: `of: any` means the events that are a mission's own, too",
+        ways=(way,),
+    )
+
+
 def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    does = "breaks off" if node.block.interrupts else "sets a limit to"
     return error(
         "P2023",
         (graph, node.name_span),
-        f"`{node.name}` sets a limit to a flight, but no block beside it watches the flight",
+        f"`{node.name}` {does} a flight, but no block beside it watches the flight",
         help="put it on one branch of a fork, a block that only watches on another, and let both meet "
         "at a gate",
         ways=(way,),

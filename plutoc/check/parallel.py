@@ -50,6 +50,24 @@ def unwatched_limits(flow: Flow, found: Branches) -> list[Diagnostic]:
     return list(diagnostics.values())
 
 
+def interrupted_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
+    """Find two blocks that wait for one event in one fork: one a fork and event is enough."""
+    inside = nesting(found)
+    diagnostics: dict[tuple[str, str], Diagnostic] = {}
+    for branches in found.values():
+        waiting: dict[str, Node] = {}
+        nodes = {n.name: n for branch in branches for n in _nodes(flow, found, inside, branch)}
+        for node in sorted(nodes.values(), key=lambda one: one.span.start):
+            if node.block.interrupts and node.event is not None:
+                first = waiting.setdefault(node.event, node)
+                if first is not node:
+                    wrong = errors.interrupted_twice(
+                        flow.graph, first, node, flow.way_to(node.name)
+                    )
+                    diagnostics.setdefault((first.name, node.name), wrong)
+    return list(diagnostics.values())
+
+
 def _common(first: Node, second: Node) -> list[str]:
     others = second.hook.writes if second.hook else ()
     return [name for name in (first.hook.writes if first.hook else ()) if name in others]

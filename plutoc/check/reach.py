@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 
 import networkx as nx
 
@@ -14,37 +14,61 @@ from plutoc.graph.model import END, START, Edge, Graph, Node
 from plutoc_runtime.domain.status import Status
 
 
-def entry(graph: Graph) -> tuple[Node | None, tuple[Edge, ...], list[Diagnostic]]:
-    """Return the block that creates missions, the edges to explore, and the errors."""
-    creators = [node for node in graph.nodes if node.block.creates]
+def entry(graph: Graph) -> tuple[tuple[Node, ...], tuple[Edge, ...], list[Diagnostic]]:
+    """Return the blocks that create missions, the edges to explore, and the errors.
+
+    The first one makes missions of the user's trips, the others of events.
+    """
+    of_events = [node for node in graph.nodes if node.block.creates and node.hook]
+    creators = [node for node in graph.nodes if node.block.creates and not node.hook]
     if not creators:
-        return None, (), [errors.no_creator(graph)]
+        return (), (), [errors.no_creator(graph)]
     started = {edge.target for edge in graph.outgoing[START]}
     creator = next((node for node in creators if node.name in started), creators[0])
     found = [errors.second_creator(graph, n, creator) for n in creators if n is not creator]
     if creator.name not in started:
         found.append(errors.no_start(graph, creator))
+    creates = {node.name: node for node in (creator, *of_events)}
     edges = []
     for edge in graph.edges:
-        if edge.source == START and edge.target != creator.name:
-            # a second creator is wrong already, however it is reached
-            if edge.target not in {node.name for node in creators}:
-                found.append(errors.start_elsewhere(graph, edge, creator))
-        elif edge.source != START and edge.target == creator.name:
-            found.append(errors.into_creator(graph, edge, creator))
-        else:
+        told = _of_sources(graph, edge, creator, creates)
+        if told is None:
             edges.append(edge)
-    return creator, tuple(edges), found
+        else:
+            # a second creator is wrong already, however it is reached
+            found += [told] if edge.target not in {n.name for n in creators[1:]} else []
+    led_to = {edge.target for edge in edges if edge.source in graph.sources}
+    found += [errors.no_event(graph, node) for node in of_events if node.name not in led_to]
+    return tuple(creates.values()), tuple(edges), found
 
 
-def unreached(flow: Flow, creator: str, missed: Callable[[Node], bool]) -> list[Diagnostic]:
+def _of_sources(
+    graph: Graph, edge: Edge, creator: Node, creates: Mapping[str, Node]
+) -> Diagnostic | None:
+    """Return what is wrong with an edge, if a source leads elsewhere than to a creator of its own.
+
+    Or if a block leads to a creator.
+    """
+    target = creates.get(edge.target)
+    if edge.source not in graph.sources:
+        return errors.into_creator(graph, edge, target) if target else None
+    if edge.source == START:
+        return errors.start_elsewhere(graph, edge, creator) if target is not creator else None
+    if target is None or target is creator:
+        return errors.event_elsewhere(graph, edge, tuple(creates.values())[1:])
+    return None
+
+
+def unreached(
+    flow: Flow, creators: Sequence[str], missed: Callable[[Node], bool]
+) -> list[Diagnostic]:
     """Find unreachable blocks, one message for each connected group.
 
     A stuck mission lacks an arrow to a block that could take it: that such a block is unreached
     follows from it, and is not reported again. The same holds for blocks that other findings miss.
     """
     graph = flow.graph
-    reached = reachable(flow.arrows, [creator])
+    reached = reachable(flow.arrows, creators)
     # a second creator has its own message, and may be the way to others
     lost = subgraph(
         flow.arrows, (n.name for n in graph.nodes if n.name not in reached and not n.block.creates)
@@ -75,7 +99,7 @@ def _behind(lost: nx.DiGraph, first: str) -> tuple[str, ...]:
 def _creator_leads(graph: Graph, reached: Container[str], part: tuple[str, ...]) -> bool:
     """Whether an unreached creator, which has its own message, leads here."""
     return any(
-        edge.source != START
+        edge.source in graph.node
         and graph.node[edge.source].block.creates
         and edge.source not in reached
         for name in part
@@ -148,7 +172,7 @@ def spare(flow: Flow, stopped: Flow) -> list[Diagnostic]:
 def _left_by(flow: Flow, stopped: Flow) -> Iterator[tuple[Edge, tuple[Status, ...], bool]]:
     """Yield each edge with the statuses that leave its block, and whether any of them takes it."""
     for edge in flow.edges:
-        if edge.source != START and flow.leaves[edge.source]:
+        if edge.source in flow.graph.node and flow.leaves[edge.source]:
             leaving = ordered(flow.leaves[edge.source] | stopped.leaves[edge.source])
             yield edge, leaving, bool(flow.carries[edge] or stopped.carries[edge])
 

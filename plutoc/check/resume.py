@@ -55,18 +55,21 @@ def resumed(graph: Graph, points: Points) -> tuple[Place, ...]:
     )
 
 
-def entries(graph: Graph, points: Sequence[Points]) -> Mapping[str, frozenset[Status]]:
+def entries(
+    graph: Graph, points: Sequence[Points], of_events: Sequence[str]
+) -> Mapping[str, frozenset[Status]]:
     """Return the blocks at which missions resume, in the order of the source, with their statuses.
 
-    Not the creator: missions that return there start again.
+    Those that make missions of events among them, but not the other creator: missions that return
+    there start again.
     """
-    found: dict[str, set[Status]] = {}
+    found: dict[str, set[Status]] = {name: {Status.UNEXECUTED} for name in of_events}
     for place in (place for some in points for place in resumed(graph, some)):
         found.setdefault(place.node, set()).add(place.status)
     return {
         node.name: frozenset(found[node.name])
         for node in graph.nodes
-        if node.name in found and not node.block.creates
+        if node.name in found and (node.name in of_events or not node.block.creates)
     }
 
 

@@ -22,19 +22,21 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
 
     Raises `Rejected` with all errors of the graph, if it has any.
     """
-    creator, edges, found = reach.entry(graph)
-    if creator is None or (found and not graph.outgoing[creator.name]):
+    creators, edges, found = reach.entry(graph)
+    if not creators or (found and not graph.outgoing[creators[0].name]):
         raise Rejected(in_order(found))  # no mission moves: nothing else can be checked
-    flow = explore(graph, edges, (creation(creator.name),))
+    names = [node.name for node in creators]
+    begun = tuple(map(creation, names))
+    flow = explore(graph, edges, begun)
     parallels = branches(flow)
     unclosed = forks.unclosed(flow, parallels)
     flown = forks.flown(parallels, unclosed)
     # what a flight before a gate leads to is not told: the flight is
-    sure = explore(graph, edges, (creation(creator.name),), barred=flown) if flown else flow
+    sure = explore(graph, edges, begun, barred=flown) if flown else flow
     seen = {split.fork for split in sure.entries}
     open_forks = [wrong for fork, wrong in unclosed.items() if fork in seen]
     unwatched = parallel.unwatched_limits(sure, parallels)
-    lacking = reach.unreached(flow, creator.name, _missed(open_forks, unwatched))
+    lacking = reach.unreached(flow, names, _missed(open_forks, unwatched))
     if not flown:
         lacking += reach.starved(flow)
         found += parallel.written_twice(flow, parallels)
@@ -42,6 +44,8 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
     found += open_forks
     found += lacking
     found += unwatched
+    found += parallel.interrupted_twice(sure, parallels)
+    found += flights.along_nothing(graph)
     if found and (flown or not _vain(flow, flow)):
         raise Rejected(in_order(found))  # what missions do after a Stop would change none of it
     points = resume.nearest(flow)
@@ -65,7 +69,7 @@ def check(graph: Graph) -> tuple[Checked, tuple[Diagnostic, ...]]:
             dict.fromkeys((*ending.implicit_ends(flow), *ending.implicit_ends(stopped)))
         ),
         resumes=resume.resume_points(graph, (points, points_then)),
-        entries=resume.entries(graph, (points, points_then)),
+        entries=resume.entries(graph, (points, points_then), names[1:]),
         explored=len(flow.places),
     )
     return checked, in_order(_warnings(flow, stopped))

@@ -28,7 +28,7 @@ from plutoc.check.flow import Facts, Flow, Fork, Frame, Place, Split, Step
 from plutoc.check.forks import MOST_NESTED
 from plutoc.diagnostic import Rejected
 from plutoc.graph.digraph import endless_loops, loops, reachable, subgraph
-from plutoc.graph.model import END, START, Edge, Graph
+from plutoc.graph.model import END, Edge, Graph
 from plutoc_runtime.domain.status import Status
 
 Places = dict[Place, None]
@@ -61,6 +61,7 @@ def explore(
         rounds=rounds,
         numbers={name: number for number, name in enumerate(asked)},
         hooked=_hooked(graph, arrows),
+        breaking=_breaking(graph, arrows),
         idle=idle,
         barred=barred,
     )
@@ -104,6 +105,18 @@ def _hooked(graph: Graph, arrows: nx.DiGraph) -> frozenset[Edge]:
     )
 
 
+def _breaking(graph: Graph, arrows: nx.DiGraph) -> frozenset[str]:
+    """Return the blocks that launch flights which an event may break off."""
+    launching = [node.name for node in graph.nodes if node.block.launches]
+    breaks = {node.name for node in graph.nodes if node.block.interrupts}
+    if not breaks:
+        return frozenset()
+    onward = _without_launches(graph, arrows)
+    onward.add_edges_from((name, after) for name in launching for after in arrows[name])
+    onward.remove_edges_from([edge for edge in onward.edges if edge[1] in launching])
+    return frozenset(name for name in launching if breaks & reachable(onward, [name]))
+
+
 def stop_if_tangled(graph: Graph, places: int, steps: int = 0) -> None:
     """Raise `Rejected` beyond the limits of the exploration."""
     if places > MOST_PLACES or steps > MOST_STEPS:
@@ -128,6 +141,8 @@ class _Walk:
     """Those of them that repeat their answers."""
     hooked: frozenset[Edge]
     """The first edges of the branches in which a hook may put another trip first."""
+    breaking: frozenset[str]
+    """The blocks that launch flights which an event may break off."""
     idle: Collection[str]
     """If given, missions that leave these blocks, or have something to fly, are not explored."""
     barred: Collection[Fork]
@@ -158,7 +173,7 @@ class _Walk:
     def run(self, beginnings: Iterable[Place]) -> None:
         for edge in self.edges:
             self.outgoing.setdefault(edge.source, []).append(edge)
-            if edge.source == START:
+            if edge.source in self.graph.sources:
                 self.carries[edge] = {Status.UNEXECUTED}
         for place in beginnings:
             self.places[place] = None
@@ -185,7 +200,8 @@ class _Walk:
             if node.block.allocates or node.block.launches:
                 self.stray(place, place.frame.split)
                 return
-        ways = tuple(leaving(node, place, self.numbers.get(place.node)))
+        breaks = place.node in self.breaking
+        ways = tuple(leaving(node, place, self.numbers.get(place.node), breaks=breaks))
         for status, facts in unless_failed(ways) if self.idle else ways:
             self.leave(place, status, facts)
 

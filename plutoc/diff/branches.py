@@ -82,7 +82,7 @@ def _limits(side: Side) -> dict[str, tuple[Node, ...]]:
     """What is watched in flight, and by which blocks."""
     found: dict[str, tuple[Node, ...]] = {}
     for node in side.graph.nodes:
-        if node.block.limits:
+        if node.block.limits and not node.block.interrupts:
             what = limited(node.block)
             found[what] = (*found.get(what, ()), node)
     return found
@@ -90,7 +90,9 @@ def _limits(side: Side) -> dict[str, tuple[Node, ...]]:
 
 def _is_told(node: Node | None, elsewhere: dict[str, tuple[Node, ...]]) -> bool:
     """Return whether it is a limit that the other app knows nothing of: that is told as such."""
-    return node is not None and node.block.limits and limited(node.block) not in elsewhere
+    if node is None or not node.block.limits:
+        return False
+    return node.block.interrupts or limited(node.block) not in elsewhere
 
 
 def _by_origin(side: Side) -> _Forks:
@@ -108,7 +110,7 @@ def _acts(side: Side, fork: Fork) -> bool:
         if node is None or name == fork.gate or (name, status) in known:
             continue
         known[name, status] = None
-        if role(node) not in (Role.WATCHES, Role.LIMITS, Role.GATE):
+        if role(node) not in (Role.WATCHES, Role.LIMITS, Role.INTERRUPTS, Role.GATE):
             return True
         for left in side.checked.leaves[name]:
             ahead.extend((target, left) for target in side.routes[name, left])

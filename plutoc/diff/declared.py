@@ -9,10 +9,10 @@ from plutoc.diff.both import Both
 from plutoc.diff.match import Declared, declared
 from plutoc.diff.messages import declared as messages
 from plutoc.diff.model import Change
+from plutoc.graph.built_in import ACTIONS
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.chosen import may_be_chosen
 from plutoc.graph.model import Action, Category, Graph, Hook, Library, Node
-from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.fields import Entity, Field
 
 
@@ -88,7 +88,7 @@ def _abilities(both: Both, before: Category, after: Category) -> Iterator[Change
         return
     known = [both.hooks.get(name, name) for name in was]
     gained = [name for name in now if name not in known]
-    there = {*BUILT_IN, *(one.name for one in declared(both.new.graph))}
+    there = {*ACTIONS, *(one.name for one in declared(both.new.graph))}
     lost = [name for name in known if name not in now and name in there]
     if gained or lost:
         yield messages.abilities_changed(before, after, gained, lost)
@@ -113,7 +113,9 @@ def hooks(both: Both) -> Iterator[Change]:
 
 
 def _repeats(old: Declared, new: Declared) -> Iterator[Change]:
-    if isinstance(old, Action) and isinstance(new, Action) and old.repeat != new.repeat:
+    if not (isinstance(old, Action) and isinstance(new, Action)):
+        return
+    if old.along == new.along and old.repeat != new.repeat:
         yield messages.repeat_changed(old, new)
 
 

@@ -14,7 +14,7 @@ from plutoc.graph.model import END, Node
 from plutoc.source import Span
 from plutoc_runtime.domain.status import Status
 
-_WATCH = (Role.WATCHES, Role.LIMITS)
+_WATCH = (Role.WATCHES, Role.LIMITS, Role.INTERRUPTS)
 
 
 def reroutes(both: Both) -> tuple[Reroute, ...]:

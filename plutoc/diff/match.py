@@ -64,7 +64,8 @@ class _Matching:
 
 def _along_arrows(matching: _Matching, alike: Callable[[Node], Hashable]) -> None:
     """Match neighbours of what is matched: first those of which there is one only."""
-    known = [(START, START), (END, END), *matching.found.items()]
+    events = [(name, name) for name in matching.old.graph.sources[1:]]
+    known = [(START, START), *events, (END, END), *matching.found.items()]
     ahead = list(reversed(known))
 
     def extend(doubtful: bool) -> None:
@@ -106,7 +107,7 @@ def _around(
         if edge.target != END and edge.target not in known:
             found.setdefault(edge.target, []).append(("to", ordered(checked.carries[edge])))
     for edge in graph.incoming.get(name, ()):
-        if edge.source != START and edge.source not in known:
+        if edge.source in graph.node and edge.source not in known:
             found.setdefault(edge.source, []).append(("from", ordered(checked.carries[edge])))
     groups: _Groups = {}
     for neighbour, ways in found.items():
@@ -149,7 +150,7 @@ def _common(
 
 
 def _neighbours(graph: Graph) -> _Neighbours:
-    found: dict[str, dict[str, None]] = {name: {} for name in (START, *graph.node, END)}
+    found: dict[str, dict[str, None]] = {name: {} for name in (*graph.sources, *graph.node, END)}
     for edge in graph.edges:
         found[edge.source][edge.target] = None
         found[edge.target][edge.source] = None
@@ -164,13 +165,13 @@ def _declared(node: Node) -> Hashable:
     """All that is written behind a block's name."""
     choices = tuple((name, one.name) for name, one in node.choices)
     hook = node.hook.name if node.hook else None
-    return _kind(node), node.values, choices, hook, node.passed
+    return _kind(node), node.values, choices, hook, node.passed, node.event
 
 
 def _declared_but_hooks(node: Node) -> Hashable:
     """The same without the names of hooks, which may be others as well."""
     choices = tuple((name, None if one.hook else one.name) for name, one in node.choices)
-    return _kind(node), node.values, choices, node.passed
+    return _kind(node), node.values, choices, node.passed, node.event
 
 
 Declared = Action | Hook
@@ -239,7 +240,7 @@ def _signature(one: Declared, graph: Graph, blocks: Mapping[str, str]) -> Hashab
     parameters = tuple(sorted((p.name, p.type.value, p.default) for p in one.parameters))
     if isinstance(one, Action):
         able = sum(one.name in (category.actions or ()) for category in graph.categories)
-        return known, parameters, one.repeat, one.returns, one.takes, able
+        return known, parameters, one.repeat, one.along, one.returns, one.takes, able
     return known, parameters, one.emits, tuple(sorted(one.writes))
 
 

@@ -68,9 +68,9 @@ def missions_of(side: Side, node: Node, statuses: Sequence[Status]) -> str:
     match role(node), tuple(statuses):
         case Role.CREATES, _:
             return "a new mission"
-        case Role.WATCHES | Role.LIMITS, (Status.STANDBY,):
+        case Role.WATCHES | Role.LIMITS | Role.INTERRUPTS, (Status.STANDBY,):
             who = "a mission with trips left"
-        case Role.WATCHES | Role.LIMITS, (status,):
+        case Role.WATCHES | Role.LIMITS | Role.INTERRUPTS, (status,):
             who = f"a {status.value} mission"
         case Role.EVALUATES, (Status.STANDBY,):
             who = "a mission judged to need more trips"
@@ -148,7 +148,7 @@ def _visited(node: Node, status: Status) -> Phrase:
             return Phrase(f"~waits {wait}", f"waited {wait}")
         case Role.LAUNCHES:
             return Phrase("is ~launched", "was launched")
-        case Role.WATCHES | Role.LIMITS:
+        case Role.WATCHES | Role.LIMITS | Role.INTERRUPTS:
             return Phrase(f"is ~watched by `{name}`", f"was watched by `{name}`")
         case Role.EVALUATES if node.hook:
             by = f"judged by `{node.hook.name}`"

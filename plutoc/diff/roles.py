@@ -14,9 +14,11 @@ class Role(Enum):
 
     CREATES = "makes missions"
     RETRIES = "puts failed trips back"
+    SKIPS = "leaves failed trips out"
     ALLOCATES = "gives a mission a drone"
     HOLDS = "lets a mission wait"
     LAUNCHES = "starts a trip"
+    INTERRUPTS = "breaks flights off"
     LIMITS = "fails trips that take too long"
     WATCHES = "waits for the end of a trip"
     EVALUATES = "judges missions"
@@ -32,9 +34,11 @@ def role(node: Node) -> Role:
     found = (
         (block.creates, Role.CREATES),
         (block.retries, Role.RETRIES),
+        (block.skips, Role.SKIPS),
         (block.allocates, Role.ALLOCATES),
         (block.holds, Role.HOLDS),
         (block.launches, Role.LAUNCHES),
+        (block.interrupts, Role.INTERRUPTS),
         (block.limits, Role.LIMITS),
         (block.watches, Role.WATCHES),
         (block.evaluates, Role.EVALUATES),

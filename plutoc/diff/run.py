@@ -8,6 +8,7 @@ from plutoc.diff.blocks import blocks, settings
 from plutoc.diff.both import Both, side_by_side
 from plutoc.diff.branches import branches, gates, limits, order
 from plutoc.diff.declared import app, categories, fields, hooks
+from plutoc.diff.events import events
 from plutoc.diff.journeys import gained, journeys, reroutes, stops, without_swaps
 from plutoc.diff.messages.blocks import arranged_otherwise
 from plutoc.diff.model import Change, Difference, Importance, Version
@@ -30,6 +31,7 @@ def compare(old: Version, new: Version) -> Difference:
         *settings(both),
         *stops(both),
         *app(both),
+        *events(both),
         *hooks(both),
         *categories(both),
         *fields(both),

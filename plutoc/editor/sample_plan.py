@@ -55,7 +55,8 @@ def _lines(graph: Graph) -> Iterator[str]:
 
 def _pairs(graph: Graph) -> list[tuple[str, str]]:
     """Return the actions of missions: what is picked is released, everything else goes in turn."""
-    known = dict.fromkeys([*BUILT_IN, *(action.name for action in graph.actions)])
+    own = (action.name for action in graph.actions if not action.along)
+    known = dict.fromkeys([*BUILT_IN, *own])
     flown = graph.categories[:5]
     can = [name for name in known if any(c.actions is None or name in c.actions for c in flown)]
     single = [name for name in reversed(can) if name not in (PICK, RELEASE)]

@@ -17,6 +17,7 @@ from plutoc_runtime.flow.run import watch
 RESERVED = frozenset(
     {
         *("APP", "App", "BUILT_IN", "CATEGORIES", "FIELDS", "Mission", "Parameter"),
+        *("AlongAction", "CompanyOf", "Creator", "EVENTS", "EventsOf", "FOLLOW", "TracksOf"),
         *(
             "OwnAction",
             "Photo",
@@ -60,9 +61,9 @@ def carried_functions(plan: Plan) -> tuple[Carried, ...]:
             case _:
                 pass
     for node in plan.checked.graph.nodes:
-        own = [node.block.step, *_chosen(node)] if node.name in called else []
-        if node.block.limit is not None and node.name in limits:
-            own.append(node.block.limit)
+        own = [node.step, *_chosen(node)] if node.name in called else []
+        if node.limit is not None and node.name in limits:
+            own += [node.limit] if node.name in called else [node.limit, *_chosen(node)]
         found |= dict.fromkeys(Carried(package=node.package, function=one) for one in own)
     return tuple(found)
 

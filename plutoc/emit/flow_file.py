@@ -8,14 +8,16 @@ from dataclasses import dataclass, replace
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
+from plutoc.emit import reactions
 from plutoc.emit.callables import carried_functions, imports_of, names_of
 from plutoc.emit.embed import OURS
 from plutoc.emit.model_file import fields_of
 from plutoc.emit.python import Import, call, import_lines, items, literal, names, python_result
 from plutoc.emit.render import render
 from plutoc.emit.statements import Scope, asked_for, body_lines, bound
+from plutoc.emit.written import parameter
 from plutoc.graph.hooks import PHOTO
-from plutoc.graph.model import Action, Graph, Hook, Node, Parameter, Shown
+from plutoc.graph.model import Action, Graph, Hook, Node, Shown
 from plutoc.plan.bodies import branches, nodes, steps
 from plutoc.plan.model import Arrived, Body, Plan
 from plutoc_runtime.domain.fields import Entity, Field
@@ -96,7 +98,9 @@ def _imports(graph: Graph, written: str) -> list[Import]:
         imports += names("._runtime.flow.run", "declared")
     if "partial(" in written:
         imports += names("functools", "partial")
-    if graph.actions:
+    if graph.reacts or graph.along or graph.follows:
+        imports += reactions.parts_imports(graph, written)
+    if any(not action.along for action in graph.actions):
         imports += names("._runtime.flow.own_action", "OwnAction")
     if any(action.returns == PHOTO for action in graph.actions):
         imports += names("._runtime.domain.model", "Photo")
@@ -121,7 +125,9 @@ _WORD = re.compile(r"\b[A-Z]+\b")
 def _app(plan: Plan) -> list[str]:
     """Return the arguments of the `App`."""
     graph, entries = plan.checked.graph, plan.checked.entries
-    own = "".join(_entry(action) for action in graph.actions)
+    own = "".join(_entry(action) for action in graph.actions if not action.along)
+    if graph.follows:
+        own = f'        "follow": FOLLOW,\n{own}'
     evaluators = [hook for hook in graph.hooks if hook.kind is HookKind.EVALUATOR]
     arguments = [
         f"name={literal(graph.name)}",
@@ -138,9 +144,13 @@ def _app(plan: Plan) -> list[str]:
         arguments.append(f"evaluators={{{functions}}}")  # a line each
     if graph.results:
         arguments.append(f"results=(\n{''.join(map(_shown, graph.results))}    )")
-    if entries:
-        names = "".join(f"{literal(name)}," for name in entries)
+    resumes = [name for name in entries if not graph.node[name].block.creates]
+    if resumes:
+        names = "".join(f"{literal(name)}," for name in resumes)
         arguments.append(f"resumes=({names})")
+    if graph.reacts or graph.along or graph.follows:
+        along = "".join(f"{_action(one)}," for one in graph.actions if one.along)
+        arguments.append(reactions.parts(graph, along))
     return arguments
 
 
@@ -168,20 +178,13 @@ def _entry(action: Action) -> str:
 def _action(action: Action) -> str:
     arguments = [f"name={literal(action.name)}"]
     if action.parameters:
-        arguments.append(f"parameters={items(map(_parameter, action.parameters))}")
+        arguments.append(f"parameters={items(map(parameter, action.parameters))}")
     arguments += [f"repeat={literal(action.repeat)}", f"hook=hooks.{action.name}"]
     if action.takes is not None:
         arguments.append(f"takes={literal(action.takes)}")
     if action.returns is not None:
         arguments.append(f"returns={python_result(action.returns)}")
-    return call("OwnAction", arguments)
-
-
-def _parameter(parameter: Parameter) -> str:
-    arguments = [f"name={literal(parameter.name)}", f"type=Type.{parameter.type.name}"]
-    if parameter.default is not None:
-        arguments.append(f"default={literal(parameter.default)}")
-    return call("Parameter", arguments)
+    return call("AlongAction" if action.along else "OwnAction", arguments)
 
 
 def declared_of(checked: Checked) -> Mapping[str, str]:

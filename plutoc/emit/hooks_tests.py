@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
+from plutoc.emit import reactions
 from plutoc.emit.model_file import values_of
 from plutoc.emit.python import Import, call, import_lines, items, literal, names, status_tuple
 from plutoc.emit.render import formatted, render
@@ -66,7 +67,7 @@ def testing_file(graph: Graph) -> str:
     """Return the text of `testing.py`, not yet formatted."""
     given = ["APP", *(f"{on.value}={needed}" for on in Entity if (needed := _needed(graph, on)))]
     typed = bool(values_of(graph))
-    return render("testing.py", app=graph.name, given=", ".join(given), typed=typed)
+    return render("testing.py", app=graph.name, given=", ".join(given), typed=typed, events=graph.reacts)
 
 
 def _needed(graph: Graph, on: Entity) -> str:
@@ -118,11 +119,16 @@ def _action(action: Action, graph: Graph) -> HookTest:
     trip = [literal(action.name), *([f"parameters={given}"] if needed else [])]
     return HookTest(
         name=action.name,
-        fixtures=("kit", *(() if drone else ("drone",)), "context"),
+        fixtures=(
+            "kit",
+            *(() if drone else ("drone",)),
+            *(("trip",) if action.along else ()),
+            "context",
+        ),
         doc="It is done, or says why it cannot be.",
         lines=[
             *([f"drone = {drone}"] if drone else []),
-            f"trip = {call('kit.trip', trip)}",
+            *([] if action.along else [f"trip = {call('kit.trip', trip)}"]),
             "try:",
             f"    {_called(action, 'drone', 'trip', 'context')}",
             "except ActionFailed as failed:",
@@ -136,6 +142,8 @@ def _hook(hook: Hook, checked: Checked) -> HookTest:
     match hook.kind:
         case HookKind.EVALUATOR:
             return _evaluator(hook, checked.graph)
+        case HookKind.CREATOR:
+            return _creator(hook, checked.graph)
         case HookKind.POLICY:
             return HookTest(
                 name=hook.name,
@@ -165,8 +173,31 @@ def _for_all(hook: Hook) -> HookTest:
     )
 
 
+def _creator(hook: Hook, graph: Graph) -> HookTest:
+    named = {name: event for event, name in reactions.class_names(graph).items()}
+    made = reactions.taken_by(graph, hook)[0]
+    event = next((one for one in graph.events if one.name == named.get(made)), None)
+    blocks = {node.name for node in graph.nodes if node.hook is hook}
+    sources = (edge.source for edge in graph.edges if edge.target in blocks)
+    source = next(sources, "late")
+    fields = [one for one in event.fields if one.default is None] if event else []
+    given = [f"name={literal(source)}", 'id="1"', "time=0.0"]
+    given += [f"{one.name}={_sample(one)}" for one in fields]
+    return HookTest(
+        name=hook.name,
+        fixtures=("kit", "context"),
+        doc="It makes a mission of an event, or none.",
+        lines=[
+            f"event = {call(made, given)}",
+            f"made = {_called(hook, 'event', 'context')}",
+            "assert made is None or made.trips",
+        ],
+        uses=(made,),
+    )
+
+
 def _evaluator(hook: Hook, graph: Graph) -> HookTest:
-    own = (action.name for action in graph.actions)
+    own = (action.name for action in graph.actions if not action.along)
     flown = next((name for name in (*BUILT_IN, *own) if able(graph, name)), "")
     value = _VALUES.get(flown, "")
     return HookTest(

@@ -22,7 +22,7 @@ NAME = "pluto.lock"
 HOOKS, FORMER = "hooks", "former_hooks"
 """The tables of the hooks that the app declares, and of those that it has declared before."""
 PROBE = "probe"
-KINDS = ("action", "evaluator", "modifier", "policy", PROBE)
+KINDS = ("action", "evaluator", "modifier", "policy", "creator", PROBE)
 """What a hook was declared as; what tells whether an action was done is declared with that."""
 _LARGEST = 1 << 24
 """In bytes."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from plutoc.emit import reactions
 from plutoc.emit.modules import EmbedError
 from plutoc.emit.python import (
     PYTHON as OWN_PYTHON,
@@ -30,6 +31,8 @@ from plutoc.graph.model import AppField, Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.own_fields import OwnField
 from plutoc_runtime.domain.quantities import Type
+from plutoc_runtime.events.company import AlongField
+from plutoc_runtime.events.tracks import TRIP_FIELDS, TrackField
 
 PYTHON: dict[FieldType, str] = {
     FieldType.TIME: "float | None",
@@ -66,12 +69,19 @@ def model_file(graph: Graph) -> str:
     return render(
         "model.py",
         app=graph.name,
-        imports=import_lines([*_imports(fields, has_policies(graph)), *_imports_of_results(graph)]),
+        imports=import_lines(
+            [
+                *_imports(fields, has_policies(graph)),
+                *_imports_of_results(graph),
+                *reactions.imports(graph),
+            ]
+        ),
         policies=has_policies(graph),
         result=_generic("Result", graph),
         results=_generic("Results", graph),
         mission=_attributes(fields, Entity.MISSION),
         trip=_attributes(fields, Entity.TRIP),
+        events=reactions.classes(graph),
         fields=[_field(field) for field in fields],
         categories=[
             CategoryEntry(declaration=category.declaration, written=_category(category))
@@ -91,6 +101,11 @@ def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
         imports += names("._runtime.domain.fields", "Entity")
     if any(isinstance(field.type, FieldType) for field in fields):
         imports += names("._runtime.domain.fields", "FieldType")
+    if any(isinstance(field, AlongField) for field in fields):
+        imports += names("._runtime.events.company", "Along", "AlongField")
+    if any(isinstance(field, TrackField) for field in fields):
+        imports += names("._runtime.events.tracks", "TrackField")
+        imports += names("._runtime.domain.quantities", "Type")
     if any(isinstance(field, OwnField) for field in fields):
         imports += names("._runtime.domain.own_fields", "OwnField")
         imports += names("._runtime.domain.quantities", "Type")
@@ -147,6 +162,8 @@ def _field(field: Field) -> str:
     ]
     if field.default is not None:
         arguments.append(f"default={literal(field.default)}")
+    if isinstance(field, AlongField):
+        arguments.append(f"actions={items(map(literal, field.actions))}")
     return call(type(field).__name__, arguments)
 
 
@@ -192,11 +209,31 @@ def fields_of(graph: Graph) -> tuple[Field, ...]:
                     f"two blocks of the graph want different things of a {field.on.value}'s "
                     f"{field.name}: {same.type.value} and {field.type.value} ({node.name})"
                 )
+    if any(node.block.launches for node in graph.nodes):
+        if graph.reacts or graph.along or graph.follows:
+            found.update(((Entity.TRIP, field.name), field) for field in TRIP_FIELDS)
+        if graph.along:
+            found[Entity.TRIP, "along"] = _along(graph)
     return tuple(field for entity in Entity for field in found.values() if field.on is entity)
+
+
+def _along(graph: Graph) -> AlongField:
+    return AlongField(
+        name="along",
+        on=Entity.TRIP,
+        type=FieldType.ALONG,
+        label="On the way",
+        doc="What is done on the way to the target.",
+        actions=graph.along,
+    )
 
 
 def python_type(field: Field) -> str:
     """Return the annotation of a field."""
+    if isinstance(field, AlongField):
+        return "Along | None"
+    if isinstance(field, TrackField):
+        return "str | None"
     if isinstance(field.type, Type):
         return OWN_PYTHON[field.type]
     written = PYTHON[field.type]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from inspect import CO_ITERABLE_COROUTINE, iscoroutinefunction
 from typing import Any
 
-from plutoc.block import Choice, HookParam, Param
+from plutoc.block import Choice, EventParam, HookParam, Param
 from plutoc.emit.callables import WATCH, Names, chosen
 from plutoc.emit.embed import Carried
 from plutoc.emit.python import call, items, literal
@@ -119,10 +119,10 @@ def _go_through(called: str, following: Step | None) -> Iterator[str]:
 
 
 def _call(node: Node, branches: tuple[str, ...], scope: Scope) -> str:
-    step = Carried(package=node.package, function=node.block.step)
+    step = Carried(package=node.package, function=node.step)
     arguments = ("run", "status", *branches, *_keywords(node, scope))
     called = call(scope.names[step], arguments)
-    called = f"await {called}" if _waits(node.block.step) else called
+    called = f"await {called}" if _waits(node.step) else called
     given = scope.declared.get(node.name)
     return call("declared", (literal(node.name), called, given)) if given else called
 
@@ -137,8 +137,8 @@ def _wait(watch: Watch, scope: Scope) -> Iterator[str]:
     """Yield a wait; where it stands for several blocks, a limit a line and its declaration above."""
     limits: list[tuple[str, str]] = []
     for node in watch.watchers:
-        if node.block.limit is not None:
-            function = scope.names[Carried(package=node.package, function=node.block.limit)]
+        if node.limit is not None:
+            function = scope.names[Carried(package=node.package, function=node.limit)]
             limits.append((node.declaration, call(function, ("run", *_keywords(node, scope)))))
     name = scope.names[WATCH]
     if limits and isinstance(watch.instead, Join):
@@ -174,10 +174,12 @@ def _keywords(node: Node, scope: Scope) -> Iterator[str]:
     block = node.block
     if block.named:
         yield f"block={literal(node.name)}"
-    for param in block.params:
+    for param in node.handed:
         match param:
             case Param(name=name) if (node.name, name) not in scope.left_out:
                 yield f"{name}={literal(dict(node.values).get(name))}"
+            case EventParam(name=name):
+                yield f"{name}={literal(node.event)}"
             case HookParam():
                 yield f"hook={_hook(node)}"
                 if param.instead and node.hook and node.passed:

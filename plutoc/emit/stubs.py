@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.check.model import Checked
+from plutoc.emit import reactions
 from plutoc.emit.python import PYTHON, UNITS, annotation, python_result, status_tuple
 from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc_runtime.domain.status import Status
@@ -55,7 +56,10 @@ def stubs(checked: Checked) -> list[Stub]:
     """Return the stubs of all hooks, in the order in which the app declares them."""
     graph = checked.graph
     taken = set(in_order(graph))
-    made = {action.name: _action(action, taken) for action in graph.actions}
+    made = {
+        action.name: (_along if action.along else _action)(action, taken)
+        for action in graph.actions
+    }
     made |= {hook.name: _hook(hook, checked, taken) for hook in graph.hooks}
     return [made[name] for name in in_order(graph)]
 
@@ -65,7 +69,8 @@ def exports_of(graph: Graph, *, former: bool) -> dict[str, str]:
     less: tuple[str, ...] = () if graph.hooks or graph.actions or former else _FOR_HOOKS
     if not has_policies(graph):
         less += _FOR_POLICIES
-    return {name: home for name, home in EXPORTS.items() if name not in less}
+    there = {name: home for name, home in EXPORTS.items() if name not in less}
+    return dict(sorted((there | reactions.exports(graph)).items()))
 
 
 def has_policies(graph: Graph) -> bool:
@@ -111,6 +116,19 @@ _RESULTS = {
 """What a stub returns, by its type."""
 
 
+def _along(action: Action, taken: set[str]) -> Stub:
+    at_target = _action(action, taken)
+    given = _RESULTS.get(python_result(action.returns), "None") if action.returns else "None"
+    doc = [
+        f"Do {action.name} on the way: from the launch to the end of the last leg.",
+        "",
+        *_units(action.parameters),
+        "`context.live(drone)` says where the drone is. It may return before; what it returns goes to",
+        "the result store. Raise ActionFailed to fail the trip.",
+    ]
+    return replace(at_target, doc=doc, lines=[_log(action.name), f"return {given}"])
+
+
 def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
     match hook.kind:
         case HookKind.EVALUATOR:
@@ -124,6 +142,16 @@ def _hook(hook: Hook, checked: Checked, taken: set[str]) -> Stub:
                 doc=["Judge a finished mission by what its actions gave.", *units],
                 lines=[f'return Verdict(ok=True, log=("{verdict}",))'],
                 uses=("Mission", "Results", "Verdict"),
+            )
+        case HookKind.CREATOR:
+            events = reactions.taken_by(checked.graph, hook)
+            return Stub(
+                name=hook.name,
+                coroutine="",
+                signature=f"(event: {' | '.join(events)}, context: Context) -> Mission | None",
+                doc=["Make a mission of an event; None makes none."],
+                lines=[_log(hook.name), "return None"],
+                uses=("Context", *events, "Mission"),
             )
         case HookKind.POLICY:
             return Stub(

@@ -42,7 +42,7 @@ def sample(graph: Graph) -> MissionTable:
 
 def _missions(graph: Graph) -> list[MissionTable]:
     """Return a mission for each action; items only where drones can do nothing else."""
-    own = {action.name: action for action in graph.actions}
+    own = {action.name: action for action in graph.actions if not action.along}
     can = [name for name in (*BUILT_IN, *own) if able(graph, name)]
     needed = _needed(graph, Entity.MISSION)
     fields = "".join(f", {given}" for given in _needed(graph, Entity.TRIP))

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic, Related, error
 from plutoc.edits import without_arrow
+from plutoc.graph.model import START
 from plutoc.graph.names import in_snake_case
 from plutoc.graph.wording import all_of, alternatives, meant
 from plutoc.source import Source, Span
@@ -60,12 +61,17 @@ def type_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:
 
 def into_start(source: Source, name: Name) -> Diagnostic:
     """An edge to where missions come from."""
+    what = "every mission begins there once" if name.text == START else "it comes from outside"
     return error(
         "P1033",
-        "no edge leads to `start`: every mission begins there once",
+        f"no edge leads to `{name.text}`: {what}",
         source,
         name.span,
-        help="lead it to a block, for instance the one that gives the mission its next drone",
+        help=(
+            "lead it to a block, for instance the one that gives the mission its next drone"
+            if name.text == START
+            else f'a hook raises it: `context.emit("{name.text}")`'
+        ),
     )
 
 
@@ -123,11 +129,11 @@ def refused_status(
     )
 
 
-def guarded_start(source: Source, span: Span) -> Diagnostic:
-    """A guard on an edge from `start`."""
+def guarded_start(source: Source, span: Span, name: str) -> Diagnostic:
+    """A guard on an edge from `start`, or from an event."""
     return error(
         "P1037",
-        "an edge from `start` has no guard: nothing has happened to a mission there yet",
+        f"an edge from `{name}` has no guard: nothing has happened to a mission there yet",
         source,
         span,
         help="remove the guard",

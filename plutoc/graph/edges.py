@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise, product
 
@@ -36,11 +36,13 @@ def edges(
     flows: Sequence[FlowDecl],
     scope: Scope,
     nodes: Mapping[str, Node],
+    events: Collection[str],
     unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> tuple[Edge, ...]:
     """Resolve all edges, in the order of the source."""
-    check_stops(source, flows, scope, nodes, unclear, found)
+    sources = {START, *(event for event in events if event not in nodes)}
+    check_stops(source, flows, scope, nodes, sources, unclear, found)
     resolved: list[Edge] = []
     of_flow: list[FlowDecl] = []
     left = MOST_EDGES
@@ -55,12 +57,13 @@ def edges(
             *(accepts_by_guard(target.text, nodes) for target in targets)
         )
         guard = statuses(source, given.statuses, found, accepted) if given else []
-        if given and any(name.text == START for name in flow.stops[-2].names):
-            found.append(errors.guarded_start(source, given.span))
+        guarded = next((n.text for n in flow.stops[-2].names if n.text in sources), None)
+        if given and guarded:
+            found.append(errors.guarded_start(source, given.span, guarded))
         _check_guard(source, guard, targets, nodes, found)
         taken = frozenset(status for _, status in guard)
         for arrow in _arrows(flow):
-            if _is_possible(arrow, nodes):
+            if _is_possible(arrow, nodes, sources):
                 of_flow.append(flow)
                 resolved.append(_edge(arrow, tuple(status for _, status in guard), taken, nodes))
     _check_twice(source, resolved, of_flow, found)
@@ -86,10 +89,10 @@ def _arrows(flow: FlowDecl) -> Iterator[Arrow]:
             yield Arrow(source=source, target=target, guard=flow.guard if i == last else None)
 
 
-def _is_possible(arrow: Arrow, nodes: Mapping[str, Node]) -> bool:
+def _is_possible(arrow: Arrow, nodes: Mapping[str, Node], sources: Collection[str]) -> bool:
     """Return whether both ends are there; where they are not, that is told elsewhere."""
     source, target = arrow.source.text, arrow.target.text
-    return (source == START or source in nodes) and (target == END or target in nodes)
+    return (source in sources or source in nodes) and (target == END or target in nodes)
 
 
 def _edge(

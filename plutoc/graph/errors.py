@@ -98,15 +98,16 @@ def differs_in_case_only(source: Source, name: Name, first: Name) -> Diagnostic:
     )
 
 
-def built_in_name(source: Source, name: Name) -> Diagnostic:
-    """A hook or an action with the name of an action that every app has."""
+def built_in_name(source: Source, name: Name, what: str, along: bool = False) -> Diagnostic:
+    """A declaration with the name of an action or an event that every app has."""
+    also = f"; to have it done on the way, write `action {name.text} along`" if along else ""
     return error(
         "P1007",
-        f"`{name.text}` is an action that every app has",
+        f"`{name.text}` is {what} that every app has",
         source,
         name.span,
         label="declared once more",
-        help="remove this declaration to use that action, or choose another name",
+        help=f"remove this declaration to use that one, or choose another name{also}",
     )
 
 
@@ -255,10 +256,10 @@ def unknown_type(
 def unknown_repeat(
     source: Source, name: Name, known: Sequence[str], types: Sequence[str]
 ) -> Diagnostic:
-    """A last word of an action that is none of the three."""
+    """A last word of an action that is none of those that there are."""
     return error(
         "P1027",
-        f"whether an action may be repeated is said by {either(known)}, not `{name.text}`",
+        f"an action ends with {either(known)}, not with `{name.text}`",
         source,
         name.span,
         help=(
@@ -357,9 +358,12 @@ def unused_action(source: Source, name: Name) -> Diagnostic:
 
 def clashing_parameter(source: Source, name: Name, owner: str) -> Diagnostic:
     """A parameter with the name of something that its hook gets anyway."""
+    what = f"a parameter of {owner}", "its hook gets that already"
+    if owner == "an event":
+        what = "a field of an event", "every event has that"
     return error(
         "P1038",
-        f"a parameter of {owner} cannot be named `{name.text}`: its hook gets that already",
+        f"{what[0]} cannot be named `{name.text}`: {what[1]}",
         source,
         name.span,
         label="choose another name",

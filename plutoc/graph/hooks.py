@@ -7,10 +7,10 @@ from collections.abc import Collection, Sequence
 
 from plutoc.block import IN_GRAPH, HookKind
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import errors, names, value_errors
-from plutoc.graph.model import Action, Hook, Parameter
+from plutoc.graph import built_in, errors, event_errors, names, value_errors
+from plutoc.graph.model import Action, Event, Hook, Parameter
 from plutoc.graph.names import Style
-from plutoc.graph.scope import ACTION, HOOK_ROLES
+from plutoc.graph.scope import ACTION, ALONG, EVENT, HOOK_ROLES
 from plutoc.graph.values import typed, written
 from plutoc.source import Source
 from plutoc.syntax import tree
@@ -18,35 +18,63 @@ from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
 REPEATS = ("safe", "once", "ask")
+LAST_WORDS = (*REPEATS, ALONG)
+"""What an action can end with."""
 PHOTO = "photo"
 RETURNS = (*(kind.value for kind in Type), PHOTO)
 """What an action can give: what its parameters can be, or a photo."""
 
 _ALREADY_THERE = {
     ACTION: frozenset({"drone", "trip", "context"}),
+    EVENT: frozenset({"name", "id", "time", "at", "track", "mission", "trip", "drone"}),
     HOOK_ROLES["evaluator"]: frozenset({"mission", "results", "run", "status", "hook", "block"}),
     HOOK_ROLES["modifier"]: frozenset({"mission", "context", "run", "status", "hook", "block"}),
 }
-"""What a hook, or the step that calls it, gets besides its parameters."""
+"""What a hook, or the step that calls it, gets besides its parameters; what an event has anyway."""
 
 
 def action(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -> Action:
     """Resolve an action of the app's own."""
     repeat, returns = declared.repeat, declared.returns
     if returns is not None and returns.text not in RETURNS:
-        swapped = repeat is not None and returns.text in REPEATS and repeat.text in RETURNS
+        swapped = repeat is not None and returns.text in LAST_WORDS and repeat.text in RETURNS
         meant = f"`-> {repeat.text} {returns.text}`" if repeat and swapped else None
         found.append(errors.unknown_type(source, returns, RETURNS, meant))
-    elif repeat is not None and repeat.text not in REPEATS:  # of two wrong words one is told
-        found.append(errors.unknown_repeat(source, repeat, REPEATS, RETURNS))
+    elif repeat is not None and repeat.text not in LAST_WORDS:  # of two wrong words one is told
+        found.append(errors.unknown_repeat(source, repeat, LAST_WORDS, RETURNS))
+    along = repeat is not None and repeat.text == ALONG
+    if along and declared.takes is not None:
+        found.append(event_errors.takes_along(source, declared.takes.span, declared.name.text))
     given = parameters(source, declared.parameters, ACTION, found)
     return Action(
         name=declared.name.text,
         parameters=given,
         returns=returns.text if returns and returns.text in RETURNS else None,
-        repeat=repeat.text if repeat else "once",
-        takes=_takes(source, declared, given, found),
+        repeat="safe" if along else repeat.text if repeat else "once",
+        along=along,
+        takes=None if along else _takes(source, declared, given, found),
         declaration=_declaration(declared),
+        span=declared.name.span,
+    )
+
+
+def along_built_in(source: Source, declared: tree.ActionDecl, found: list[Diagnostic]) -> str:
+    """Return the built-in action that is declared to be done on the way, too."""
+    name = declared.name
+    if name.text not in built_in.ALONG:
+        found.append(event_errors.never_along(source, name, built_in.ALONG))
+    elif declared.parameters or declared.returns or declared.takes:
+        found.append(event_errors.only_along(source, declared.span, name.text))
+    return name.text
+
+
+def event(source: Source, declared: tree.EventDecl, found: list[Diagnostic]) -> Event:
+    """Resolve an event of the app's own."""
+    fields = ", ".join(map(declaration, declared.fields))
+    return Event(
+        name=declared.name.text,
+        fields=parameters(source, declared.fields, EVENT, found, "a field of an event"),
+        declaration=f"event {declared.name.text}{f'({fields})' if fields else ''}",
         span=declared.name.span,
     )
 
@@ -93,7 +121,7 @@ def declaration(one: tree.Parameter) -> str:
 
 
 def hook(source: Source, declared: tree.HookDecl, found: list[Diagnostic]) -> Hook:
-    """Resolve an evaluator, a modifier or a policy."""
+    """Resolve an evaluator, a modifier, a policy or a creator."""
     emitted = {status for _, status in statuses(source, declared.emits, found)}
     for name in declared.writes:
         if not names.is_well_formed(name.text):

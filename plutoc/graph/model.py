@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
-from plutoc.block import IN_GRAPH, Block, HookKind
+from plutoc.block import IN_GRAPH, AnyParam, Block, Given, HookKind, HookParam, Param
 from plutoc.source import Source, Span
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
@@ -66,11 +68,25 @@ class Action:
     """The type of what it gives: one of parameters, or `photo`; None: the app does not say."""
     repeat: str
     """`safe`, `once` or `ask`: may it be repeated after a crash?"""
+    along: bool = False
+    """It is done on the way, from the launch to the last leg's end."""
     takes: float | str | None
     """The seconds that plans reckon with, or the parameter that says so; None: the app does not say."""
     declaration: str
     """`action spray(dose: mass = 50 mg) -> float once takes 20 s`: canonical, on one line, texts left out."""
     span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Event:
+    """What can happen in an app: declared, or built in."""
+
+    name: str
+    fields: tuple[Parameter, ...] = ()
+    declaration: str = ""
+    """`event intruder(kind: text)`: canonical, on one line, texts left out; empty: it is built in."""
+    span: Span | None = None
+    """Its name, where it is declared."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +108,7 @@ class Shown:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Hook:
-    """An evaluator, a modifier or a policy of the app."""
+    """An evaluator, a modifier, a policy or a creator of the app."""
 
     kind: HookKind
     name: str
@@ -145,6 +161,8 @@ class Node:
     hook: Hook | None
     passed: tuple[tuple[str, Plain], ...]
     """The hook's own parameters, given or default, in the hook's order."""
+    event: str | None = None
+    """The event that it waits for."""
     declaration: str
     """`timer = TimerMonitor(default: 5 min)`: canonical, on one line, texts left out."""
     span: Span
@@ -161,6 +179,36 @@ class Node:
         return out
 
     @property
+    def instead(self) -> Given | None:
+        """The functions that stand for the block's own, as a parameter is given."""
+        values = dict(self.values)
+        return next((one for one in self.block.given if values.get(one.param) is not None), None)
+
+    @property
+    def step(self) -> Callable[..., Any]:
+        """The function that the flow calls."""
+        return self.instead.step if self.instead else self.block.step
+
+    @property
+    def limit(self) -> Callable[..., Any] | None:
+        """What it adds to a wait for the end of the trip."""
+        return self.instead.limit if self.instead else self.block.limit
+
+    @property
+    def handed(self) -> Iterator[AnyParam]:
+        """The parameters that its step gets."""
+        values, free = dict(self.values), {one.param for one in self.block.given}
+        for param in self.block.params:
+            left = isinstance(param, Param) and param.name in free and values[param.name] is None
+            if not left and not (isinstance(param, HookParam) and not param.handed):
+                yield param
+
+    @property
+    def asks(self) -> bool:
+        """Whether its step gets what a user wrote: in the source, in the missions file."""
+        return bool(self.block.needs or self.block.uses) or any(True for _ in self.handed)
+
+    @property
     def emits(self) -> frozenset[Status]:
         """The statuses that it can emit at all."""
         return frozenset().union(*map(self.emitted, IN_GRAPH))
@@ -168,7 +216,7 @@ class Node:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Edge:
-    """An arrow from a block to a block, or from `start`, or to `end`."""
+    """An arrow from a block to a block, or from a source, or to `end`."""
 
     source: str
     target: str
@@ -193,7 +241,11 @@ class Graph:
     """Never empty: an app without a category has one that can do everything."""
     fields: tuple[AppField, ...] = ()
     """Of the app's own: missions' before trips', in the order of the source."""
+    events: tuple[Event, ...] = ()
+    """Those that the app declares, in the order of the source."""
     actions: tuple[Action, ...]
+    along: tuple[str, ...] = ()
+    """The actions that can be done on the way, built-in ones among them, in the order of the source."""
     results: tuple[Shown, ...] = ()
     """What the app says of results, in the order of the source; then what its own actions say."""
     hooks: tuple[Hook, ...]
@@ -213,9 +265,29 @@ class Graph:
         return {node.name: node for node in self.nodes}
 
     @cached_property
+    def sources(self) -> tuple[str, ...]:
+        """Where missions come from: `start`, and the events that lead somewhere, in that order."""
+        known = {START: None, **{event.name: None for event in self.events}}
+        drawn = {edge.source: None for edge in self.edges if edge.source not in self.node}
+        return tuple(name for name in known | drawn if name in drawn or name == START)
+
+    @cached_property
+    def reacts(self) -> bool:
+        """Whether anything here has to do with events."""
+        return bool(self.events or len(self.sources) > 1 or any(n.event for n in self.nodes))
+
+    @cached_property
+    def follows(self) -> bool:
+        """Whether its drones can follow what moves: they are said to, or can do all, and it has events."""
+        return any(
+            bool(self.events) if category.actions is None else "follow" in category.actions
+            for category in self.categories
+        )
+
+    @cached_property
     def outgoing(self) -> dict[str, tuple[Edge, ...]]:
-        """The edges that leave each block, and `start`."""
-        by_source: dict[str, list[Edge]] = {name: [] for name in (START, *self.node)}
+        """The edges that leave each block, and each source."""
+        by_source: dict[str, list[Edge]] = {name: [] for name in (*self.sources, *self.node)}
         for edge in self.edges:
             by_source[edge.source].append(edge)
         return {name: tuple(edges) for name, edges in by_source.items()}

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
-from plutoc.block import Choice, HookKind, HookParam, Param
+from plutoc.block import Choice, EventParam, HookKind, HookParam, Param
 from plutoc.diagnostic import Diagnostic
-from plutoc.graph import value_errors
+from plutoc.graph import event_errors, value_errors
 from plutoc.graph.model import Choose, Hook, Node, Parameter, Plain
 from plutoc.graph.names import near
 from plutoc.graph.packages import Packages, find
-from plutoc.graph.scope import ACTION, HOOK_ROLES, Scope
+from plutoc.graph.scope import ACTION, EVENT, HOOK_ROLES, Scope
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.graph.values import EXAMPLES, at_least, once_each, typed, written
 from plutoc.source import Source
@@ -28,6 +28,8 @@ class Place:
     scope: Scope
     hooks: Mapping[str, Hook]
     """Actions, too."""
+    events: Collection[str]
+    """Those of the app before the built-in ones."""
     partial: frozenset[str]
     """Hooks with a mistake in their declaration: what parameters they take is not certain."""
     packages: Packages
@@ -83,6 +85,14 @@ def node(place: Place, declared: BlockDecl) -> Node | None:
         ),
         hook=hook,
         passed=_passed(place, declared, passed, given, strange),
+        event=next(
+            (
+                _event(place, declared, param, given.get(param.name))
+                for param in block.params
+                if isinstance(param, EventParam)
+            ),
+            None,
+        ),
         declaration=_declaration(declared),
         span=declared.span,
         name_span=declared.name.span,
@@ -138,6 +148,34 @@ def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
         )
     )
     return default
+
+
+def _event(
+    place: Place, declared: BlockDecl, param: EventParam, argument: Argument | None
+) -> str | None:
+    """Resolve the event that a block waits for."""
+    known = list(place.events)
+    if argument is None:
+        if param.required:
+            _missing(place, declared, param.name, known[0])
+        return None
+    name = _name(place, argument.value)
+    if name is None:
+        example, mended = f"{param.name}: {known[0]}", _unquoted(argument, known)
+        span = argument.value.span
+        place.found.append(
+            value_errors.wrong_type(
+                place.source, span, param.name, "the name of an event", example, mended
+            )
+        )
+        return None
+    if name.text in place.events:
+        return name.text
+    if not place.unclear.may_declare(name.text):
+        one = place.scope.get(name.text)
+        role = one.role if one and one.role != EVENT else None
+        place.found.append(event_errors.unknown_event(place.source, name, role, known))
+    return None
 
 
 def _hook(

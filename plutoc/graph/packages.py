@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from plutoc.block import Block, HookParam, Param
+from plutoc.block import Block, EventParam, HookParam, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, value_errors
 from plutoc.graph.names import near
@@ -114,7 +114,9 @@ def _fits(block: Block, declared: BlockDecl, slips: bool) -> bool:
     given = {argument.name.text for argument in declared.arguments}
     own = {param.name for param in block.params}
     passes = any(isinstance(param, HookParam) and param.passes for param in block.params)
-    required = {p.name for p in block.params if isinstance(p, Param | HookParam) and p.required}
+    required = {
+        p.name for p in block.params if isinstance(p, Param | HookParam | EventParam) and p.required
+    }
     if slips:
         given = {next(iter(near(each, own - given)), each) for each in given - own} | given & own
     return required <= given and (passes or given <= own)

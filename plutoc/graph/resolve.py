@@ -7,16 +7,22 @@ from dataclasses import replace
 
 from plutoc.block import IN_GRAPH, HookKind, HookParam
 from plutoc.diagnostic import Diagnostic, Severity, accept_or_raise
-from plutoc.graph import categories, errors, hooks
+from plutoc.graph import categories, errors, event_errors, hooks
+from plutoc.graph.built_in import ACTIONS, EVENTS
 from plutoc.graph.cascades import each_name_once, told_once
 from plutoc.graph.chosen import without_a_value
 from plutoc.graph.edges import edges
 from plutoc.graph.fields import fields
-from plutoc.graph.model import FIRST_VERSION, Action, Graph, Hook, Node
+from plutoc.graph.model import FIRST_VERSION, Action, Event, Graph, Hook, Node
 from plutoc.graph.nodes import Place, node
 from plutoc.graph.packages import packages_of, unused_packages
 from plutoc.graph.results import results
-from plutoc.graph.scope import check_app_name, scope_of, spoilt_names
+from plutoc.graph.scope import (
+    check_app_name,
+    is_built_in_along,
+    scope_of,
+    spoilt_names,
+)
 from plutoc.graph.settings import libraries, version
 from plutoc.graph.stops import meant_to_declare
 from plutoc.graph.uncertain_names import bad_statements, uncertain_names
@@ -28,12 +34,13 @@ from plutoc.syntax.tree import (
     BlockDecl,
     Bool,
     CategoryDecl,
+    EventDecl,
     File,
     FlowDecl,
     HookDecl,
     Name,
+    Statement,
 )
-from plutoc_runtime.domain.actions import BUILT_IN
 
 
 def resolve(file: File, blocks: Blocks) -> tuple[Graph, tuple[Diagnostic, ...]]:
@@ -53,24 +60,32 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
     packages = packages_of(file, blocks, found)
     actions: list[Action] = []
     app_hooks: list[Hook] = []
+    events: list[Event] = []
+    along: dict[str, None] = {}
     partial: set[str] = set()
     for declared in statements:
         before = len(found)
         match declared:
+            case ActionDecl() if is_built_in_along(declared):
+                along[hooks.along_built_in(source, declared, found)] = None
             case ActionDecl():
                 actions.append(hooks.action(source, declared, found))
+                along |= {actions[-1].name: None} if actions[-1].along else {}
+            case EventDecl():
+                events.append(hooks.event(source, declared, found))
             case HookDecl():
                 app_hooks.append(hooks.hook(source, declared, found))
             case _:
                 continue
         if len(found) > before:
             partial.add(declared.name.text)
-    known_actions = dict.fromkeys([*BUILT_IN, *(action.name for action in actions)])
+    known_actions = dict.fromkeys([*ACTIONS, *(action.name for action in actions)])
     category_decls = [s for s in statements if isinstance(s, CategoryDecl)]
     place = Place(
         source=source,
         scope=scope,
         hooks={hook.name: hook for hook in (*map(_as_hook, actions), *app_hooks)},
+        events=dict.fromkeys([*(event.name for event in events), *EVENTS]),
         partial=frozenset(partial),
         packages=packages,
         unclear=unsure,
@@ -97,11 +112,13 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         )
         or (categories.implicit(),),
         fields=fields(source, statements, nodes, found),
+        events=tuple(events),
         actions=tuple(actions),
+        along=tuple(along),
         results=results(source, statements, actions, partial, unsure, found),
         hooks=tuple(app_hooks),
         nodes=tuple(nodes),
-        edges=edges(source, flows, scope, by_name, unsure, found),
+        edges=edges(source, flows, scope, by_name, place.events, unsure, found),
         version=number.value if number else FIRST_VERSION,
         version_span=number.span if number else None,
         libraries=libraries(file, found),
@@ -112,8 +129,9 @@ def resolved(file: File, blocks: Blocks) -> tuple[Graph, list[Diagnostic]]:
         found.extend(unused_packages(file))
         found.extend(_unused_hooks(source, app_hooks, nodes, block_decls))
         found.extend(_unused_actions(source, actions, category_decls, block_decls))
+        found.extend(_unused_events(source, statements, flows, block_decls))
     fixed = {*kinds, *(status.value for status in IN_GRAPH)}
-    return graph, told_once(source, each_name_once(found), {*scope, *BUILT_IN}, fixed)
+    return graph, told_once(source, each_name_once(found), {*scope, *ACTIONS, *EVENTS}, fixed)
 
 
 def _as_hook(action: Action) -> Hook:
@@ -163,6 +181,21 @@ def _unused_actions(
         errors.unused_action(source, Name(text=action.name, span=action.span))
         for action in actions
         if declared and action.name not in used
+    ]
+
+
+def _unused_events(
+    source: Source,
+    statements: Sequence[Statement],
+    flows: Sequence[FlowDecl],
+    blocks: Sequence[BlockDecl],
+) -> list[Diagnostic]:
+    """Find events that nothing waits for."""
+    drawn = {name.text for flow in flows for stop in flow.stops for name in stop.names}
+    return [
+        event_errors.unused_event(source, declared)
+        for declared in statements
+        if isinstance(declared, EventDecl) and declared.name.text not in drawn | _named(blocks)
     ]
 
 

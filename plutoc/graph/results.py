@@ -9,15 +9,17 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors as errors_of_names
 from plutoc.graph import result_errors as errors
 from plutoc.graph import value_errors
+from plutoc.graph.built_in import ACTIONS
 from plutoc.graph.hooks import PHOTO
 from plutoc.graph.model import Action, Plain, Shown
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.graph.values import once_each, typed, written
 from plutoc.source import Source
 from plutoc.syntax.tree import Argument, ResultDecl, Statement
-from plutoc_runtime.domain.actions import BUILT_IN, MEASURE, PICK, RELEASE
+from plutoc_runtime.domain.actions import MEASURE, PICK, RELEASE
 from plutoc_runtime.domain.actions import PHOTO as TAKE_PHOTO
 from plutoc_runtime.domain.quantities import QUANTITIES, Type, units_of
+from plutoc_runtime.events.follow import FOLLOW
 
 HEAT, VALUES, FINDINGS, PHOTOS, HANDLING = "heat", "values", "findings", "photos", "handling"
 
@@ -55,6 +57,7 @@ _OF_NUMBERS, _OF_FINDINGS = (HEAT, VALUES), (FINDINGS,)
 _FITS: Mapping[str, tuple[str, ...]] = {
     MEASURE: _OF_NUMBERS,
     TAKE_PHOTO: (PHOTOS, FINDINGS),
+    FOLLOW.name: (PHOTOS, FINDINGS),
     PICK: (),
     RELEASE: (),
 }
@@ -76,9 +79,9 @@ def results(
     said: dict[tuple[str, str, str], tuple[Shown, ResultDecl]] = {}
     for declared in (one for one in statements if isinstance(one, ResultDecl)):
         name, way = declared.action, declared.way.text
-        if name.text not in own and name.text not in BUILT_IN:
+        if name.text not in own and name.text not in ACTIONS:
             if not unclear.may_declare(name.text):
-                known = [*BUILT_IN, *own]
+                known = [*ACTIONS, *own]
                 found.append(errors_of_names.unknown_action(source, name, known))
             continue
         if way not in WAYS:

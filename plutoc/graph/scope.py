@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph import errors, names
 from plutoc.graph.app_names import taken_app_name
+from plutoc.graph.built_in import ACTIONS, EVENTS
+from plutoc.graph.built_in import ALONG as ALONG_BUILT_IN
 from plutoc.graph.names import Style
 from plutoc.graph.uncertain_names import bad_statements
 from plutoc.source import Source
@@ -16,6 +18,7 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    EventDecl,
     FieldsDecl,
     File,
     FlowDecl,
@@ -25,12 +28,20 @@ from plutoc.syntax.tree import (
     ResultDecl,
     VersionDecl,
 )
-from plutoc_runtime.domain.actions import BUILT_IN
 
 BLOCK, CATEGORY, ACTION, PREFIX = "a block", "a category", "an action", "a package's prefix"
-HOOK_ROLES = {"evaluator": "an evaluator", "modifier": "a modifier", "policy": "a policy"}
+EVENT = "an event"
+ALONG = "along"
+"""What an action declares that is done on the way."""
+HOOK_ROLES = {
+    "evaluator": "an evaluator",
+    "modifier": "a modifier",
+    "policy": "a policy",
+    "creator": "a creator",
+}
 _HOOKS = frozenset({ACTION, *HOOK_ROLES.values()})
 _BAD_ROLES = HOOK_ROLES | {"block": BLOCK, "category": CATEGORY, "action": ACTION, "use": PREFIX}
+_BAD_ROLES |= {"event": EVENT}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,6 +50,8 @@ class Declared:
 
     name: Name
     role: str
+    again: bool = False
+    """A built-in action, which the app says more of."""
 
 
 Scope = dict[str, Declared]
@@ -52,8 +65,10 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
     for declared in _declarations(file):
         name = declared.name
         first = lower.setdefault(name.text.lower(), declared)
-        if declared.role in _HOOKS and name.text.lower() in BUILT_IN:
-            found.append(errors.built_in_name(file.source, name))
+        if declared.role in _HOOKS and name.text.lower() in ACTIONS and not declared.again:
+            found.append(errors.built_in_name(file.source, name, ACTION, _may_be_along(declared)))
+        elif declared.role == EVENT and name.text.lower() in EVENTS:
+            found.append(errors.built_in_name(file.source, name, EVENT))
         elif first is not declared and first.name.text == name.text:
             found.append(
                 errors.declared_twice(file.source, name, declared.role, first.name, first.role)
@@ -70,6 +85,10 @@ def scope_of(file: File, found: list[Diagnostic]) -> Scope:
     return scope
 
 
+def _may_be_along(declared: Declared) -> bool:
+    return declared.role == ACTION and declared.name.text in ALONG_BUILT_IN
+
+
 def spoilt_names(source: Source, found: Sequence[Diagnostic]) -> list[str]:
     """Return the declared names that something was found about: others may have been meant."""
     return [source.quote(diagnostic.span) for diagnostic in found]
@@ -81,8 +100,11 @@ def _declarations(file: File) -> list[Declared]:
         match statement:
             case CategoryDecl():
                 declared.append(Declared(name=statement.name, role=CATEGORY))
+            case EventDecl():
+                declared.append(Declared(name=statement.name, role=EVENT))
             case ActionDecl():
-                declared.append(Declared(name=statement.name, role=ACTION))
+                again = is_built_in_along(statement)
+                declared.append(Declared(name=statement.name, role=ACTION, again=again))
             case HookDecl():
                 declared.append(Declared(name=statement.name, role=HOOK_ROLES[statement.kind]))
             case BlockDecl():
@@ -92,6 +114,12 @@ def _declarations(file: File) -> list[Declared]:
             case FlowDecl() | BadStatement():
                 pass
     return declared
+
+
+def is_built_in_along(declared: ActionDecl) -> bool:
+    """Return whether a declaration says that a built-in action is done on the way, too."""
+    word = declared.repeat.text if declared.repeat else ""
+    return word == ALONG and declared.name.text in ACTIONS
 
 
 def check_name(source: Source, name: Name, role: str, found: list[Diagnostic]) -> None:

@@ -61,10 +61,11 @@ def check_stops(
     flows: Sequence[FlowDecl],
     scope: Scope,
     nodes: Mapping[str, Node],
+    sources: Collection[str],
     unclear: UncertainNames,
     found: list[Diagnostic],
 ) -> None:
-    """Check that every stop is a block, or `start` at a beginning, or `end` at an end."""
+    """Check that every stop is a block, or a source at a beginning, or `end` at an end."""
     blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
     proposals: dict[str, list[str]] = {}
     kin: dict[str, list[str]] = {}
@@ -73,7 +74,7 @@ def check_stops(
         for i, stop in enumerate(flow.stops):
             for name in stop.names:
                 declared = scope.get(name.text)
-                if name.text == START:
+                if name.text in sources:
                     if i > 0:
                         found.append(errors.into_start(source, name))
                 elif name.text == END:
@@ -84,7 +85,7 @@ def check_stops(
                 elif not unclear.may_declare(name.text):
                     if name.text not in proposals:
                         enough = len(proposals) >= _MOST_PROPOSALS
-                        legal = () if enough else _legal(flow, i, blocks, nodes)
+                        legal = () if enough else _legal(flow, i, blocks, sources, nodes)
                         proposals[name.text] = near(name.text, legal)
                         kin[name.text] = [] if enough else _of_kind(name.text, nodes)
                     role = declared.role if declared else None
@@ -101,13 +102,17 @@ def _of_kind(kind: str, nodes: Mapping[str, Node]) -> list[str]:
 
 
 def _legal(
-    flow: FlowDecl, i: int, blocks: Sequence[str], nodes: Mapping[str, Node]
+    flow: FlowDecl,
+    i: int,
+    blocks: Sequence[str],
+    sources: Collection[str],
+    nodes: Mapping[str, Node],
 ) -> Sequence[str]:
     """Return what could stand at a stop: what is proposed must not be refused there."""
     last, guard = len(flow.stops) - 1, flow.guard
     if i < last:
         is_start = i == 0 and not (guard and last == 1)
-        return [*blocks, START] if is_start else blocks
+        return [*blocks, *sorted(sources)] if is_start else blocks
     wanted = {name.text for name in guard.statuses} if guard else set()
     return [
         name

@@ -13,7 +13,7 @@ from json import dumps
 
 from plutoc.block import IN_GRAPH
 from plutoc.graph.model import END, START
-from plutoc.syntax.tokens import HAS, OWNERS, RESULT, SETTINGS, TAKES, WORDS
+from plutoc.syntax.tokens import HAS, OWNERS, REACTING, RESULT, SETTINGS, TAKES, WORDS
 from plutoc_runtime.domain.quantities import UNITS, Type
 
 _UNITS = "|".join(re.escape(unit) for unit in sorted(UNITS, key=len, reverse=True))
@@ -58,11 +58,14 @@ RULES = (
     Rule(kind=Kind.WORD, pattern=rf'(?<!app ){_one_of(SETTINGS)}(?=[ \t]*")'),
     Rule(kind=Kind.WORD, pattern=rf"{_one_of(OWNERS)}[ \t]+{HAS}\b(?=[ \t]+[A-Za-z])"),
     Rule(kind=Kind.WORD, pattern=rf"^[ \t]*{_one_of((RESULT,))}(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)"),
+    Rule(kind=Kind.WORD, pattern=rf"^[ \t]*{_one_of(REACTING)}(?=[ \t]+[A-Za-z])"),
     Rule(kind=Kind.WORD, pattern=rf"(?<=[\w)][ \t]){_one_of((TAKES,))}(?=[ \t]+\w)"),
-    Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask"))),
+    Rule(kind=Kind.CONSTANT, pattern=_one_of(("yes", "no", "safe", "once", "ask", "along"))),
     Rule(kind=Kind.STATUS, pattern=_one_of(tuple(status.value for status in IN_GRAPH))),
     Rule(kind=Kind.TYPE, pattern=_one_of(tuple(kind.value for kind in Type))),
-    Rule(kind=Kind.TYPE, pattern=r"(?<=-> )\b(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask|takes))"),
+    Rule(
+        kind=Kind.TYPE, pattern=r"(?<=-> )\b(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask|along|takes))"
+    ),
     Rule(kind=Kind.TERMINAL, pattern=_one_of((START, END))),
     Rule(kind=Kind.BLOCK, pattern=r"\b[A-Z]\w*"),
     Rule(kind=Kind.ARROW, pattern=r"->"),

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import ast
 import builtins
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 
 from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.names import near
@@ -28,7 +28,6 @@ _NAMED = {
 
 _UNION, _OPTIONAL = "typing.Union", "typing.Optional"
 _NOTED, _LITERAL = "typing.Annotated", "typing.Literal"
-_OWN = {f"{home}.{name}": name for name, home in EXPORTS.items()}
 _TYPES = frozenset(name for name, what in vars(builtins).items() if isinstance(what, type))
 
 
@@ -40,6 +39,13 @@ class Scope:
     app: str
     parameters: frozenset[str] = frozenset()
     """Of the function itself: `def find[T](…)`."""
+    exports: Mapping[str, str] = field(default_factory=lambda: EXPORTS)
+    """What the package offers, and where it is there."""
+
+    @property
+    def own(self) -> Mapping[str, str]:
+        """What the package offers, by where it is."""
+        return {f"{home}.{name}": name for name, home in self.exports.items()}
 
     def path(self, node: ast.expr) -> str | None:
         """Return what a name was imported as: `typing.Any`, `.Mission`, `builtins.float`."""
@@ -87,17 +93,17 @@ def meaning(node: ast.expr, scope: Scope) -> Meaning:
         case ast.Subscript():
             return _of_subscript(node, scope)
         case ast.Name() | ast.Attribute():
-            return _of_path(scope.path(node))
+            return _of_path(scope.path(node), scope)
     return None
 
 
-def _of_path(path: str | None) -> Meaning:
+def _of_path(path: str | None, scope: Scope) -> Meaning:
     if path is None:
         return None
     first, _, rest = path.partition(".")
     if first == "builtins":
         return frozenset({rest}) if rest in _TYPES else None
-    name = rest if not first and rest in EXPORTS else _OWN.get(path) or _NAMED.get(path)
+    name = rest if not first and rest in scope.exports else scope.own.get(path) or _NAMED.get(path)
     return None if name is None else frozenset({name})
 
 
@@ -110,7 +116,7 @@ def _of_subscript(node: ast.Subscript, scope: Scope) -> Meaning:
         return _either([meaning(one, scope) for one in inner])
     if path == _NOTED and inner:
         return meaning(inner[0], scope)
-    return _of_path(path)
+    return _of_path(path, scope)
 
 
 def _either(sides: list[Meaning]) -> Meaning:
@@ -134,16 +140,16 @@ def unknown_names(node: ast.expr, scope: Scope) -> Iterator[Unknown]:
     """Yield the names in an annotation that Python would not find."""
     for one, place, quoted in _names(node, scope):
         if isinstance(one, ast.Name) and not scope.is_known(one.id):
-            exported = one.id in EXPORTS
+            exported = one.id in scope.exports
             if not exported or not (quoted or scope.module.late):
-                options = (*EXPORTS, *scope.module.defined, *sorted(_TYPES))
+                options = (*scope.exports, *scope.module.defined, *sorted(_TYPES))
                 yield Unknown(name=one.id, place=place, options=options, exported=exported)
             continue
         name = (scope.path(one) or "").removeprefix(".")
-        if name in (scope.path(one), *EXPORTS) or not name.isidentifier() or name.islower():
+        if name in (scope.path(one), *scope.exports) or not name.isidentifier() or name.islower():
             continue
-        if near(name, EXPORTS):  # else it may be of a module that the developer has written
-            yield Unknown(name=name, place=place, options=tuple(EXPORTS), exported=False)
+        if near(name, scope.exports):  # else it may be of a module that the developer has written
+            yield Unknown(name=name, place=place, options=tuple(scope.exports), exported=False)
 
 
 def _names(node: ast.expr, scope: Scope) -> Iterator[tuple[ast.expr, ast.expr, bool]]:

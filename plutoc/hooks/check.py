@@ -14,17 +14,18 @@ from plutoc.hooks.awaits import forgotten
 from plutoc.hooks.expected import FOR_ALL, Expected, as_defined, expected, probes
 from plutoc.hooks.module import Function, Module, arg_span, name_span, read, waits, yields
 from plutoc.hooks.python import Unreadable, check_compiles
+from plutoc.hooks.raised import raised, unraised
 from plutoc.hooks.returns import of_returns
 from plutoc.hooks.types import of_types
 from plutoc.source import Source
 
 
 def check_hooks(checked: Checked, hooks: Source) -> tuple[Diagnostic, ...]:
-    """Return the warnings, of which there are none yet; raise `Rejected` with all errors."""
+    """Return the warnings; raise `Rejected` with all errors."""
     found = list(_found(checked, hooks)) or list(_left(hooks))
     if found:
         raise Rejected(found)
-    return ()
+    return tuple(unraised(checked, hooks))
 
 
 def missing(checked: Checked, hooks: Source) -> tuple[str, ...]:
@@ -68,6 +69,7 @@ def _found(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
     for probe in probes(checked):
         if probe.name in module.defined:
             yield from _of_definition(checked, hooks, probe, module)
+    yield from raised(checked, hooks)
     yield from forgotten(Scope(module=module, app=checked.graph.name), declared)
 
 

@@ -11,6 +11,7 @@ from plutoc.emit.lock import PROBE
 from plutoc.graph.wording import all_of, article
 from plutoc.hooks.expected import Expected
 from plutoc.source import Source, Span
+from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
 
 
@@ -318,3 +319,70 @@ def _first_difference(text: str, other: str) -> Span:
 
 def _article(word: str) -> str:
     return "an" if word[0].lower() in "aeiou" else "a"
+
+
+# Events that hooks raise
+
+WANTED = {Type.BOOL: "True or False", Type.TEXT: "a text", Type.INT: "a whole number"}
+"""What a field of an event must be; of all other types, a number."""
+
+
+def unknown_event(hooks: Source, span: Span, name: str, meant: str | None) -> Diagnostic:
+    """A hook raises what the app does not declare."""
+    return error(
+        "P3021",
+        f"the app has no event `{name}`",
+        hooks,
+        span,
+        label="nothing comes of it",
+        help=f"did you mean `{meant}`?" if meant else f"declare it in the app: `event {name}`",
+    )
+
+
+def unknown_event_field(
+    hooks: Source, span: Span, event: str, name: str, meant: str | None
+) -> Diagnostic:
+    """A hook says something of an event that the event does not have."""
+    return error(
+        "P3022",
+        f"the event `{event}` has no `{name}`",
+        hooks,
+        span,
+        help=f"did you mean `{meant}`?" if meant else "declare it with the event, or leave it out",
+    )
+
+
+def wrong_event_field(hooks: Source, span: Span, event: str, name: str, wanted: str) -> Diagnostic:
+    """A hook says something of an event that is of another type."""
+    return error(
+        "P3022",
+        f"`{name}` of the event `{event}` must be {wanted}",
+        hooks,
+        span,
+    )
+
+
+def missing_event_field(
+    hooks: Source, span: Span, event: str, missing: Sequence[str]
+) -> Diagnostic:
+    """A hook leaves out what has no default."""
+    return error(
+        "P3022",
+        f"the event `{event}` needs {all_of(missing)}",
+        hooks,
+        span,
+        help="name it here, or give it a default where the event is declared",
+    )
+
+
+def unraised(app: Source, span: Span, event: str, path: str) -> Diagnostic:
+    """An event that no hook raises, and that hooks.py does not even name."""
+    return warning(
+        "P3023",
+        f"no hook raises the event `{event}`",
+        app,
+        span,
+        label="it must come from elsewhere",
+        help=f'raise it in a hook, `context.emit("{event}")`; if it comes from outside, say so in a '
+        f"comment of {path}: `{event}` in backquotes is enough",
+    )

@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from plutoc.block import HookKind
 from plutoc.check.model import Checked
 from plutoc.emit.python import python_result
+from plutoc.emit.reactions import taken_by
 from plutoc.emit.stubs import Stub, stubs
-from plutoc.graph.model import Action, Hook, Parameter
+from plutoc.graph.model import Action, Graph, Hook, Parameter
 from plutoc.source import Span
 from plutoc_runtime.domain.status import Status
 
@@ -18,6 +19,7 @@ PASSED = {
     HookKind.EVALUATOR: ("mission", "results"),
     HookKind.MODIFIER: ("mission", "context"),
     HookKind.POLICY: ("trip", "candidates"),
+    HookKind.CREATOR: ("event", "context"),
 }
 """What comes by position: the hook may call it as it likes."""
 FOR_ALL = ("waiting", "drones", "now")
@@ -42,6 +44,8 @@ class Expected:
     """It may be an `async def`."""
     result: str | None = None
     """The type that an action declares to return; None for any other hook."""
+    events: tuple[str, ...] = ()
+    """The classes of the events that a creator is called with."""
     span: Span
     """Where the app declares it."""
     first_line: str
@@ -59,8 +63,8 @@ def expected(checked: Checked) -> tuple[Expected, ...]:
     """Return all hooks of an app, in the order of the source."""
     graph = checked.graph
     drafts = {stub.name: stub for stub in stubs(checked)}
-    hooks = [_expected(each, drafts[each.name]) for each in graph.hooks]
-    hooks += [_expected(each, drafts[each.name]) for each in graph.actions]
+    hooks = [_expected(each, drafts[each.name], graph) for each in graph.hooks]
+    hooks += [_expected(each, drafts[each.name], graph) for each in graph.actions]
     return tuple(sorted(hooks, key=lambda hook: hook.span.start))
 
 
@@ -104,7 +108,7 @@ def _probe(action: Action, name: str) -> Expected:
     )
 
 
-def _expected(hook: Action | Hook, draft: Stub) -> Expected:
+def _expected(hook: Action | Hook, draft: Stub, graph: Graph) -> Expected:
     kind = HookKind.ACTION if isinstance(hook, Action) else hook.kind
     first_line = f"{draft.coroutine}def {draft.name}{draft.signature}:"
     return Expected(
@@ -116,6 +120,7 @@ def _expected(hook: Action | Hook, draft: Stub) -> Expected:
         emits=_emits(hook),
         may_wait=kind is not HookKind.POLICY,
         result=python_result(hook.returns) if isinstance(hook, Action) and hook.returns else None,
+        events=taken_by(graph, hook) if isinstance(hook, Hook) else (),
         span=hook.span,
         first_line=first_line,
         stub="\n    ".join([first_line, *draft.lines]),
@@ -127,7 +132,8 @@ def _returns(hook: Action | Hook) -> str:
         return python_result(hook.returns) if hook.returns else "object"
     if hook.kind is HookKind.MODIFIER:
         return "Status" if hook.emits else "None"
-    return "Verdict" if hook.kind is HookKind.EVALUATOR else "Drone"
+    wanted = {HookKind.EVALUATOR: "Verdict", HookKind.CREATOR: "Mission"}
+    return wanted.get(hook.kind, "Drone")
 
 
 def _emits(hook: Action | Hook) -> tuple[Status, ...] | None:

@@ -7,6 +7,8 @@ from collections.abc import Iterator
 
 from plutoc.diagnostic import Diagnostic
 from plutoc.emit.python import PYTHON
+from plutoc.emit.reactions import exports
+from plutoc.emit.stubs import EXPORTS
 from plutoc.graph.model import Graph
 from plutoc.graph.names import near
 from plutoc.hooks import errors
@@ -19,6 +21,7 @@ _ARRIVES = {
     "drone": "Drone",
     "trip": "Trip",
     "context": "Context",
+    "event": "Event",
     "mission": "Mission",
     "results": "Results",
     "candidates": "Sequence",
@@ -48,7 +51,9 @@ def of_types(
 ) -> Iterator[Diagnostic]:
     """Find types that nothing has, and those of something else; silent where it cannot be known."""
     generic = frozenset(one.name for one in getattr(function, "type_params", ()))
-    scope = Scope(module=module, app=graph.name, parameters=generic)
+    scope = Scope(
+        module=module, app=graph.name, parameters=generic, exports=EXPORTS | exports(graph)
+    )
     for annotation, name, arrives in _expected(at.hook, function):
         unknown = list(unknown_names(annotation, scope))
         for one in unknown:
@@ -64,7 +69,9 @@ def of_types(
             fits = {arrives, "int"} if arrives == "float" else {arrives, *_GIVES.get(arrives, ())}
             if not (allowed <= fits if at.hook.result else allowed & fits):
                 yield errors.wrong_return(place, written, arrives)
-        elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
+        elif not allowed & {arrives, *_TAKES.get(arrives, ())} and not (
+            arrives == "Event" and allowed & {*at.hook.events}
+        ):
             yield errors.wrong_annotation(place, name, written, arrives)
 
 

@@ -41,6 +41,7 @@ _SYMBOLS = {
     Role.CATEGORY: types.SymbolKind.Struct,
     Role.BLOCK: types.SymbolKind.Object,
     Role.FIELD: types.SymbolKind.Field,
+    Role.EVENT: types.SymbolKind.Event,
 }
 """All others are functions."""
 
@@ -53,6 +54,8 @@ _COLOURS = {
     Role.EVALUATOR: "function",
     Role.MODIFIER: "function",
     Role.POLICY: "function",
+    Role.CREATOR: "function",
+    Role.EVENT: "event",
     Role.BLOCK: "variable",
     Role.KIND: "class",
     Role.FIELD: "property",

@@ -59,12 +59,17 @@ def _dispatch(found: Shape, steps: Mapping[Spot, Body], entries: tuple[str, ...]
     A spot with a single incoming arrow is inlined, so chains and branches stay together.
     """
     first, entered = found.chart.entry, frozenset(entries)
+    if first.kind is Kind.ENTERED:  # whether an event has made the mission: it begins in a case
+        first = Spot(kind=Kind.BLOCK, name=first.name)
     places = tuple(
         spot
         for spot in found.order
-        if found.arrows.in_degree(spot) > 1
-        or spot == first
-        or (spot.kind is Kind.BLOCK and spot.name in entered)
+        if spot.kind is not Kind.ENTERED
+        and (
+            found.arrows.in_degree(spot) > 1
+            or spot == first
+            or (spot.kind is Kind.BLOCK and spot.name in entered)
+        )
     )
     around = Context(elsewhere=frozenset(places), labels=frozenset(places))
     cases = tuple(
@@ -91,7 +96,7 @@ def _steps(charts: Charts, chart: Chart, spot: Spot, names: dict[str, int]) -> B
     match spot.kind:
         case Kind.BLOCK:
             return (Call(node=node[spot.name]),)
-        case Kind.BEHIND:
+        case Kind.BEHIND | Kind.ENTERED:
             return ()
         case Kind.FORK:
             statuses = chart.arrives[spot]

@@ -120,12 +120,16 @@ class Charts:
                 elif (target, leaving) not in known:
                     known.add((target, leaving))
                     queue.append((target, leaving))
+        ways: Mapping[Spot, tuple[Way, ...]] = {
+            spot: _ways(leads, self.asked(spot, leads)) if leads else (NO_TRIP_LEFT,)
+            for spot, leads in found.items()
+        }
+        created = [name for name in entries if self.checked.graph.node[name].block.creates]
+        if created:
+            first, ways = _created(first, created, entries, ways)
         return Chart(
             entry=first,
-            ways={
-                spot: _ways(leads, self.asked(spot, leads)) if leads else (NO_TRIP_LEFT,)
-                for spot, leads in found.items()
-            },
+            ways=ways,
             arrives={spot: frozenset(statuses) for spot, statuses in arrives.items()},
             exits=frozenset(exits),
         )
@@ -187,6 +191,19 @@ class Charts:
         if (edge, status) not in self.brought:
             self.brought[edge, status] = self.chart(edge.target, frozenset((status,))).exits
         return self.brought[edge, status]
+
+
+def _created(
+    first: Spot, created: Sequence[str], entries: Entries, ways: Mapping[Spot, tuple[Way, ...]]
+) -> tuple[Spot, Mapping[Spot, tuple[Way, ...]]]:
+    """Ask before all else whether an event has made the mission; return where, and all ways."""
+    question = Spot(kind=Kind.ENTERED, name=first.name)
+    others = (None, *(name for name in entries if name not in created))
+    asked = [Way(statuses=(), target=first, to=first.name, places=others)]
+    for name in created:
+        target = Spot(kind=Kind.BLOCK, name=name)
+        asked.append(Way(statuses=(), target=target, to=name, places=(name,)))
+    return question, {question: tuple(asked), **ways}
 
 
 def _ways(leads: Leads, asked: Mapping[Spot | None, frozenset[Status]]) -> tuple[Way, ...]:

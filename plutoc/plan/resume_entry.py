@@ -63,12 +63,17 @@ class _Heading:
 
 
 def entrances(found: Shape, points: Sequence[str], graph: Graph) -> Iterator[Shape]:
-    """Yield shapes with entries at these blocks, the preferred one first."""
-    if not points:
+    """Yield shapes with entries at these blocks, the preferred one first.
+
+    Those that make missions of events have theirs in the chart already.
+    """
+    entered = [name for name in points if not graph.node[name].block.creates]
+    if not entered:
         yield found
         return
     for other_heads in (True, False) if len(points) <= MOST_ENTRIES else ():
-        after = shape(_Entering(found, points, graph, other_heads=other_heads).chart())
+        entering = _Entering(found, points, entered, graph, other_heads=other_heads)
+        after = shape(entering.chart())
         if not after.entering:
             yield after
 
@@ -77,7 +82,13 @@ class _Entering:
     """Adds entries to a chart."""
 
     def __init__(
-        self, found: Shape, points: Sequence[str], graph: Graph, *, other_heads: bool
+        self,
+        found: Shape,
+        places: Sequence[str],
+        points: Sequence[str],
+        graph: Graph,
+        *,
+        other_heads: bool,
     ) -> None:
         self.found = found
         self.graph = graph
@@ -85,7 +96,7 @@ class _Entering:
         """Whether a loop may get another head."""
         self.rounds = {head: found.loop_body(head) for head in found.loops}
         self.ways = dict(found.chart.ways)
-        self.places: tuple[Place, ...] = (None, *points)
+        self.places: tuple[Place, ...] = (None, *places)
         self.points = {self.least_nested(name): name for name in points}
         self.copies = max(spot.copy for spot in found.order)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from inspect import cleandoc
 
-from plutoc.block import IN_GRAPH, AnyParam, Block, Choice, HookParam, Param
+from plutoc.block import IN_GRAPH, AnyParam, Block, Choice, EventParam, HookParam, Param
 from plutoc_runtime.domain.fields import Field, FieldType
 from plutoc_runtime.domain.quantities import Type, units_of
 from plutoc_runtime.domain.status import Status
@@ -61,6 +61,8 @@ def param_line(param: AnyParam) -> str:
         case HookParam():
             need = "" if param.required else "; may be left out"
             return f"- `{param.name}`: {_a(param.kind.value)} hook of yours{need}. {param.doc}"
+        case EventParam():
+            return f"- `{param.name}`: an event. {param.doc}"
 
 
 def _type(param: Param) -> str:

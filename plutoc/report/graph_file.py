@@ -31,7 +31,9 @@ def graph_file(checked: Checked) -> str:
     drawn = picture(checked)
     nodes = checked.graph.nodes
     names = [node.name for node in nodes]
-    spots = laid_out(names, [(one.source, one.target) for one in drawn.arrows], {})
+    spots = laid_out(
+        names, [(one.source, one.target) for one in drawn.arrows], {}, checked.graph.sources[1:]
+    )
     kinds = {node.block.name: first_line(node.block) for node in nodes}
     return _TEXT.format(
         kinds=",\n".join(f"{_text(kind)}: {_text(doc)}" for kind, doc in kinds.items()),
@@ -43,7 +45,8 @@ def graph_file(checked: Checked) -> str:
 def _block(box: Box, x: int, y: int) -> Row:
     kind: Row = {"kind": box.kind} if box.kind else {}
     gate: Row = {"gate": True} if box.shape is Shape.GATE else {}
-    return {"name": box.name, **kind, **gate, "x": x, "y": y}
+    event: Row = {"event": True} if box.shape is Shape.EVENT else {}
+    return {"name": box.name, **kind, **gate, **event, "x": x, "y": y}
 
 
 def _edge(arrow: Arrow) -> Row:

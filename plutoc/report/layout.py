@@ -23,7 +23,7 @@ Positions = Mapping[str, Point]
 WIDTH, HEIGHT, GRID = 176, 52, 8
 """A block's size, and what positions are multiples of."""
 _INSET = 40
-"""`start` and `end` are narrower by this at both sides."""
+"""`start`, `end` and events are narrower by this at both sides."""
 _LAYER, _COLUMN, _LANE = 120, 224, 40
 """From a layer to the next one; from a box to the one beside; for an edge that passes a layer."""
 _BETWEEN = 64
@@ -37,9 +37,14 @@ _Spot = str | tuple[int, int]
 """A box by its name, or where an edge passes a layer: the edge's number, and the layer's."""
 
 
-def laid_out(names: Sequence[str], ways: Ways, moved: Positions) -> dict[str, Point]:
-    """Return the upper left corner of every block, and of `start` and `end`."""
-    found = _automatic(tuple(names), tuple(ways))
+def laid_out(
+    names: Sequence[str], ways: Ways, moved: Positions, events: Sequence[str] = ()
+) -> dict[str, Point]:
+    """Return the upper left corner of every block and event, and of `start` and `end`."""
+    found = _automatic((*events, *names), tuple(ways))
+    for name in events:
+        x, y = found[name]
+        found = {**found, name: (x + _INSET, y)}
     boxes = [moved[name] for name in found if name in moved]
     return {
         name: moved[name] if name in moved else _beside(spot, boxes) for name, spot in found.items()

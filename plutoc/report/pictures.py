@@ -21,6 +21,7 @@ class Shape(Enum):
     """What a box stands for."""
 
     START = "where missions begin"
+    EVENT = "where events come from"
     END = "where missions end"
     GATE = "where forks close"
     BLOCK = "any other block"
@@ -28,11 +29,11 @@ class Shape(Enum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """A block, `start` or `end`."""
+    """A block, `start` or `end`, or an event."""
 
     name: str
     kind: str
-    """Empty for `start` and `end`."""
+    """Empty for all but blocks."""
     shape: Shape
 
 
@@ -76,7 +77,10 @@ def picture(checked: Checked) -> Picture:
         left = tuple(status.value for node, status in checked.implicit_ends if node == name)
         if left:
             arrows.append(Arrow(source=name, target=END, statuses=left, fork=False, implicit=True))
-    boxes = [Box(name=START, kind="", shape=Shape.START)]
+    boxes = [
+        Box(name=name, kind="", shape=Shape.START if name == START else Shape.EVENT)
+        for name in graph.sources
+    ]
     boxes.extend(
         Box(
             name=node.name,
@@ -92,6 +96,7 @@ def picture(checked: Checked) -> Picture:
 
 _MERMAID_SHAPES = {
     Shape.START: '(["{}"])',
+    Shape.EVENT: '>"{}"]',
     Shape.END: '(["{}"])',
     Shape.GATE: '{{{{"{}"}}}}',
     Shape.BLOCK: '["{}"]',
@@ -130,7 +135,7 @@ def _ids(boxes: Iterable[Box]) -> Ids:
     taken = set(ids.values())
     for box in boxes:
         if box.name not in ids:
-            kind = f"{box.kind[:1].upper()}{box.kind[1:]}"
+            kind = f"{box.kind[:1].upper()}{box.kind[1:]}" or "Event"
             found = f"{kind}_{box.name}" if kind in taken else kind
             while found in taken:
                 found += "_"
@@ -148,6 +153,7 @@ def _mermaid_title(text: str) -> str:
 
 _DOT_SHAPES = {
     Shape.START: "shape=circle",
+    Shape.EVENT: "shape=cds",
     Shape.END: "shape=doublecircle",
     Shape.GATE: "shape=hexagon",
     Shape.BLOCK: "shape=box, style=rounded",

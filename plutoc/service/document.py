@@ -129,10 +129,11 @@ class Document:
         """
         if self.checked is not None:
             return self.checked.carries
-        creator, edges, _ = reach.entry(self.graph)
-        if creator is None:
+        creators, edges, _ = reach.entry(self.graph)
+        if not creators:
             return MappingProxyType({})
         try:
-            return explore(self.graph, edges, (creation(creator.name),)).carries
+            begun = [creation(node.name) for node in creators]
+            return explore(self.graph, edges, begun).carries
         except Rejected:  # too tangled to be followed, which is told
             return MappingProxyType({})

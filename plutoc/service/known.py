@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from plutoc.block import IN_GRAPH, AnyParam, Block, Choice, HookKind, HookParam
+from plutoc.graph.built_in import ACTIONS, EVENTS
 from plutoc.graph.model import START, Action, Graph, Hook, Parameter
 from plutoc.graph.names import in_snake_case, reserved
 from plutoc.graph.stops import accepts_by_guard
@@ -14,7 +15,6 @@ from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.service.symbols import DECLARED, Occurrence, Role
 from plutoc.source import Source
 from plutoc.syntax.tree import BlockDecl, Bool, File, Name
-from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.status import Status
 
 
@@ -39,7 +39,7 @@ class Known:
     @cached_property
     def taken(self) -> frozenset[str]:
         """The names that nothing new can have, in small letters."""
-        return frozenset(name.lower() for name in (*self.declared, *BUILT_IN))
+        return frozenset(name.lower() for name in (*self.declared, *ACTIONS))
 
     @cached_property
     def prefixes(self) -> dict[str, str]:
@@ -85,7 +85,22 @@ class Known:
     @property
     def actions(self) -> tuple[str, ...]:
         """What drones can do: built in, and of the app's own."""
-        return (*self.hooks(HookKind.ACTION), *BUILT_IN)
+        return (*self.hooks(HookKind.ACTION), *ACTIONS)
+
+    @cached_property
+    def events(self) -> tuple[str, ...]:
+        """The events that a block can wait for: the app's own, and built in."""
+        return (*(event.name for event in self.graph.events), *EVENTS)
+
+    @cached_property
+    def own_sources(self) -> tuple[str, ...]:
+        """Those of them that are sure to be meant: `start`, and the app's own events."""
+        return (START, *(event.name for event in self.graph.events))
+
+    @cached_property
+    def sources(self) -> tuple[str, ...]:
+        """What an arrow can begin at that is no block."""
+        return (START, *(event for event in self.events if event not in self.blocks))
 
     @cached_property
     def unused(self) -> frozenset[str]:
@@ -98,7 +113,7 @@ class Known:
         """The names that are used and not declared, by what each must be."""
         found: dict[Role, dict[str, None]] = {}
         for role, name in self._wanted():
-            if name not in self.declared and name not in BUILT_IN and not reserved(name):
+            if name not in self.declared and name not in ACTIONS and not reserved(name):
                 found.setdefault(role, {})[name] = None
         return {role: tuple(names) for role, names in found.items()}
 
@@ -128,7 +143,7 @@ class Known:
 
     def leaves(self, name: str) -> frozenset[Status]:
         """Return the statuses with which missions can leave a block, as far as that is clear."""
-        if name == START:
+        if name in self.sources:
             return frozenset({Status.UNEXECUTED})
         node = self.graph.node.get(name)
         return node.emits if node else frozenset(IN_GRAPH)

@@ -6,13 +6,16 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 
+from plutoc.graph.built_in import EVENTS
 from plutoc.graph.model import END, START
+from plutoc.graph.scope import is_built_in_along
 from plutoc.source import Span
 from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
     Bool,
     CategoryDecl,
+    EventDecl,
     FieldsDecl,
     File,
     FlowDecl,
@@ -35,6 +38,8 @@ class Role(Enum):
     EVALUATOR = "evaluator"
     MODIFIER = "modifier"
     POLICY = "policy"
+    CREATOR = "creator"
+    EVENT = "event"
     BLOCK = "block"
     KIND = "kind of block"
     FIELD = "field"
@@ -46,9 +51,9 @@ class Role(Enum):
     WAY = "way to show results"
 
 
-HOOKS = frozenset({Role.ACTION, Role.EVALUATOR, Role.MODIFIER, Role.POLICY})
+HOOKS = frozenset({Role.ACTION, Role.EVALUATOR, Role.MODIFIER, Role.POLICY, Role.CREATOR})
 """What is a function in hooks.py."""
-DECLARED = HOOKS | {Role.PREFIX, Role.CATEGORY, Role.BLOCK}
+DECLARED = HOOKS | {Role.PREFIX, Role.CATEGORY, Role.EVENT, Role.BLOCK}
 """What an app declares by name, once for the whole app: these can be renamed."""
 
 
@@ -94,6 +99,8 @@ def _declared(file: File) -> dict[str, Role]:
         match statement:
             case CategoryDecl():
                 roles.setdefault(statement.name.text, Role.CATEGORY)
+            case EventDecl():
+                roles.setdefault(statement.name.text, Role.EVENT)
             case ActionDecl():
                 roles.setdefault(statement.name.text, Role.ACTION)
             case HookDecl():
@@ -109,7 +116,7 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
     for use in file.uses:
         yield _named(use.alias or use.package, Role.PREFIX, declares=True)
     hooks = {s.name.text: s for s in file.app.statements if isinstance(s, HookDecl | ActionDecl)}
-    known = {name: role for name, role in roles.items() if role in HOOKS}
+    known = {name: role for name, role in roles.items() if role in {*HOOKS, Role.EVENT}}
     of_missions = {f.name.text for s in fields_of(file) if s.on == "mission" for f in s.fields}
     for statement in file.app.statements:
         match statement:
@@ -127,8 +134,12 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
                 for argument in statement.arguments:
                     yield _named(argument.name, Role.PARAMETER, owner=Role.CATEGORY.value)
                 yield from (_named(name, Role.ACTION) for name in statement.can)
+            case EventDecl():
+                yield _named(statement.name, Role.EVENT, declares=True)
+                yield from _parameters(statement.fields, statement.name.text)
             case ActionDecl():
-                yield _named(statement.name, Role.ACTION, declares=True)
+                own = not is_built_in_along(statement)
+                yield _named(statement.name, Role.ACTION, declares=own)
                 yield from _parameters(statement.parameters, statement.name.text)
                 if statement.returns:
                     yield _named(statement.returns, Role.TYPE)
@@ -148,7 +159,7 @@ def _all(file: File, roles: dict[str, Role]) -> Iterator[Occurrence]:
             case BlockDecl():
                 yield from _block(statement, known, hooks, file)
             case FlowDecl():
-                yield from _flow(statement)
+                yield from _flow(statement, roles)
 
 
 def fields_of(file: File) -> list[FieldsDecl]:
@@ -170,13 +181,18 @@ def _block(
     for argument in block.arguments:
         name = argument.name.text
         yield _named(argument.name, Role.PARAMETER, owner=passed.get(name, owner))
-        yield from _value(argument.value, known, file)
+        if name == "event" and isinstance(argument.value, Name):
+            yield _named(argument.value, Role.EVENT)
+        else:
+            yield from _value(argument.value, known, file)
 
 
-def _flow(flow: FlowDecl) -> Iterator[Occurrence]:
+def _flow(flow: FlowDecl, roles: dict[str, Role]) -> Iterator[Occurrence]:
     for stop in flow.stops:
         for name in stop.names:
-            yield _named(name, Role.TERMINAL if name.text in (START, END) else Role.BLOCK)
+            declared = roles.get(name.text, Role.EVENT if name.text in EVENTS else Role.BLOCK)
+            role = Role.EVENT if declared is Role.EVENT else Role.BLOCK
+            yield _named(name, Role.TERMINAL if name.text in (START, END) else role)
     for status in flow.guard.statuses if flow.guard else ():
         yield _named(status, Role.STATUS)
 

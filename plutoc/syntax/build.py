@@ -59,6 +59,8 @@ def _statement(node: Node) -> tree.Statement:
             return _result(node)
         case "category":
             return _category(node)
+        case "event":
+            return _event(node)
         case "action":
             return _action(node)
         case "block":
@@ -94,6 +96,11 @@ def _category(node: Node) -> tree.CategoryDecl:
     return tree.CategoryDecl(
         name=_name(name), arguments=_arguments(arguments), can=_names(can), span=_span(node)
     )
+
+
+def _event(node: Node) -> tree.EventDecl:
+    name, fields = node.children
+    return tree.EventDecl(name=_name(name), fields=_parameters(fields), span=_span(node))
 
 
 def _action(node: Node) -> tree.ActionDecl:

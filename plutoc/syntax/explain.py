@@ -35,7 +35,7 @@ from plutoc.syntax.tokens import (
 )
 
 _LINE_WORDS = ("use", "app")
-_STATEMENT_WORDS = ("category", "action", "evaluator", "modifier", "policy")
+_STATEMENT_WORDS = ("category", "event", "action", "evaluator", "modifier", "policy", "creator")
 _TAIL_WORDS = frozenset({"WHEN", "OTHERWISE", "CAN", "EMITS", "WRITES", "AS"})
 _ADDABLE = {
     "COLON": ":",

@@ -24,8 +24,8 @@ _OPENING = frozenset({"LPAR", "LSQB", "LBRACE"})
 _LISTS = frozenset({"WHEN", "EMITS", "CAN", "WRITES"})
 _AS_WRITTEN = {"version": '`version "1.2.0"`', "requires": '`requires "numpy>=2", "requests"`'}
 _GUARDED = frozenset({"WHEN", "EMITS"})
-_TYPED = frozenset({"ACTION", "MODIFIER", "EVALUATOR"})
-_ALONE = frozenset({"EVALUATOR", "POLICY"})
+_TYPED = frozenset({"ACTION", "EVENT", "MODIFIER", "EVALUATOR"})
+_ALONE = frozenset({"EVALUATOR", "POLICY", "CREATOR"})
 _BEFORE_A_NAME = frozenset({"let", "var", "val", "const", "block", "node", "new", "set", "auto"})
 _OF_PYTHON = frozenset({"def", "class", "async", "await", "return", "from", "lambda", "print"})
 GOES_ON_ABOVE = "a list ends with its line: go on in the line above, behind the comma"
@@ -151,7 +151,7 @@ def _of_declarations(tokens: Sequence[Token], i: int, accepts: set[str]) -> str 
     if first.type in _ALONE and i == 2 and token.type in ("LPAR", "COMMA"):
         if token.type == "COMMA":
             return f"write `{first}` on a line of its own for each of them"
-        return "remove the brackets: what a policy gets is clear from its being one"
+        return f"remove the brackets: what a {first} gets is clear from its being one"
     if token.type == NAME and "CAN" in accepts:
         return "write `can` before it"
     if token.type != NAME or before.type != NAME:

@@ -1,8 +1,8 @@
 """From the lexer's tokens to the parser's: which newlines end a statement, which words are names.
 
 A newline ends a statement, except inside brackets and before a line that begins with `->`. Inside
-brackets the language's words are ordinary names; so are `version`, `requires`, `mission`, `trip` and
-`result` wherever they do not begin a statement of theirs, and `has` but behind `mission` or `trip`, for
+brackets the language's words are ordinary names; so are `version`, `requires`, `mission`, `trip`,
+`result`, `event` and `creator` wherever they do not begin a statement of theirs, and `has` but behind `mission` or `trip`, for
 apps have blocks of such names; `takes` is a word only behind what an action declares. A bracket that was forgotten must
 not swallow the rest of the file: a line that can only be the beginning of a statement closes what
 was left open.
@@ -26,6 +26,7 @@ from plutoc.syntax.tokens import (
     NEWLINE,
     OPENING,
     OWNER_KINDS,
+    REACTING_KINDS,
     SETTING_KINDS,
     SOFT_KINDS,
     WORDS,
@@ -140,6 +141,8 @@ def _begins_a_statement(tokens: Sequence[Token], i: int) -> bool:
     if first == "RESULT" and second in _NAMES and third == "AS":
         return True
     if first in SETTING_KINDS and second == "TEXT":
+        return True
+    if first in REACTING_KINDS and second in _NAMES:
         return True
     if first in _NAMES:
         return second in _FOLLOWS_A_FIRST_NAME

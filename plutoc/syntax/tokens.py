@@ -24,13 +24,15 @@ OWNERS = ("mission", "trip")
 HAS = "has"
 RESULT = "result"
 TAKES = "takes"
-SOFT_WORDS = (*SETTINGS, *OWNERS, HAS, RESULT, TAKES)
+REACTING = ("event", "creator")
+SOFT_WORDS = (*SETTINGS, *OWNERS, HAS, RESULT, TAKES, *REACTING)
 """Words too, but only in statements of theirs: elsewhere they are names like any other."""
 
 SETTING_KINDS = frozenset(word.upper() for word in SETTINGS)
 OWNER_KINDS = frozenset(word.upper() for word in OWNERS)
+REACTING_KINDS = frozenset(word.upper() for word in REACTING)
 SOFT_KINDS = frozenset(word.upper() for word in SOFT_WORDS)
-BEGINNERS = SETTING_KINDS | OWNER_KINDS | {"RESULT"}
+BEGINNERS = SETTING_KINDS | OWNER_KINDS | REACTING_KINDS | {"RESULT"}
 BEGINNERS |= {"CATEGORY", "ACTION", "EVALUATOR", "MODIFIER", "POLICY"}
 
 _NAMED = {
@@ -60,7 +62,8 @@ _GROUPS = (
 )
 """What is too long to tell one by one."""
 
-_IN_A_STATEMENT = SETTING_KINDS | OWNER_KINDS | {"RESULT", "ACTION", "EVALUATOR", "POLICY"}
+_IN_A_STATEMENT = SETTING_KINDS | OWNER_KINDS | REACTING_KINDS
+_IN_A_STATEMENT |= {"RESULT", "ACTION", "EVALUATOR", "POLICY"}
 
 
 def made_up(kind: str, text: str) -> Token:

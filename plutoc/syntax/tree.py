@@ -134,6 +134,15 @@ class CategoryDecl:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class EventDecl:
+    """`event intruder(kind: text = "person")`."""
+
+    name: Name
+    fields: tuple[Parameter, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ActionDecl:
     """`action spray(dose: mass = 50 mg) -> float once takes 20 s`; `repeat` is the word alone, if any."""
 
@@ -147,10 +156,10 @@ class ActionDecl:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HookDecl:
-    """`evaluator NAME(…)`, `policy NAME`, `modifier NAME(…) emits … writes …`."""
+    """`evaluator NAME(…)`, `policy NAME`, `creator NAME`, `modifier NAME(…) emits … writes …`."""
 
     kind: str
-    """`evaluator`, `modifier` or `policy`."""
+    """`evaluator`, `modifier`, `policy` or `creator`."""
     name: Name
     parameters: tuple[Parameter, ...]
     emits: tuple[Name, ...]
@@ -216,6 +225,7 @@ Statement = (
     | FieldsDecl
     | ResultDecl
     | CategoryDecl
+    | EventDecl
     | ActionDecl
     | HookDecl
     | BlockDecl

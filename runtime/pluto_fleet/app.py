@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", bound=type)
 
-_WHERE = ".domain.app"
+_WHERE = ".domain."
 """The module of a brain in which its description of an app is."""
 
 
@@ -70,7 +70,7 @@ def described(given: Any) -> App:
     """Return the app that a package describes as its `APP`; raise `BadInput` if their seams do not match."""
     if isinstance(given, App):
         return given
-    runtime = type(given).__module__.removesuffix(_WHERE)
+    runtime = type(given).__module__.rpartition(_WHERE)[0]
     brain = import_module(f"{runtime}.brain")
     check(given.name, brain.SEAM)
     brain.put_guard(IN_A_PROCESS)
@@ -124,35 +124,31 @@ def _field(data: Mapping[str, Any]) -> Field:
     known = {"name": data["name"], "label": data["label"], "default": data["default"]}
     if data.get("own"):
         return OwnField(**known, on=Entity(data["on"]), type=Type(data["type"]))
-    kind = data["type"]
-    of_class = _FIELDS.get(kind, Field)
-    types = {one.value: one for one in (*Type, *FieldType)}
-    return of_class(**known, on=Entity(data["on"]), type=types[kind])
-
-
-_FIELDS: Mapping[str, type[Field]] = {
-    Type.TEXT.value: TrackField,
-    FieldType.ALONG.value: AlongField,
-}
-"""The fields that are no app's own, by the types that only those have."""
+    kind = {one.value: one for one in (*Type, *FieldType)}[data["type"]]
+    if kind is FieldType.ALONG:
+        return AlongField(**known, on=Entity.TRIP, type=kind, actions=tuple(data["actions"]))
+    of_class = TrackField if kind is Type.TEXT else Field
+    return of_class(**known, on=Entity(data["on"]), type=kind)
 
 
 def _parts(about: Mapping[str, Any]) -> tuple[shared.PartOf, ...]:
     """Return what an app has beside missions and drones, as far as a library must know it."""
     if "events" not in about:
         return ()
-    types = [
-        EventType(name=one["name"], parameters=_parameters(one["parameters"]))
+    types = tuple(
+        EventType(name=one["name"], fields=_parameters(one["parameters"]))
         for one in about["events"]
-    ]
-    creators = {
-        one["name"]: Creator(block="", hook=_nobody) for one in about["events"] if one["creates"]
-    }
-    along = {
-        one["name"]: AlongAction(name=one["name"], parameters=_parameters(one["parameters"]))
+    )
+    creators = tuple(
+        Creator(event=one["name"], block="", hook=_nobody)
+        for one in about["events"]
+        if one["creates"]
+    )
+    own = tuple(
+        AlongAction(name=one["name"], parameters=_parameters(one["parameters"]))
         for one in about["along"]
-    }
-    return EventsOf(types, creators), TracksOf(), CompanyOf(along)
+    )
+    return EventsOf(types, creators), TracksOf(), CompanyOf(own)
 
 
 def _nobody(*_: object) -> None:

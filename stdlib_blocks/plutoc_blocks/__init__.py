@@ -1,7 +1,8 @@
-"""The standard blocks, one folder each: the thesis's twelve (4.2), and GapMonitor."""
+"""The standard blocks, one folder each: the thesis's twelve (4.2), and three of ours."""
 
 from plutoc_blocks.clock import CLOCK
 from plutoc_blocks.drone_allocator import DRONE_ALLOCATOR
+from plutoc_blocks.event_monitor import EVENT_MONITOR
 from plutoc_blocks.gap_monitor import GAP_MONITOR
 from plutoc_blocks.gate_fifo import GATE_FIFO
 from plutoc_blocks.gate_funnel import GATE_FUNNEL
@@ -13,6 +14,7 @@ from plutoc_blocks.priority_manager import PRIORITY_MANAGER
 from plutoc_blocks.timer_monitor import TIMER_MONITOR
 from plutoc_blocks.trip_launcher import TRIP_LAUNCHER
 from plutoc_blocks.trip_monitor import TRIP_MONITOR
+from plutoc_blocks.trip_skipper import TRIP_SKIPPER
 
 BLOCKS = (
     MISSION_CREATOR,
@@ -22,10 +24,12 @@ BLOCKS = (
     TRIP_MONITOR,
     TIMER_MONITOR,
     GAP_MONITOR,
+    EVENT_MONITOR,
     GATE_FIFO,
     GATE_FUNNEL,
     MISSION_REPEATER,
     MISSION_EVALUATOR,
     MISSION_MODIFIER,
     PRIORITY_MANAGER,
+    TRIP_SKIPPER,
 )

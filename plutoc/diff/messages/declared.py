@@ -214,6 +214,7 @@ _WORDS = {
     HookKind.EVALUATOR: "evaluator",
     HookKind.MODIFIER: "modifier",
     HookKind.POLICY: "policy",
+    HookKind.CREATOR: "creator",
 }
 _IN_PLANS = (HookKind.ACTION, HookKind.EVALUATOR)
 """What missions files name."""

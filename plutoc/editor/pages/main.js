@@ -64,7 +64,7 @@ define(
   }, run: () => connectFrom(only()) },
   { id: "remove", title: "Remove", keys: ["Delete", "Backspace"], why: () => {
     if (selection.edge) return app.edges.get(selection.edge)?.implicit ? "This edge is not written: it cannot be removed." : "";
-    return isEnd(only() ?? "") ? "start and end are part of every app." : chosenBlocks().length ? "" : "Select a block or an edge first.";
+    return isEnd(only() ?? "") ? app.nodes.get(only()).event ? "Events are declared among the properties of the app." : "start and end are part of every app." : chosenBlocks().length ? "" : "Select a block or an edge first.";
   }, run: () => operations.removeSelected() },
   { id: "duplicate", title: "Duplicate", keys: ["Ctrl+D"], why: needsBlock, run: () => operations.duplicate() },
   { id: "copy", title: "Copy as Pluto text", keys: ["Ctrl+C"], why: needsBlock, run: () => copy() },

@@ -3,7 +3,7 @@
 import { refused, say, tell } from "./announce.js";
 import { ask } from "./link.js";
 import {
-  END, HEIGHT, START, WIDTH, app, arrowOf, choose, chosenBlocks, free, isEnd, only, outOf, selection,
+  END, HEIGHT, START, WIDTH, app, arrowOf, choose, chosenBlocks, free, isEnd, isSource, only, outOf, selection,
   widthOf,
 } from "./state.js";
 
@@ -27,7 +27,7 @@ const kindOf = (name) => app.palette.find((one) => one.kind === name);
 // The guard with which a block's free statuses go to one that accepts these; null: they cannot.
 export function guardTo(source, accepts) {
   const wanted = free(source).filter((status) => accepts.includes(status));
-  if (source === START) return free(START).length ? [] : null;
+  if (isSource(source)) return free(source).length ? [] : null;
   if (!wanted.length) return null;
   const emits = app.nodes.get(source).emits.filter((status) => accepts.includes(status));
   return wanted.length === emits.length ? [] : wanted;

@@ -13,8 +13,8 @@ export const snap = (value) => Math.round(value / GRID) * GRID;
 export const app = {
   client: 0, version: 0, file: "", text: "", hooks: null, palette: [], history: {},
   view: { title: "", blocks: [], edges: [], ends: { start: [0, 0], end: [0, 0] }, problems: [],
-    hooks: [], categories: [] },
-  nodes: new Map(), // name → block, or start, or end
+    events: [], hooks: [], categories: [] },
+  nodes: new Map(), // name → block, or start, end, an event
   edges: new Map(), // key → edge
 };
 
@@ -28,7 +28,10 @@ export const keyOf = ({ source, target, when, otherwise }) =>
 export const arrowOf = ({ source, target, when, otherwise }) =>
   ({ source, target, when, otherwise });
 
-export const isEnd = (name) => name === START || name === END;
+export const isEnd = (name) => name === START || name === END || Boolean(app.nodes.get(name)?.event);
+
+// Missions come from here: they have no status before.
+export const isSource = (name) => name !== END && isEnd(name);
 
 export const selection = { blocks: new Set(), edge: null };
 
@@ -40,6 +43,12 @@ function take(view) {
     app.nodes.set(name, {
       name, kind: name, x, y, terminal: true, problems: [], accepts: [], emits: [], arguments: [],
       doc: name === START ? "Where every mission begins." : "Where missions end.",
+    });
+  }
+  for (const event of view.events) {
+    app.nodes.set(event.name, {
+      ...event, kind: "event", event: true, terminal: true, problems: [], accepts: [], emits: [], arguments: [],
+      doc: event.doc || "An event: what makes missions of it stands behind.",
     });
   }
   for (const block of view.blocks) app.nodes.set(block.name, block);
@@ -76,7 +85,7 @@ export function choose(blocks, edge = null) {
 
 export const only = () => (selection.blocks.size === 1 ? [...selection.blocks][0] : null);
 
-// The blocks that are selected; start and end are none.
+// The blocks that are selected; start, end and events are none.
 export const chosenBlocks = () => [...selection.blocks].filter((name) => !isEnd(name));
 
 export const outOf = (name) => app.view.edges.filter((edge) => edge.source === name);
@@ -93,7 +102,7 @@ export function free(name) {
   const node = app.nodes.get(name);
   if (!node || name === END) return [];
   const out = outOf(name).filter((edge) => !edge.implicit);
-  if (name === START) return out.length ? [] : ["UNEXECUTED"];
+  if (isSource(name)) return out.length ? [] : ["UNEXECUTED"];
   const taken = new Set(out.flatMap(takes));
   return node.emits.filter((one) => !taken.has(one));
 }

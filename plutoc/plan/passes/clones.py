@@ -49,7 +49,7 @@ def clones(plan: Plan) -> Plan:
 
 def _idle(join: Join, arrows: list[int], brought: Callable[[], Brought]) -> Sequence[int]:
     """Return the numbers of the branches that need no clone."""
-    if join.gate.block.asks:  # a gate of another package may count them
+    if join.gate.asks:  # a gate of another package may count them
         return ()
     if join.gate.block.gate is Gate.FIRST:
         return range(arrows[0] + 1, len(join.branches))

@@ -31,7 +31,7 @@ def constants(plan: Plan) -> Plan:
 
 
 def _left_out(node: Node) -> Iterator[str]:
-    functions = [one for one in (node.block.step, node.block.limit) if one is not None]
+    functions = [one for one in (node.step, node.limit) if one is not None]
     defaults = [getattr(one, "__kwdefaults__", None) or {} for one in functions]
     values = dict(node.values)
     for param in node.block.params:

@@ -25,7 +25,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import chain
 
-from plutoc.block import Block, Gate
+from plutoc.block import Gate
 from plutoc.graph.model import Node
 from plutoc.plan.model import Body, Branch, Call, End, Join, Plan, Step, Watch
 from plutoc.plan.rewrite import rewritten
@@ -38,7 +38,7 @@ def watch(plan: Plan) -> Plan:
 
 def _fused(step: Step, _: Step) -> Body:
     match step:
-        case Call(node=node) if _only_waits(node.block):
+        case Call(node=node) if _only_waits(node):
             return (Watch(instead=step, watchers=(node,)),)
         case Join(gate=gate, branches=branches) if _only_closes(gate):
             found = [_watchers(branch, gate) for branch in branches]
@@ -82,14 +82,15 @@ def _watchers(branch: Branch, gate: Node) -> tuple[Node, ...] | None:
             return None
 
 
-def _only_waits(block: Block) -> bool:
+def _only_waits(node: Node) -> bool:
     """Whether a block only waits, with a limit that can be evaluated separately."""
+    block = node.block
     if not block.watches:
         return False
-    return block.limit is not None or not (block.limits or block.asks or block.named)
+    return node.limit is not None or not (block.limits or node.asks or block.named)
 
 
 def _only_closes(gate: Node) -> bool:
     """Whether a gate only passes a status on."""
     same = all(gate.emitted(status) == {status} for status in gate.block.accepts)
-    return same and not gate.block.asks
+    return same and not gate.asks

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from lark import Token
 
-from plutoc.block import AnyParam, Choice, HookParam, Param
+from plutoc.block import AnyParam, Choice, EventParam, HookParam, Param
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.results import WAYS
 from plutoc.graph.values import EXAMPLES
@@ -147,6 +147,8 @@ def _of_param(known: Known, param: AnyParam) -> _Offer:
             return _Offer(name=param.name, values=values, doc=doc)
         case HookParam():
             return _Offer(name=param.name, values=hooks, doc=doc, required=param.required)
+        case EventParam():
+            return _Offer(name=param.name, values=known.events, doc=doc, required=param.required)
 
 
 def _given(tokens: Sequence[Token]) -> list[tuple[str, str]]:

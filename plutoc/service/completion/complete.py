@@ -55,7 +55,10 @@ def _inside(place: Hole, known: Known) -> Iterator[Candidate]:
             yield from (arguments if place.opened else result)(place, known)
         case ("CATEGORY", *_):
             yield from (arguments if place.opened else category)(place, known)
-        case ("ACTION" | "EVALUATOR" | "MODIFIER" | "POLICY", *_):
+        case (
+            "ACTION" | "EVALUATOR" | "MODIFIER" | "POLICY" | "EVENT" | "CREATOR",
+            *_,
+        ):
             yield from hook(place, known)
         case (_, "EQUAL"):
             yield from kinds(known)

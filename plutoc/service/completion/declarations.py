@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from plutoc.block import IN_GRAPH, HookParam
-from plutoc.graph.hooks import PHOTO, REPEATS
+from plutoc.graph.built_in import ACTIONS
+from plutoc.graph.hooks import LAST_WORDS, PHOTO
 from plutoc.graph.model import Action
 from plutoc.graph.results import HANDLING, HEAT, SAID, VALUES, ways_of
 from plutoc.report.block_page import first_line
@@ -18,7 +19,6 @@ from plutoc.service.reading import describe
 from plutoc.service.symbols import Role
 from plutoc.syntax.tokens import ARROW, EQUAL, NAME
 from plutoc.syntax.tree import BlockDecl
-from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.fields import Entity
 from plutoc_runtime.domain.quantities import Type
 
@@ -28,6 +28,8 @@ _NEW = {
     "evaluator": ("judge_mission",),
     "modifier": ("change_mission",),
     "policy": ("choose_drone",),
+    "event": ("sighting",),
+    "creator": ("make_mission",),
 }
 """Names for what is new, where nothing says which is wanted."""
 
@@ -128,7 +130,7 @@ def hook(hole: Hole, known: Known) -> Iterator[Candidate]:
         elif last in (NAME, "RPAR", "QUANTITY"):
             if ARROW not in hole.types:
                 yield Candidate(label="->", kind=Sort.KEYWORD, forms=("-> float",), doc=_GIVES)
-            for repeat in REPEATS:
+            for repeat in LAST_WORDS:
                 yield keyword(repeat)
             if "TAKES" not in hole.types:
                 yield keyword("takes", "takes", "takes 5 s")
@@ -224,7 +226,7 @@ def result(hole: Hole, known: Known) -> Iterator[Candidate]:
 
 def _ways(name: str, own: Mapping[str, Action]) -> tuple[str, ...]:
     """Return the ways in which an action's results can be shown, the likeliest first."""
-    known = name in own or name in BUILT_IN
+    known = name in own or name in ACTIONS
     return (*(ways_of(name, own.get(name)) if known else ()), HANDLING)
 
 

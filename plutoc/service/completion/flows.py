@@ -35,11 +35,11 @@ def flow(hole: Hole, known: Known) -> Iterator[Candidate]:
 
 
 def blocks(hole: Hole, known: Known) -> Iterator[Candidate]:
-    """Give the blocks that a stop can be; at the beginning `start`, else `end`."""
+    """Give the blocks that a stop can be; at the beginning the sources, else `end`."""
     begins = ARROW not in hole.types
     beside = {str(token) for token in hole.before[hole.opened[-1] :]} if hole.opened else set()
     sources = _stop(hole.before[: _last_arrow(hole.before)]) if not begins else []
-    for i, name in enumerate((*known.blocks, START if begins else END)):
+    for i, name in enumerate((*known.blocks, *(known.sources if begins else (END,)))):
         if name in beside:
             continue
         rank = (_from if begins else _to)(known, name, sources) + i
@@ -47,17 +47,27 @@ def blocks(hole: Hole, known: Known) -> Iterator[Candidate]:
         yield Candidate(
             label=name,
             kind=Sort.BLOCK if node else Sort.KEYWORD,
-            detail=node.block.name if node else "",
-            doc=describe.code(node.declaration) if node else describe.KEYWORDS.get(name, ""),
+            detail=node.block.name if node else "event" if name in known.events else "",
+            doc=describe.code(node.declaration) if node else _of_source(known, name),
             rank=rank,
             judged=True,
         )
 
 
+def _of_source(known: Known, name: str) -> str:
+    """Describe a stop that is no block."""
+    if name in (START, END):
+        return describe.KEYWORDS[name]
+    event = next((one for one in known.graph.events if one.name == name), None)
+    return describe.of_event(name, event, ())
+
+
 def _from(known: Known, name: str, _: Sequence[str]) -> int:
     """Rank a block by whether it is left with statuses that no arrow takes yet."""
-    if name == START:
-        return 0 if known.graph.outgoing.get(START) else _UNREACHED
+    if name in known.own_sources:
+        return 0 if known.graph.outgoing.get(name) else _UNREACHED
+    if name in known.sources:
+        return _UNLIKELY
     return _LIKELY if known.leaves(name) - known.taken_from(name) else 0
 
 

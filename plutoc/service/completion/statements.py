@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from plutoc.block import IN_GRAPH
-from plutoc.graph.model import END, START
+from plutoc.graph.model import END
 from plutoc.report.block_page import first_line
 from plutoc.service.answers import Sort
 from plutoc.service.completion.arguments import required
@@ -37,12 +37,13 @@ def statement(hole: Hole, known: Known) -> Iterator[Candidate]:
         yield from _keywords(known)
 
 
-_FORMS = ("category", "action", "evaluator", "modifier", "policy", "version", "requires", "result")
+_NAMED = ("category", "action", "evaluator", "modifier", "policy", "event", "creator")
+_FORMS = (*_NAMED, "version", "requires", "result")
 _FIELDS = {"mission": "mission has patient: text", "trip": 'trip has note: text = ""'}
 
 
 def _keywords(known: Known) -> Iterator[Candidate]:
-    first = {word: next(iter(names(Role(word), known))).label for word in _FORMS[:5]}
+    first = {word: next(iter(names(Role(word), known))).label for word in _NAMED}
     forms = {word: f"{word} {name}" for word, name in first.items()}
     forms["category"] += f" can {', '.join(known.actions)}"
     forms["requires"] = 'requires "numpy>=2"'
@@ -79,9 +80,9 @@ def _edges(known: Known) -> Iterator[Candidate]:
     given = 0
     lonely = [name for name in known.blocks if not known.graph.incoming.get(name)]
     every = tuple(dict.fromkeys((*lonely, *known.blocks[:_MOST_EDGES], END)))
-    for name in (START, *known.blocks):
+    for name in (*known.own_sources, *known.blocks):
         free = known.leaves(name) - known.taken_from(name)
-        if not free or (name == START and known.graph.outgoing[START]):
+        if not free or (name not in known.blocks and known.graph.outgoing.get(name)):
             continue
         targets = [target for target in every if target != name and free & known.accepts(target)]
         for target in targets[:4]:

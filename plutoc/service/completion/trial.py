@@ -24,6 +24,7 @@ from plutoc.syntax.tree import (
     ActionDecl,
     BadStatement,
     BlockDecl,
+    EventDecl,
     FieldsDecl,
     File,
     HookDecl,
@@ -110,7 +111,7 @@ class Trials:
         return {
             statement.name.text: i
             for i, statement in enumerate(self.file.app.statements)
-            if isinstance(statement, BlockDecl | ActionDecl | HookDecl)
+            if isinstance(statement, BlockDecl | EventDecl | ActionDecl | HookDecl)
         }
 
     def legal(self, forms: Iterable[str]) -> Trial | None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
-from plutoc.block import Block, HookKind, HookParam, Param
+from itertools import chain
+
+from plutoc.block import Block, EventParam, HookKind, HookParam, Param
 from plutoc.diagnostic import Fix
+from plutoc.graph.built_in import EVENTS
 from plutoc.graph.names import in_snake_case, reserved
 from plutoc.graph.values import EXAMPLES
 from plutoc.registry import STD, RegistryError, blocks
@@ -19,6 +22,7 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    EventDecl,
     FieldsDecl,
     File,
     FlowDecl,
@@ -29,13 +33,13 @@ from plutoc.syntax.tree import (
     VersionDecl,
 )
 
-Declaration = CategoryDecl | ActionDecl | HookDecl | BlockDecl
+Declaration = CategoryDecl | EventDecl | ActionDecl | HookDecl | BlockDecl
 _ORDER = (
     *(VersionDecl, RequiresDecl, FieldsDecl),
-    *(CategoryDecl, ActionDecl, ResultDecl, HookDecl, BlockDecl, FlowDecl),
+    *(CategoryDecl, EventDecl, ActionDecl, ResultDecl, HookDecl, BlockDecl, FlowDecl),
 )
 """Which statements stand before which, where an app is written as ours are."""
-_BESIDE = ({VersionDecl, RequiresDecl}, {ActionDecl, HookDecl})
+_BESIDE = ({VersionDecl, RequiresDecl}, {EventDecl, ActionDecl, HookDecl})
 """Between these stands no blank line."""
 
 
@@ -50,6 +54,12 @@ def declared(file: File, name: str) -> Declaration:
         if each.name.text == name:
             return each
     raise CannotEdit(f"the app declares no `{name}`")
+
+
+def is_event(file: File, name: str) -> bool:
+    """Return whether an arrow that begins with this name begins at an event."""
+    found = {each.name.text: each for each in reversed(declarations(file))}
+    return isinstance(found[name], EventDecl) if name in found else name in EVENTS
 
 
 def taken(file: File) -> set[str]:
@@ -266,6 +276,9 @@ def new_block(draft: Draft, kind: str, name: str, arguments: dict[str, str]) -> 
             draft, given[param.name] = _hook(draft, param.kind, called)
         elif isinstance(param, Param) and param.required:
             given[param.name] = EXAMPLES[param.type]
+        elif isinstance(param, EventParam):
+            own = (one.name.text for one in declarations(draft.file) if isinstance(one, EventDecl))
+            given[param.name] = next(chain(own, EVENTS))
     values = ", ".join(f"{parameter}: {value}" for parameter, value in given.items())
     text = f"{called} = {kind}({values})" if values else f"{called} = {kind}"
     _one_block(text)

@@ -34,7 +34,16 @@ from plutoc.service.editing.operations import (
     SetTitle,
 )
 from plutoc.service.editing.rename import renamed
-from plutoc.syntax.tree import ActionDecl, BlockDecl, CategoryDecl, FieldsDecl, HookDecl, ResultDecl
+from plutoc.syntax.tree import (
+    ActionDecl,
+    BlockDecl,
+    CategoryDecl,
+    EventDecl,
+    FieldsDecl,
+    FlowDecl,
+    HookDecl,
+    ResultDecl,
+)
 
 __all__ = ["CannotEdit", "Edited", "edit"]
 
@@ -140,9 +149,12 @@ def _check_ends(draft: Draft, arrow: Arrow) -> None:
         raise CannotEdit("no edge leads to `start`: every mission begins there once")
     if arrow.source == END:
         raise CannotEdit("no edge leaves `end`: missions are over there")
-    if arrow.source == START and edges.guard_text(arrow):
-        raise CannotEdit("an edge from `start` has no guard: nothing has happened there yet")
-    if arrow.source != START:
+    begins = arrow.source == START or declared.is_event(draft.file, arrow.source)
+    if begins and edges.guard_text(arrow):
+        raise CannotEdit(
+            f"an edge from `{arrow.source}` has no guard: nothing has happened there yet"
+        )
+    if not begins:
         _block(draft, arrow.source)
     if arrow.target != END:
         _block(draft, arrow.target)
@@ -158,7 +170,7 @@ def _declare(draft: Draft, text: str) -> Draft:
         return declared.added(draft, declared.one_ending(text).strip(), FieldsDecl)
     if isinstance(one, ResultDecl):
         return declared.added(draft, declared.one_ending(text).strip(), ResultDecl)
-    if not isinstance(one, CategoryDecl | ActionDecl | HookDecl | BlockDecl):
+    if not isinstance(one, CategoryDecl | EventDecl | ActionDecl | HookDecl | BlockDecl):
         raise CannotEdit("this is not one declaration")
     if one.name.text.lower() in declared.taken(draft.file):
         raise CannotEdit(f"`{one.name.text}` is declared already")
@@ -174,6 +186,11 @@ def _remove(draft: Draft, name: str) -> Draft:
         given = each.arguments if isinstance(each, BlockDecl) else ()
         if any(draft.source.quote(argument.value.span) == name for argument in given):
             raise CannotEdit(f"`{each.name.text}` uses `{name}`: change or remove that first")
+    flows = (each for each in draft.file.app.statements if isinstance(each, FlowDecl))
+    if isinstance(one, EventDecl) and any(
+        name == each.text for flow in flows for stop in flow.stops for each in stop.names
+    ):
+        raise CannotEdit(f"the event `{name}` leads somewhere: remove that edge first")
     for statement in reversed(draft.file.app.statements):
         if isinstance(statement, CategoryDecl) and name in [can.text for can in statement.can]:
             draft = _cannot_any_more(draft, statement, name)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from plutoc.diagnostic import Fix
+from plutoc.graph.built_in import ACTIONS
 from plutoc.graph.names import Style, has_style, is_well_formed, reserved
 from plutoc.hooks.module import Function, name_span, node_span
 from plutoc.hooks.python import Unreadable, parsed
@@ -16,7 +17,6 @@ from plutoc.service.editing.declarations import taken
 from plutoc.service.editing.flows import CannotEdit
 from plutoc.service.symbols import DECLARED, HOOKS, Occurrence, Role, occurrences
 from plutoc.source import Source, Span
-from plutoc_runtime.domain.actions import BUILT_IN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,7 +64,7 @@ def check_new_name(document: Document, one: Occurrence, new: str) -> None:
         raise CannotEdit(f"`{new}` cannot be a name: it is {whose}")
     if not has_style(new, Style.SNAKE):
         raise CannotEdit(f"the name of {one.role.value} is written in small letters: snake_case")
-    if one.role in HOOKS and new.lower() in BUILT_IN:
+    if one.role in HOOKS and new.lower() in ACTIONS:
         raise CannotEdit(f"`{new}` is an action that every app has")
     if new.lower() in taken(document.file) - {one.name.lower()}:
         raise CannotEdit(f"`{new}` is declared already")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from plutoc.block import AnyParam, Choice, HookParam, Param
+from plutoc.block import AnyParam, Choice, EventParam, HookParam, Param
+from plutoc.graph.built_in import EVENTS
 from plutoc.graph.model import Action, Hook, Node, Parameter, Plain
 from plutoc.service.document import Document
 from plutoc.syntax.texts import quoted
@@ -22,7 +23,8 @@ def arguments_of(declared: BlockDecl, node: Node | None, document: Document) -> 
         return [_unknown(name, text) for name, text in written.items()]
     graph = document.graph
     hooks: tuple[Hook | Action, ...] = (*graph.hooks, *graph.actions)
-    found = [argument(one, written.pop(one.name, None), hooks) for one in node.block.params]
+    events = [event.name for event in graph.events]
+    found = [argument(one, written.pop(one.name, None), hooks, events) for one in node.block.params]
     passes = any(isinstance(one, HookParam) and one.passes for one in node.block.params)
     if node.hook is not None and passes:
         for own in node.hook.parameters:
@@ -34,7 +36,10 @@ def arguments_of(declared: BlockDecl, node: Node | None, document: Document) -> 
 
 
 def argument(
-    param: AnyParam, written: str | None = None, hooks: Iterable[Hook | Action] = ()
+    param: AnyParam,
+    written: str | None = None,
+    hooks: Iterable[Hook | Action] = (),
+    events: Iterable[str] = (),
 ) -> Data:
     """Return one value that a block or a category takes."""
     data: Data = {"name": param.name, "written": written, "doc": param.doc, "of_hook": False}
@@ -60,6 +65,15 @@ def argument(
                 "units": [],
                 "choices": [one.name for one in hooks if _kind(one) == param.kind.value],
                 "hook": param.kind.value,
+            }
+        case EventParam():
+            return data | {
+                "type": "event",
+                "default": None,
+                "required": param.required,
+                "units": [],
+                "choices": [*events, *EVENTS],
+                "hook": None,
             }
 
 

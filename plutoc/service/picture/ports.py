@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 from plutoc.block import IN_GRAPH
+from plutoc.graph.built_in import EVENTS
 from plutoc.graph.model import END, START, Edge, Node
 from plutoc.graph.stops import END_ACCEPTS
 from plutoc.service.document import Document
@@ -16,6 +17,7 @@ def targets(document: Document, source: str, when: Sequence[str]) -> Mapping[str
     """Return for every block, and `end`, None where an edge may lead there, else why not."""
     graph = document.graph
     node = graph.node.get(source)
+    sources = {*graph.sources, *EVENTS, *(event.name for event in graph.events)} - {*graph.node}
     names = [s.name.text for s in document.file.app.statements if isinstance(s, BlockDecl)]
     wanted = {status for status in IN_GRAPH if status.value in when}
     edges = graph.outgoing.get(source, ())
@@ -24,12 +26,14 @@ def targets(document: Document, source: str, when: Sequence[str]) -> Mapping[str
         target = graph.node.get(name)
         if source == START:
             found[name] = _from_start(name, target, edges)
+        elif source in sources:
+            found[name] = _from_event(source, name, target, edges)
         elif node is None:
             found[name] = f"the kind of `{source}` is not known"
         elif name != END and target is None:
             found[name] = f"the kind of `{name}` is not known"
         elif target is not None and target.block.creates:
-            found[name] = f"missions begin at `{name}`: only start leads there"
+            found[name] = f"missions begin at `{name}`: only {_source_of(target)} leads there"
         elif any(edge.target == name and _guard(edge) == wanted for edge in edges):
             found[name] = f"this edge from `{source}` to `{name}` is there already"
         else:
@@ -37,10 +41,22 @@ def targets(document: Document, source: str, when: Sequence[str]) -> Mapping[str
     return found
 
 
+def _from_event(event: str, name: str, target: Node | None, edges: Sequence[Edge]) -> str | None:
+    if target is None or not target.block.creates or target.hook is None:
+        return "an event leads to a block that makes missions of events, and to no other"
+    if any(edge.target == name for edge in edges):
+        return f"`{event}` leads to `{name}` already"
+    return None
+
+
 def _from_start(name: str, target: Node | None, edges: Sequence[Edge]) -> str | None:
-    if target is None or not target.block.creates:
-        return "start leads to the block that makes missions, and to no other"
+    if target is None or not target.block.creates or target.hook is not None:
+        return "start leads to the block that makes the user's missions, and to no other"
     return f"start leads to `{edges[0].target}` already" if edges else None
+
+
+def _source_of(creator: Node) -> str:
+    return "start" if creator.hook is None else "an event"
 
 
 def _guard(edge: Edge) -> set[Status]:

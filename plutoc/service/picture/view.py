@@ -9,6 +9,7 @@ from itertools import pairwise, product
 
 from plutoc.block import IN_GRAPH, Block
 from plutoc.diagnostic import Diagnostic
+from plutoc.graph.built_in import EVENTS
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.model import END, START, Action, Edge, Hook, Node
 from plutoc.hooks.module import Definition
@@ -73,13 +74,15 @@ class _View:
         names = list(self.declared)
         ways = [(way.source, way.target) for way in self.ways]
         implicit = list(self._implicit())
-        spots = laid_out(names, [*ways, *((name, END) for name, _ in implicit)], self.positions)
+        ways += ((name, END) for name, _ in implicit)
+        spots = laid_out(names, ways, self.positions, self.events)
         bad = [s for s in document.file.app.statements if isinstance(s, BadStatement)]
         return {
             "app": document.graph.name,
             "title": document.graph.title,
             "blocks": [self._block(one, spots[name]) for name, one in self.declared.items()],
             "ends": {"start": list(spots[START]), "end": list(spots[END])},
+            "events": [self._event(name, spots[name]) for name in self.events],
             "edges": [*map(self._edge, self.ways), *(self._implied(*one) for one in implicit)],
             "fields": list(self._fields()),
             "hooks": list(self._hooks()),
@@ -101,6 +104,26 @@ class _View:
         return found
 
     @cached_property
+    def events(self) -> tuple[str, ...]:
+        """The events that lead somewhere, or that the app declares, in the order of the source."""
+        graph = self.document.graph
+        own = [event.name for event in graph.events]
+        found = dict.fromkeys([*own, *graph.sources[1:]])
+        return tuple(name for name in found if name not in self.declared)
+
+    def _event(self, name: str, spot: Sequence[int]) -> Data:
+        declared = next((e for e in self.document.graph.events if e.name == name), None)
+        return {
+            "name": name,
+            "doc": EVENTS.get(name, ""),
+            "text": declared.declaration if declared else "",
+            "x": spot[0],
+            "y": spot[1],
+            "moved": name in self.positions,
+            "line": self._line(declared.span.start) if declared and declared.span else None,
+        }
+
+    @cached_property
     def ways(self) -> list[_Way]:
         """The arrows as written; a name that nothing declares has no place in a picture."""
         edges = {(e.span, e.source, e.target): e for e in self.document.graph.edges}
@@ -119,7 +142,8 @@ class _View:
         return found
 
     def _is_there(self, name: str, terminal: str) -> bool:
-        return name == terminal or name in self.declared
+        event = terminal == START and name in self.events
+        return name == terminal or event or name in self.declared
 
     def _at(self, span: Span) -> Data:
         return {"from": self.offset(span.start), "to": self.offset(span.end)}

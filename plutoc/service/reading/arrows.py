@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from plutoc.block import IN_GRAPH
-from plutoc.graph.model import START, Edge
+from plutoc.graph.model import Edge
 from plutoc.graph.stops import accepts_by_guard
 from plutoc.service.document import Document
 from plutoc.source import Span
@@ -80,7 +80,7 @@ def _reason(document: Document, edge: Edge, status: Status) -> str:
 
 def emitted(document: Document, name: str) -> frozenset[Status]:
     """Return the statuses that a block can emit at all."""
-    if name == START:
+    if name not in document.graph.node:
         return frozenset({Status.UNEXECUTED})
     return document.graph.node[name].emits
 

@@ -6,13 +6,13 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from plutoc.block import IN_GRAPH, AnyParam, Block, Param
+from plutoc.graph import built_in
 from plutoc.graph.categories import PARAMS
 from plutoc.graph.hooks import PHOTO
-from plutoc.graph.model import Action, AppField, Category, Hook, Node, Parameter, Plain
+from plutoc.graph.model import Action, AppField, Category, Event, Hook, Node, Parameter, Plain
 from plutoc.graph.values import EXAMPLES
 from plutoc.report.block_page import page, param_line
 from plutoc.syntax.texts import quoted
-from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.quantities import UNITS, Type, units_of
 from plutoc_runtime.domain.status import Status
 
@@ -28,6 +28,8 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "evaluator": "Declares a hook that judges a finished mission, and may add trips.",
         "modifier": "Declares a hook that changes a mission on its way, or only looks at it.",
         "policy": "Declares a hook that chooses the drone for a trip.",
+        "event": "Declares what can happen; it leads to what makes a mission of it, as `start` does.",
+        "creator": "Declares a hook that makes a mission of an event.",
         "emits": "With which statuses a mission can leave a modifier.",
         "writes": "Which attributes of the mission a modifier changes.",
         "when": "The guard of an arrow: it takes these statuses and no others.",
@@ -42,6 +44,7 @@ KEYWORDS: Mapping[str, str] = MappingProxyType(
         "safe": "The action may be repeated after a crash of the system.",
         "once": "The action is not repeated after a crash of the system.",
         "ask": "After a crash a person decides whether the action is repeated.",
+        "along": "The action is done on the way, from the launch to the end of the last leg.",
         "start": "Where every mission begins: it leads to the block that makes missions.",
         "end": "Where missions end: it takes COMPLETED and FAILED.",
         "yes": "True.",
@@ -70,6 +73,7 @@ ACTIONS: Mapping[str, str] = MappingProxyType(
         "take_photo": "Takes a photo, and gives it.",
         "pick_item": "Picks an item up.",
         "release_item": "Lets the item go.",
+        "follow": "Stays within reach of what moves, for so long, and takes pictures.",
     }
 )
 
@@ -151,10 +155,22 @@ def of_hook(declaration: str, signature: str) -> str:
 
 def of_action(name: str) -> str:
     """Describe a built-in action."""
-    action = BUILT_IN[name]
+    action = built_in.ACTIONS[name]
     given = ", ".join(f"{p.name}: {p.type.value}{_default(p.default)}" for p in action.parameters)
     declared = f"action {name}{f'({given})' if given else ''} {action.repeat}"
     return paragraphs((code(declared), ACTIONS[name], "Every app has it."))
+
+
+def of_event(name: str, event: Event | None, creators: Iterable[str]) -> str:
+    """Describe an event: its declaration, or what it means, and what makes missions of it."""
+    leads = ", ".join(f"`{one}`" for one in creators)
+    return paragraphs(
+        (
+            code(event.declaration) if event else f"`{name}`: {built_in.EVENTS.get(name, '')}",
+            "" if event else "Every app has it.",
+            f"It leads to {leads}." if leads else "",
+        )
+    )
 
 
 def _default(value: Plain | None) -> str:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.emit.hooks_file import hooks_file
+from plutoc.graph.built_in import ACTIONS
 from plutoc.hooks.add import with_stubs
 from plutoc.hooks.check import missing
 from plutoc.service.document import Document
 from plutoc.service.symbols import HOOKS, at
 from plutoc.source import Source, Span
-from plutoc_runtime.domain.actions import BUILT_IN
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,7 +53,7 @@ def lacking_hook(document: Document, offset: int) -> str | None:
     if one is None or one.role not in HOOKS or document.checked is None:
         return None
     if document.hooks is None:
-        return one.name if one.name not in BUILT_IN else None
+        return one.name if one.name not in ACTIONS else None
     return one.name if one.name in missing(document.checked, document.hooks) else None
 
 

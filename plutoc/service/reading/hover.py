@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from plutoc.block import Choice
 from plutoc.emit.stubs import stubs
+from plutoc.graph.built_in import ACTIONS
 from plutoc.graph.categories import PARAMS
-from plutoc.graph.hooks import REPEATS
+from plutoc.graph.hooks import LAST_WORDS
 from plutoc.graph.model import END, START, Edge
 from plutoc.graph.results import SAID, WAYS
 from plutoc.service.answers import Hover
@@ -17,7 +18,6 @@ from plutoc.service.symbols import HOOKS, Occurrence, Role, at
 from plutoc.source import Span
 from plutoc.syntax.fragment import word_at
 from plutoc.syntax.tree import BlockDecl
-from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.quantities import UNITS, Type, to_si, units_of
 from plutoc_runtime.domain.status import Status
 
@@ -53,6 +53,8 @@ def _of_name(document: Document, one: Occurrence) -> str:
             return _of_kind(document, known, one)
         case Role.BLOCK:
             return of_block(document, one.name)
+        case Role.EVENT:
+            return _of_event(document, one.name)
         case Role.PARAMETER:
             return _of_parameter(document, known, one)
         case Role.TYPE:
@@ -98,7 +100,7 @@ def of_hook(document: Document, name: str) -> str:
     """Describe a hook, or an action: its declaration, and the function that it is in hooks.py."""
     hook = _known(document).hook.get(name)
     if hook is None:
-        return describe.of_action(name) if name in BUILT_IN else ""
+        return describe.of_action(name) if name in ACTIONS else ""
     signature = ""
     if document.checked is not None:
         stub = next(one for one in stubs(document.checked) if one.name == name)
@@ -122,6 +124,10 @@ def _of_parameter(document: Document, known: Known, one: Occurrence) -> str:
     of_way = next((param for param in WAYS.get(one.owner, ()) if param.name == one.name), None)
     if of_way is not None:
         return describe.of_param(of_way)
+    event = next((each for each in document.graph.events if each.name == one.owner), None)
+    if event is not None:
+        field = next((each for each in event.fields if each.name == one.name), None)
+        return describe.of_parameter(field, one.owner) if field else ""
     hook = known.hook.get(one.owner)
     if hook is not None:
         own = next((each for each in hook.parameters if each.name == one.name), None)
@@ -132,7 +138,7 @@ def _of_parameter(document: Document, known: Known, one: Occurrence) -> str:
 
 
 def _of_option(document: Document, known: Known, one: Occurrence) -> str:
-    if one.name in REPEATS:
+    if one.name in LAST_WORDS:
         return f"`{one.name}`: {describe.KEYWORDS[one.name]}"
     for block in document.file.app.statements:
         for argument in block.arguments if isinstance(block, BlockDecl) else ():
@@ -167,6 +173,12 @@ def _of_terminal(document: Document, name: str) -> str:
         return describe.paragraphs((said, f"Missions end with {passing}."))
     targets = [edge.target for edge in document.graph.outgoing[START]]
     return describe.paragraphs((said, f"It leads to `{targets[0]}`." if targets else ""))
+
+
+def _of_event(document: Document, name: str) -> str:
+    graph = document.graph
+    event = next((each for each in graph.events if each.name == name), None)
+    return describe.of_event(name, event, (edge.target for edge in graph.outgoing.get(name, ())))
 
 
 def _of_arrow(document: Document, arrow: Arrow) -> str:

@@ -16,6 +16,7 @@ from plutoc.syntax.tree import (
     BadStatement,
     BlockDecl,
     CategoryDecl,
+    EventDecl,
     FieldsDecl,
     HookDecl,
     Name,
@@ -68,6 +69,8 @@ def _declared(one: Statement) -> Iterator[Symbol]:
                 yield _symbol(field.name, detail, Role.FIELD, field)
         case CategoryDecl():
             yield _symbol(one.name, ", ".join(name.text for name in one.can), Role.CATEGORY, one)
+        case EventDecl():
+            yield _symbol(one.name, "event", Role.EVENT, one)
         case ActionDecl():
             yield _symbol(one.name, "action", Role.ACTION, one)
         case HookDecl():

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Coroutine, Mapping
+from collections.abc import Callable, Container, Coroutine, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from math import dist
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Required, TypedDict, cast
 
-from ..domain.actions import MEASURE, PHOTO, Action
+from ..domain.actions import Action, Plain
 from ..domain.app import PartOf, parameters_data
 from ..domain.errors import ActionFailed, Cancelled, FlightFailed
 from ..domain.fields import Field, FieldType
@@ -17,13 +17,11 @@ from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import put
 from ..domain.model import Sighting
 from ..domain.quantities import Type
-from ..domain.status import RUNNING, Status
 from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
 from ..domain.values import Quantity, Table, one_of, read_parameters
 from ..fleet.reach import needed
 from ..flow.asking import kept_by, take_over
 from ..flow.mission import Part
-from ..flow.run import launch
 from ..hooks.calls import call_hook, fault_of
 from ..hooks.context import Context, LiveDrone
 from ..hooks.plain_data import keepable, point_of
@@ -36,7 +34,6 @@ if TYPE_CHECKING:
     from ..flow.engine import Engine
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
-    from ..flow.run import Run
     from ..time.kernel import Task
 
 
@@ -65,39 +62,57 @@ class FlyingDrone(LiveDrone):
 class AlongAction(Action):
     """An action of the app's own that goes on while a drone flies, and not at the end of its way."""
 
+    returns: type[object] | None = None
+    """The type of what its hook gives; None: the app does not say."""
+
+
+class Along(TypedDict, total=False):
+    """What is done on the way: one of the app's own actions once, a built-in one every so often."""
+
+    action: Required[str]
+    parameters: Mapping[str, Plain]
+    metres: float
+    seconds: float
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class AlongField(Field):
     """The field of a trip with the action along its way."""
 
+    actions: tuple[str, ...] = ()
+    """Those that can be."""
+
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
-        is_right = value is None or (type(value) is dict and type(value.get("action")) is str)
-        return "" if is_right else 'a dict such as {"action": "look"}'
+        if value is None or (type(value) is dict and value.get("action") in self.actions):
+            return ""
+        return f'an Along, such as {{"action": "{self.actions[0]}"}}'
 
 
 @dataclass(frozen=True, slots=True)
 class CompanyOf(PartOf):
     """Makes what goes on beside the flights of an app."""
 
-    along: Mapping[str, AlongAction] = field(default_factory=dict)
-    """The app's own actions along the way, by name."""
+    own: tuple[AlongAction, ...] = ()
+    """The app's own actions on the way."""
 
     def __call__(self, engine: Engine) -> Company:
         """Return what sees to it in a running app."""
-        return Company(engine, self.along)
+        return Company(engine, self.own)
 
     def about(self) -> dict[str, Any]:
         """Return the actions along the way, for the library."""
         actions = [
-            {"name": one.name, "parameters": parameters_data(one.parameters)}
-            for one in self.along.values()
+            {"name": one.name, "parameters": parameters_data(one.parameters)} for one in self.own
         ]
         return {"along": actions}
 
     def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
         """Return how the action along a trip's way is read."""
-        return {FieldType.ALONG: partial(_read_along, self.along, app)}
+        named = [field for field in app.fields if isinstance(field, AlongField)]
+        names = [name for field in named for name in field.actions]
+        actions = {**app.actions, **{action.name: action for action in self.own}}
+        return {FieldType.ALONG: partial(_read_along, {name: actions[name] for name in names})}
 
     def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
         """Take a target that moves apart: `target = { track = "t7" }`; where it is, is known later."""
@@ -112,26 +127,23 @@ class CompanyOf(PartOf):
 _OF_TARGET = ("track", "reach", "lost_after")
 
 
-def _read_along(own: Mapping[str, AlongAction], app: App, value: object) -> dict[str, Any]:
+def _read_along(actions: Mapping[str, Action], value: object) -> Along:
     """Read `"look"`, or `{ action = "take_photo", every = "2 m" }`; raise `ValueError`."""
-    given: Any = value if isinstance(value, dict) else {"action": value}
-    names = [*own, *(name for name in ALONG if name in app.actions)]
-    table = Table(given)
-    read = table.read({"action": partial(one_of, names)}, {"every": _spacing, "parameters": None})
-    name = str(read.get("action"))
-    action = own.get(name) or app.actions.get(name)
+    table = Table(value if isinstance(value, dict) else {"action": value})
+    read = table.read({"action": partial(one_of, actions)}, {"every": _spacing, "parameters": None})
+    action = actions.get(str(read.get("action")))
     if action is not None:
-        parameters = table.table("parameters")
-        read["parameters"] = read_parameters(parameters, action.parameters)
-        is_own = name in own
-        if is_own and "every" in given:
-            table.problem(f"{name} goes on all the way: it takes no every")
-        elif not is_own and "every" not in given:
-            table.problem(f'{name} needs its spacing, such as every = "2 m" or every = "1 s"')
+        read["parameters"] = read_parameters(table.table("parameters"), action.parameters)
+        goes_on = isinstance(action, AlongAction)
+        if goes_on and "every" in table.data:
+            table.problem(f"{action.name} goes on all the way, and takes no every")
+        elif not goes_on and "every" not in table.data:
+            table.problem(f'{action.name} needs every, such as every = "2 m" or every = "1 s"')
     if table.problems:
         raise ValueError(f"is wrong: {table.problems[0].sentence}")
     every = read.pop("every", {})
-    return {**read, **every}
+    found: Any = {**read, **every}
+    return cast("Along", found)
 
 
 def _spacing(value: object) -> dict[str, float]:
@@ -147,10 +159,6 @@ def _spacing(value: object) -> dict[str, float]:
     raise ValueError('is no spacing: write a length or a time, such as "2 m" or "1 s"')
 
 
-ALONG = (MEASURE, PHOTO)
-"""The built-in actions that can be done on the way."""
-
-
 class Failed(NamedTuple):
     """Why something that went on beside a flight fails that."""
 
@@ -162,9 +170,11 @@ class Failed(NamedTuple):
 class Company(Part):
     """What goes on beside the flights of one running app."""
 
-    def __init__(self, engine: Engine, along: Mapping[str, AlongAction]) -> None:
+    def __init__(self, engine: Engine, own: Sequence[AlongAction]) -> None:
         self._core = engine.core
-        self._along = along
+        self._engine = engine
+        self._own = {action.name: action for action in own}
+        self._core.accompany = self.accompany
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
         self._live: dict[str, FlyingDrone] = {}
@@ -175,35 +185,52 @@ class Company(Part):
         if "arrived" in message and message["arrived"] in self._arrivals:
             self._arrivals[message["arrived"]].set(None)
 
-    def aim(self, trip: Trip, drone: Drone) -> None:
+    def go_on(self) -> None:
+        """Begin again what went on beside the flights that go on."""
+        for state in self._engine.states.values():
+            flight = state.in_flight
+            if flight is not None and state.task is not None:
+                self._begin(state, flight)
+
+    def accompany(self, state: MissionState, flight: Flight) -> dict[str, Any]:
+        """Begin what goes on beside a flight that is just launched, and return the order to fly."""
+        track = track_of(flight.trip)
+        if track is not None:
+            self._aim(flight, track)
+        return {**flight.order, "company": True} if self._begin(state, flight) else flight.order
+
+    def _aim(self, flight: Flight, id: str) -> None:
         """Aim a trip at where its drone will meet what it follows."""
         tracks: Tracks = self._core.parts[Tracks]
-        track = tracks.known.get(track_of(trip) or "")
+        track = tracks.known.get(id)
         if track is not None:
             height = self._core.airspace.cruise_height
-            put(trip, target=tracks.meeting(track, drone, height))
+            put(flight.trip, target=tracks.meeting(track, flight.flier, height))
 
-    def begin(self, state: MissionState, flight: Flight) -> None:
-        """Begin what goes on beside a flight."""
+    def _begin(self, state: MissionState, flight: Flight) -> bool:
+        """Begin what goes on beside a flight; return whether anything does."""
         trip = flight.trip
-        key = mission_key(state.mission.index)
         works: dict[str, Coroutine[Any, Any, Failed | None]] = {}
         if given := along_of(trip):
             name = given["action"]
-            own = name in self._along
-            does = self._call if own else self._repeat
-            works[f"{name} along"] = does(state, flight, given)
+            own = self._own.get(name)
+            works[f"{name} along"] = (
+                self._repeat(state, flight, given)
+                if own is None
+                else self._call(state, flight, own, given)
+            )
         if track := track_of(trip):
             works[f"pursuit of {track}"] = self._pursue(state, flight)
         if not works:
-            return
+            return False
         self._arrivals[flight.id] = arrival = Future[None]()
         flight.watch(arrival.set)
         arrival.watch(lambda _: self._arrivals.pop(flight.id, None))
         for name, work in works.items():
-            task = self._core.kernel.spawn(work, key, f"{state.mission.name}: {name}")
+            task = state.spawn(work, f"{state.mission.name}: {name}")
             task.over = partial(_end, state, flight)
             arrival.watch(partial(_cancel, task))
+        return True
 
     def hand_over(self, flight: Flight, drone: Drone) -> None:
         """Let what goes on beside a flight go on with another drone; its id has just changed."""
@@ -217,11 +244,10 @@ class Company(Part):
     # Along the way
 
     async def _call(
-        self, state: MissionState, flight: Flight, given: Mapping[str, Any]
+        self, state: MissionState, flight: Flight, action: AlongAction, given: Along
     ) -> Failed | None:
         """Call the hook of an action along the way; what it raises fails the trip."""
         core, drone, trip = self._core, flight.flier, flight.trip
-        action = self._along[given["action"]]
         parameters = given.get("parameters") or {}
         hook = action.hook
         assert hook is not None
@@ -254,9 +280,7 @@ class Company(Part):
             del self._live[state.mission.name]
             take_over(state, hook)
 
-    async def _repeat(
-        self, state: MissionState, flight: Flight, given: Mapping[str, Any]
-    ) -> Failed | None:
+    async def _repeat(self, state: MissionState, flight: Flight, given: Along) -> Failed | None:
         """Do a built-in action again and again on the way, without a stop, by its spacing."""
         core, drone, trip = self._core, flight.flier, flight.trip
         kernel, key = core.kernel, mission_key(state.mission.index)
@@ -325,9 +349,9 @@ MOMENT = 0.1
 """Seconds between two looks at where a drone is."""
 
 
-def along_of(trip: Trip) -> Mapping[str, Any] | None:
-    """Return the action along a trip's way: its `action`, `metres` or `seconds` apart, and its parameters."""
-    along: Mapping[str, Any] | None = getattr(trip, "along", None)  # not every app has this field
+def along_of(trip: Trip) -> Along | None:
+    """Return what is done along a trip's way."""
+    along: Along | None = getattr(trip, "along", None)  # not every app has this field
     return along
 
 
@@ -350,15 +374,3 @@ def _end(state: MissionState, flight: Flight, task: Task[Failed | None]) -> None
 
 def _cancel(task: Any, _: object) -> None:
     task.cancel()
-
-
-def launch_accompanied(run: Run[Any], status: Status) -> Status:
-    """Send the allocated drone on the next trip, with what goes on beside its flight."""
-    state = run.state
-    company: Company = run.core.parts[Company]
-    if state.allocated is not None and track_of(run.trip):
-        company.aim(run.trip, state.allocated)
-    launch(run, company=True)
-    if state.flight is not None and not state.flight.is_set:
-        company.begin(state, state.flight)
-    return RUNNING

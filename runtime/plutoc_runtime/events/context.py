@@ -2,18 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..hooks.context import Context
+from ..hooks import context as without_events
 
 if TYPE_CHECKING:
     from ..domain.model import Mission, Point
     from .raising import Events
 
 
-class EventContext(Context):
-    """The running app, for a hook that may raise events."""
+@dataclass(frozen=True, slots=True)
+class Outside:
+    """Stands for the mission of a hook that is called for none."""
+
+    index: int
+    name: str | None = None
+
+
+class Context(without_events.Context):
+    """The running app, for a hook of an app with events. Times are seconds since the start."""
 
     __slots__ = ("_events",)
 
@@ -43,6 +51,12 @@ class EventContext(Context):
         given = {name: value for name, value in request.items() if value is not None}
         self._kernel.post(self._events.happen, event, given, ValueError)
 
+    def cancel(self, mission: Mission[Any], why: str) -> None:
+        """End a mission as CANCELLED, wherever it is; for creators alone. One that has ended stays as it is."""
+        if not isinstance(self._mission, Outside):
+            raise RuntimeError("only a creator cancels missions")  # noqa: TRY004 - of no argument
+        self._kernel.post(self._events.cancel, mission, why)
+
     def store(self, value: object) -> None:
         """Keep a result of the trip in flight, as what an action returns is kept."""
         flight: Any = self._latest()
@@ -51,27 +65,10 @@ class EventContext(Context):
         self._kernel.post(self._events.store, flight, value)
 
     def _origin(self) -> dict[str, Any]:
+        if isinstance(self._mission, Outside):
+            return {}
         flight: Any = self._latest()
         origin: dict[str, Any] = {"mission": self._mission.name}
         if flight is not None and not flight.is_set:
             origin.update(trip=flight.trip.name, drone=flight.drone)
         return origin
-
-
-class CreatorContext(EventContext):
-    """The running app, for a creator: it may look at all missions, and cancel them."""
-
-    __slots__ = ("_cancel",)
-
-    def __init__(
-        self, cancel: Callable[[Mission[Any], str], object], events: Events, *given: Any
-    ) -> None:
-        super().__init__(events, *given)
-        self._cancel = cancel
-
-    def cancel(self, mission: Mission[Any], why: str) -> None:
-        """End a mission as CANCELLED, wherever it is; one that has ended stays as it is."""
-        self._kernel.post(self._cancel, mission, why)
-
-    def _origin(self) -> dict[str, Any]:
-        return {}

@@ -32,23 +32,26 @@ class Event:
     mission: str | None = None
     """The mission whose hook or drone has raised it."""
     trip: str | None = None
+    """That mission's trip."""
     drone: str | None = None
+    """That trip's drone."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EventType:
-    """An event that an app declares, or a built-in one that it uses."""
+    """An event that an app declares, or a built-in one."""
 
     name: str
     type: type[Event] = Event
-    parameters: tuple[Parameter, ...] = ()
-    """Its own fields."""
+    fields: tuple[Parameter, ...] = ()
+    """Those of its own."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Creator:
-    """Where missions that an event makes enter the graph."""
+    """What makes a mission of an event, and the block at which that mission begins."""
 
+    event: str
     block: str
     hook: Callable[..., Any]
 

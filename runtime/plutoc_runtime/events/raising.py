@@ -7,7 +7,7 @@ changes that row at the same instant. So after any end of the app each has happe
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -27,22 +27,17 @@ from ..hooks.calls import call_hook, fault_of, hook_name
 from ..hooks.plain_data import keepable
 from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
-from .context import CreatorContext, EventContext
+from .context import Context, Outside
 from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
+from .interruption import Interruption
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
     from ..flow.engine import Engine
     from ..flow.flight import Flight
     from ..flow.record import Row
-
-
-@dataclass(frozen=True, slots=True)
-class Outside:
-    """Stands for the mission of a hook that is called for none."""
-
-    index: int
-    name: str | None = None
+    from ..flow.run import Run
+    from .interruption import Whose
 
 
 class Happening:
@@ -50,32 +45,33 @@ class Happening:
 
     __slots__ = ("event", "made", "open", "why")
 
-    def __init__(self, event: Event, *, is_open: bool) -> None:
+    def __init__(self, event: Event, blocks: Sequence[str]) -> None:
         self.event = event
-        self.open = is_open  # its creator has not answered yet
-        self.made: str | None = None  # the mission that it has made
-        self.why = ""  # why it has made none
+        self.open = [*blocks]  # those whose creators have not answered yet
+        self.made: list[str] = []  # the missions that came of it
+        self.why = ""  # why none did, of the last creator that made none
 
 
 @dataclass(frozen=True, slots=True)
 class EventsOf(PartOf):
     """The events of an app: those that it declares, and the built-in ones that it uses."""
 
-    types: Sequence[EventType]
-    creators: Mapping[str, Creator] = field(default_factory=dict)
-    """By the names of their events."""
+    types: tuple[EventType, ...] = ()
+    """Those that the app declares."""
+    creators: tuple[Creator, ...] = ()
+    """In the order in which they are asked."""
 
     def __call__(self, engine: Engine) -> Events:
         """Return what handles them in a running app."""
-        return Events(engine, self.types, self.creators)
+        return Events(engine, (*self.types, *BUILT_IN), self.creators)
 
     def about(self) -> dict[str, Any]:
         """Return them as plain data: all that a library knows of them."""
         events = [
             {
                 "name": one.name,
-                "parameters": parameters_data(one.parameters),
-                "creates": one.name in self.creators,
+                "parameters": parameters_data(one.fields),
+                "creates": any(creator.event == one.name for creator in self.creators),
             }
             for one in self.types
         ]
@@ -86,22 +82,25 @@ class Events(Part):
     """The events of one running app."""
 
     def __init__(
-        self, engine: Engine, types: Sequence[EventType], creators: Mapping[str, Creator]
+        self, engine: Engine, types: Sequence[EventType], creators: Sequence[Creator]
     ) -> None:
         self._engine = engine
         self._core = engine.core
         self._types = {one.name: one for one in types}
-        self._creators = creators
+        self._creators: dict[str, dict[str, Creator]] = {}
+        """By the names of their events, and of their blocks."""
+        for creator in creators:
+            self._creators.setdefault(creator.event, {})[creator.block] = creator
         self.happenings: dict[str, Happening] = {}
         """By their ids."""
         self._changed: dict[str, None] = {}
         self.reserved: dict[str, Drone] = {}
         """The drones that hover for their missions, by the names of these, since an event broke a flight off."""
-        self._waiting: dict[str, dict[Future[Event], str | None]] = {}
-        """By the names of events: who waits, and the mission whose own they must be."""
+        self._interrupted: dict[str, dict[Flight, list[Interruption]]] = {}
+        """By the names of events, the flights that they break off."""
         self.commands = {"raise": self._raise}
         self._core.trace.listen(self._hear)
-        self._core.context = partial(EventContext, self)
+        self._core.context = partial(Context, self)
         self._core.queue.entered = self.release
 
     # What happens
@@ -119,15 +118,15 @@ class Events(Part):
             return str(id)
         kind = self._types[name]
         event = event_of(kind, {**facts, "name": name, "time": round(self._core.kernel.time(), 6)})
-        happening = Happening(event, is_open=name in self._creators)
+        happening = Happening(event, (*self._creators.get(name, ()),))
         self.happenings[id] = happening
         self._changed[id] = None
         self._note("event.raised", facts_of(event))
-        for future, mission in tuple(self._waiting.get(name, {}).items()):
-            if mission is None or mission == event.mission:
-                future.set(event)
-        if happening.open:
-            self._ask_creator(happening)
+        for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
+            for each in interruptions:
+                if each.concerns(event):
+                    each.soon(flight, event)
+        self._ask_creators(happening)
         return str(id)
 
     def _raise(self, request: Mapping[str, Any]) -> None:
@@ -155,7 +154,7 @@ class Events(Part):
             {each: plain_of(one) for each, one in given.get("fields", {}).items()}, who=table.who
         )
         own.problems = table.problems
-        known.update(read_parameters(own, kind.parameters))
+        known.update(read_parameters(own, kind.fields))
         if table.problems:
             raise wrong(table.problems[0].sentence)
         known.setdefault("id", f"{name}-{len(self.happenings) + 1}")
@@ -164,13 +163,11 @@ class Events(Part):
     def _hear(self, noted: Mapping[str, Any]) -> None:
         """Raise the built-in events when what they are about is noted."""
         match noted:
-            case {"event": "mission.late", "mission": mission, "t": when} if LATE in self._types:
+            case {"event": "mission.late", "mission": mission, "t": when}:
                 self._soon(LATE, id=f"late/{mission}/{when}", mission=mission)
             case {"event": "mission.ended", "mission": mission} if mission in self.reserved:
                 self.release(self._engine.states[mission].mission)
-            case {"event": "drone.lost", "drone": drone, "at": at, "t": when} if (
-                LOST in self._types
-            ):
+            case {"event": "drone.lost", "drone": drone, "at": at, "t": when}:
                 flown = self._flown_by(drone)
                 origin = {} if flown is None else {"mission": flown}
                 self._soon(LOST, id=f"lost/{drone}/{when}", drone=drone, at=at, **origin)
@@ -190,15 +187,16 @@ class Events(Part):
         latest = max(flights, key=lambda flight: flight.launched_at, default=None)
         return None if latest is None else latest.mission.name
 
-    async def wait(self, name: str, mission: str | None) -> Event:
-        """Wait for the next occurrence of an event; with a mission, for one that is its own."""
-        future = Future[Event]()
-        waiting = self._waiting.setdefault(name, {})
-        waiting[future] = mission
-        try:
-            return await future
-        finally:
-            del waiting[future]
+    def interrupt(self, run: Run[Any], event: str, of: Whose) -> None:
+        """Have an event break the flight of this moment off, unless that or its branch has ended."""
+        flight = run.state.flight
+        if flight is None:
+            return
+        flights = self._interrupted.setdefault(event, {})
+        if flight not in flights:
+            flights[flight] = []
+            flight.watch(lambda _: flights.pop(flight, None))
+        flights[flight].append(Interruption(run, of, self))
 
     def reserve(self, mission: str, drone: Drone) -> None:
         """Have a drone hover for a mission until its next allocation decides."""
@@ -250,15 +248,18 @@ class Events(Part):
         missions = [one.mission for one in self._engine.states.values() if not one.ended]
         return tuple(sorted(missions, key=lambda mission: mission.index))
 
-    def _ask_creator(self, happening: Happening) -> None:
-        self._engine.expect()
-        work = self._create(happening)
-        self._core.kernel.spawn(work, FLEET, f"event {happening.event.id}")
+    def _ask_creators(self, happening: Happening) -> None:
+        """Ask those that have not answered yet."""
+        event = happening.event
+        for block in happening.open:
+            self._engine.expect()
+            work = self._create(happening, self._creators[event.name][block])
+            self._core.kernel.spawn(work, FLEET, f"event {event.id} at {block}")
 
-    async def _create(self, happening: Happening) -> None:
-        """Ask the creator of an event for a mission, and begin that."""
-        core, event = self._core, happening.event
-        creator = self._creators[event.name]
+    async def _create(self, happening: Happening, creator: Creator) -> None:
+        """Ask a creator of an event for a mission, and begin that."""
+        core = self._core
+        event = happening.event
         if core.on_record is not None:
             await core.on_record()
         try:
@@ -268,13 +269,13 @@ class Events(Part):
                 core.log(fault.detail)
             happening.why = str(fault)
             mission = None
-        happening.open = False
+        happening.open.remove(creator.block)
         self._changed[event.id] = None
         if mission is None:
-            happening.why = happening.why or "its creator made no mission of it"
+            happening.why = happening.why or f"{creator.block} made no mission of it"
             self._note("event.over", {"id": event.id, "why": happening.why})
         else:
-            happening.made = mission.name
+            happening.made.append(mission.name)
             self._note("event.over", {"id": event.id, "made": mission.name})
             self._engine.start([mission], at=creator.block)
         self._engine.expect_no_more()
@@ -283,9 +284,7 @@ class Events(Part):
         """Return the mission that a creator makes, checked; raise its fault."""
         hook, core = creator.hook, self._core
         outside = Outside(self._next_index())
-        context = CreatorContext(
-            self._cancel, self, core.kernel, core.results, core.log, outside, lambda: None
-        )
+        context = Context(self, core.kernel, core.results, core.log, outside, lambda: None)
         try:
             made: Any = await call_hook(core.kernel, reading(), hook, event, context)
         except NOT_ITS_OWN:
@@ -343,7 +342,7 @@ class Events(Part):
             free = f"{name} {number}"
         return free
 
-    def _cancel(self, mission: Mission[Any], why: str) -> None:
+    def cancel(self, mission: Mission[Any], why: str) -> None:
         state = self._engine.states.get(getattr(mission, "name", ""))
         if state is None or state.mission is not mission:
             raise ValueError("only a mission of this app can be cancelled")
@@ -378,29 +377,30 @@ class Events(Part):
         """Take over what has happened in an earlier run."""
         for id, row in standing.get("happenings", {}).items():
             kind = self._types.get(row["event"]["name"], EventType(name=row["event"]["name"]))
-            known = {one.name for one in kind.parameters} | {*_OF_ALL}
+            known = {one.name for one in kind.fields} | {*_OF_ALL}
             facts = {name: value for name, value in row["event"].items() if name in known}
-            is_open = row.get("open", False) and kind.name in self._creators
-            self.happenings[id] = happening = Happening(event_of(kind, facts), is_open=is_open)
-            happening.made = row.get("made")
+            creators = self._creators.get(kind.name, {})
+            blocks = [block for block in row.get("open", ()) if block in creators]
+            self.happenings[id] = happening = Happening(event_of(kind, facts), blocks)
+            happening.made = [*row.get("made", ())]
             happening.why = row.get("why", "")
 
     def go_on(self) -> None:
         """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
         for happening in self.happenings.values():
-            if happening.open:
-                self._ask_creator(happening)
+            self._ask_creators(happening)
 
 
 def _row(happening: Happening) -> dict[str, Any]:
-    row: dict[str, Any] = {"event": facts_of(happening.event), "open": happening.open}
-    if happening.made is not None:
-        row["made"] = happening.made
+    row: dict[str, Any] = {"event": facts_of(happening.event), "open": [*happening.open]}
+    if happening.made:
+        row["made"] = [*happening.made]
     if happening.why:
         row["why"] = happening.why
     return row
 
 
+BUILT_IN = (EventType(name=LATE), EventType(name=LOST))
 _FACTS = dict.fromkeys(("id", "track", "mission", "trip", "drone"), name)
 _OF_ALL = (*_FACTS, "name", "time", "at")
 _NOTED = {"name": "kind", "time": "raised"}

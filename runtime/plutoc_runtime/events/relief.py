@@ -7,12 +7,11 @@ from math import dist
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import FlightFailed, MissionFailed
-from ..domain.status import Status
 from ..fleet.policies import nearest
 from ..flow.own_action import way_home
-from ..flow.run import watch
-from ..time.kernel import EventKind, Future, mission_key
+from ..time.kernel import EventKind, Future
 from .company import Company
+from .follow import FollowAction
 from .tracks import Tracks
 
 if TYPE_CHECKING:
@@ -29,23 +28,23 @@ LOOK = 1.0
 """Seconds from one look at a battery, or at where a drone is that is to be relieved, to the next."""
 
 
-async def watch_relieved(run: Run[Any], *, relief: float) -> Status:
-    """Wait for the trip's end; have another drone take over when the battery gets low by this margin."""
-    flight = watch(run)
+def relieve_at(run: Run[Any], level: float) -> None:
+    """Have the flight of this moment taken over once its battery holds only the way home and this."""
     state = run.state
-    work = _relieve(state, flight, relief)
-    task = run.core.kernel.spawn(work, run.key, f"{run.mission.name}: relief")
-    try:
-        return await flight
-    finally:
-        task.cancel()
+    flight = state.flight
+    if flight is not None and not flight.is_set:
+        work = _relieve(state, flight, level)
+        task = state.spawn(work, f"{state.mission.name}: relief")
+        flight.watch(lambda _: task.cancel())
 
 
 async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
     """Have one drone after the other take over, as long as the flight lasts."""
-    core, key = state.core, mission_key(state.mission.index)
+    core = state.core
     while not flight.is_set:
         await _until_low(state, flight, margin)
+        if flight.own_action is not None and not isinstance(flight.action, FollowAction):
+            return  # what has begun is done by the drone that began it
         request = core.queue.enter(state.mission, nearest, URGENT)
         try:
             drone = await request
@@ -61,7 +60,7 @@ async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
         except FlightFailed as error:
             core.fleet.recover(drone, str(error))
             taken_over = True
-            await core.kernel.sleep(LOOK, key=key)
+            await core.kernel.sleep(LOOK, key=state.key)
         finally:
             if not taken_over:  # the flight is over, or the mission
                 core.fleet.dismiss(drone)
@@ -69,19 +68,19 @@ async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
 
 async def _until_low(state: MissionState, flight: Flight, margin: float) -> None:
     """Wait until the battery holds only so much more than the way home and its reserve take."""
-    core, key = state.core, mission_key(state.mission.index)
+    core = state.core
     while True:
         drone = flight.flier
         way = way_home(core, drone)
         left = drone.battery_level - drone.category.reserve - (way or 0.0)
         if way is not None and left <= margin:
             return
-        await core.kernel.sleep(LOOK, EventKind.CLOCK, key)
+        await core.kernel.sleep(LOOK, EventKind.CLOCK, state.key)
 
 
 async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     """Fly a drone to where another is, and have it take over; return whether it has."""
-    core, key = state.core, mission_key(state.mission.index)
+    core = state.core
     core.fleet.engage(drone)
     core.transitions.note("trip.relieving", state.mission, trip=flight.trip.name, drone=drone.id)
     core.transitions.set_out(drone)
@@ -89,7 +88,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
         failed = Future[object]()
         number = core.orders.give("go", drone.id, failed.set, stops=[_beside(state, flight, drone)])
         try:
-            await core.kernel.within(failed, core.kernel.now + LOOK, EventKind.TIMER, key)
+            await core.kernel.within(failed, core.kernel.now + LOOK, EventKind.TIMER, state.key)
         finally:
             core.orders.forget(number)
         if failed.is_set and isinstance(failed.result(), FlightFailed):

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Generic, NamedTuple
 
-from ..alone.testing import AppKit, Given, KitContext, M, T
+from ..alone import testing as without_events
+from ..alone.testing import Given, M, T
 from ..domain.model import Mission, Point, Sighting
 from .declared import Event
 from .raising import EventsOf
@@ -17,7 +18,7 @@ class Emitted(NamedTuple):
     facts: dict[str, Any]
 
 
-class EventKitContext(KitContext):
+class KitContext(without_events.KitContext):
     """A hook's context, with what a test gives to it and reads back."""
 
     def __init__(self, *given: Any) -> None:
@@ -53,7 +54,7 @@ class EventKitContext(KitContext):
 class _SeeingDrone:
     """A live drone whose camera sees what the test says."""
 
-    def __init__(self, live: Any, context: EventKitContext) -> None:
+    def __init__(self, live: Any, context: KitContext) -> None:
         self._live, self._context = live, context
 
     def __getattr__(self, name: str) -> Any:
@@ -64,12 +65,12 @@ class _SeeingDrone:
         return [*self._context.sights]
 
 
-class EventAppKit(AppKit[M, T, Given], Generic[M, T, Given]):
+class AppKit(without_events.AppKit[M, T, Given], Generic[M, T, Given]):
     """What the hooks of an app with events are given, for one test."""
 
-    def context(self) -> EventKitContext:
+    def context(self) -> KitContext:
         """Return a context, for the hooks that it is handed to."""
-        return EventKitContext(self.clock, self._store, self._none)
+        return KitContext(self.clock, self._store, self._none)
 
     def event(self, name: str, *, at: Point | None = None, **facts: Any) -> Event:
         """Return an occurrence of an event, for a creator."""

@@ -77,6 +77,8 @@ class Core:
     """Waits until everything up to now is durable; None: this run is never resumed."""
     context: Callable[..., Context] | None = None
     """Makes what hooks are given; None: a `Context`."""
+    accompany: Callable[[MissionState, Flight], dict[str, Any]] | None = None
+    """Begins what goes on beside a flight, and returns the order to fly; None: nothing does."""
     parts: dict[type, Any] = field(default_factory=dict)
     """What this app has beside, by class; each is a `Part`."""
 
@@ -186,8 +188,8 @@ class MissionState:
 
     # Its trips
 
-    def launch(self, drone: Drone, **more: object) -> None:
-        """Send a drone on the next trip, by an order that says `more`."""
+    def launch(self, drone: Drone) -> None:
+        """Send a drone on the next trip."""
         core = self.core
         mission = self.mission
         last = self.flight
@@ -200,7 +202,8 @@ class MissionState:
         self.allocated = None
         self.calls = 0
         core.transitions.launch(mission, trip, drone)
-        core.orders.fly(drone.id, partial(self.reported, flight), {**flight.order, **more})
+        order = flight.order if core.accompany is None else core.accompany(self, flight)
+        core.orders.fly(drone.id, partial(self.reported, flight), order)
 
     def reported(self, flight: Flight, result: object) -> None:
         """Called when a flight has arrived, is done, or has failed."""

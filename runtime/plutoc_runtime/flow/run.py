@@ -74,18 +74,6 @@ class Run(Generic[M]):
         return clones
 
 
-def launch(run: Run[Any], **more: object) -> None:
-    """Send the allocated drone on the next trip, by an order that says `more`."""
-    state = run.state
-    drone = state.allocated
-    if drone is not None:
-        state.launch(drone, **more)
-    elif state.goes_on:
-        state.goes_on = False  # the trip was launched before the mission was interrupted
-    else:
-        raise RuntimeError(f"mission {run.mission.name} has no drone to launch")
-
-
 Branch = Callable[[Run[M], Status], Way]
 """A branch of a fork; it returns the status with which it arrives at the gate."""
 

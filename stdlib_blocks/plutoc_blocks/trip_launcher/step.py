@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from plutoc_runtime.domain.status import RUNNING
-from plutoc_runtime.flow.run import launch
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.status import Status
@@ -14,5 +13,12 @@ if TYPE_CHECKING:
 
 def launch_trip(run: Run[Any], status: Status) -> Status:
     """Send the allocated drone on the next trip."""
-    launch(run)
+    state = run.state
+    drone = state.allocated
+    if drone is not None:
+        state.launch(drone)
+    elif state.goes_on:
+        state.goes_on = False  # the trip was launched before the mission was interrupted
+    else:
+        raise RuntimeError(f"mission {run.mission.name} has no drone to launch")
     return RUNNING

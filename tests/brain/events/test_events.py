@@ -15,9 +15,10 @@ from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
+from pluto_fleet.shared.events.interruption import anything, own
 from pluto_fleet.shared.events.raising import EventsOf
 from pluto_fleet.shared.flow.run import Run
-from plutoc_blocks.event_monitor.step import wait_for_event
+from plutoc_blocks.event_monitor.step import watch_event
 from plutoc_blocks.gate_fifo.step import pass_first
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_monitor.step import watch_trip
@@ -33,8 +34,7 @@ class Intruder(Event):
 
 
 KIND = Parameter(name="kind", type=Type.TEXT, default="person")
-INTRUDER = EventType(name="intruder", type=Intruder, parameters=(KIND,))
-TYPES = (INTRUDER, EventType(name="late"), EventType(name="lost"))
+INTRUDER = EventType(name="intruder", type=Intruder, fields=(KIND,))
 
 
 def chase(event: Intruder, context: Any) -> apps.Mission | None:
@@ -50,15 +50,15 @@ def app_with(
     """Return an app whose missions are interrupted by an event, and made by one."""
 
     async def monitor(run: Run[Any], status: Status) -> Status:
-        return await wait_for_event(run, status, event=event, of_any=of_any)
+        return await watch_event(run, status, event=event, of=anything if of_any else own)
 
     async def watch(run: Run[Any], status: Status) -> Status:
         return await pass_first(run, status, watch_trip, monitor)
 
     made = apps.app(apps.flow(watch=watch))
-    parts = (EventsOf(TYPES, {"intruder": Creator(block="pursue", hook=hook)}),)
+    parts = (EventsOf((INTRUDER,), (Creator(event="intruder", block="pursue", hook=hook),)),)
     given: Any = made.given
-    return replace(given, parts=parts, resumes=("pursue", "allocate"))
+    return replace(given, parts=parts, resumes=("allocate",))
 
 
 def raised(brain: Brain, now: float, **facts: Any) -> None:
@@ -79,7 +79,7 @@ def test_an_event_makes_a_mission_that_flies() -> None:
         ("fly", "chase person/picture/0/1")
     ]
     assert brain.mission("chase person")["status"] == "RUNNING"
-    assert brain.standing()["happenings"]["intruder-1"]["made"] == "chase person"
+    assert brain.standing()["happenings"]["intruder-1"]["made"] == ["chase person"]
     brain.tell({"done": orders[0]["id"]}, 9.0)
     settled(brain, 9.0)
     assert brain.mission("chase person")["status"] == "COMPLETED"
@@ -102,7 +102,7 @@ def test_a_creator_may_make_none() -> None:
     settled(brain, 1.0)
     row = brain.standing()["happenings"]["intruder-1"]
     assert not brain.standing()["missions"]
-    assert row["why"] == "its creator made no mission of it"
+    assert row["why"] == "pursue made no mission of it"
     assert brain.over == 1.0
 
 

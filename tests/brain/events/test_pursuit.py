@@ -18,16 +18,17 @@ from pluto_fleet.shared.domain.fields import Entity, FieldType
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, Mover, WorldData
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.events.company import AlongAction, AlongField, CompanyOf, launch_accompanied
+from pluto_fleet.shared.events.company import AlongAction, AlongField, CompanyOf
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
 from pluto_fleet.shared.events.follow import FOLLOW
 from pluto_fleet.shared.events.raising import EventsOf
-from pluto_fleet.shared.events.relief import watch_relieved
 from pluto_fleet.shared.events.tracks import TRIP_FIELDS, TracksOf
 from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.trip_launcher.step import launch_trip
+from plutoc_blocks.trip_monitor.relief import watch_relieved
 from plutoc_blocks.trip_monitor.step import watch_trip
 from tests.kit import apps
 
@@ -42,7 +43,13 @@ class Trip(apps.Trip):
     along: Mapping[str, Any] | None = None
 
 
-ALONG = AlongField(name="along", on=Entity.TRIP, type=FieldType.ALONG, label="On the way")
+ALONG = AlongField(
+    name="along",
+    on=Entity.TRIP,
+    type=FieldType.ALONG,
+    label="On the way",
+    actions=("look", "take_photo"),
+)
 
 
 def walker(*path: tuple[float, float], speed: float = 0.3, starts: float = 0.0) -> Mover:
@@ -57,7 +64,7 @@ async def flow(run: Run[Any]) -> Status:
         status = create_mission(run, status)
     while True:
         status = await allocate_drone(run, status, block="allocate", policy=nearest)
-        status = await watch_trip(run, launch_accompanied(run, status))
+        status = await watch_trip(run, launch_trip(run, status))
         if status is not Status.STANDBY:
             return status
 
@@ -66,8 +73,8 @@ async def relieved(run: Run[Any]) -> Status:
     """create → allocate → launch → watch, with relief."""
     status = create_mission(run, run.status)
     status = await allocate_drone(run, status, block="allocate", policy=nearest)
-    launch_accompanied(run, status)
-    return await watch_relieved(run, relief=0.15)
+    launch_trip(run, status)
+    return await watch_relieved(run, status, relief=0.15)
 
 
 def flown(
@@ -80,15 +87,19 @@ def flown(
     category: Category = apps.SCOUT,
 ) -> Outcome:
     """Fly trips, each of a mission, in a world with these movers."""
-    along = {"look": AlongAction(name="look", hook=look)}
-    creators = {} if chase is None else {"intruder": Creator(block="pursue", hook=chase)}
+    creator = Creator(event="intruder", block="pursue", hook=chase)
+    creators = () if chase is None else (creator,)
     app: Any = apps.app(flow, categories=(category,)).given
     app = replace(
         app,
         trip=Trip,
         fields=(*app.fields, *TRIP_FIELDS, ALONG),
         actions={**BUILT_IN, "follow": FOLLOW},
-        parts=(EventsOf((EventType(name="intruder"),), creators), TracksOf(), CompanyOf(along)),
+        parts=(
+            EventsOf((EventType(name="intruder"),), creators),
+            TracksOf(),
+            CompanyOf((AlongAction(name="look", hook=look),)),
+        ),
     )
     fleet = FleetData(
         airspace=Airspace(),

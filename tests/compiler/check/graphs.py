@@ -1,7 +1,8 @@
 """Graphs for tests, from a few lines of text, without the parser.
 
 `watch = TripMonitor` declares a block, `retry = PriorityManager(max_attempts: 0)` sets a value,
-`mark = MissionModifier emits STANDBY writes note` gives it a hook; the rest are edges.
+`mark = MissionModifier emits STANDBY writes note` gives it a hook, `(hook: chase)` a creator, and
+`(event: smoke)` an event; `action look along` declares an action; the rest are edges.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from plutoc.block import IN_GRAPH, Block, HookKind, Param
 from plutoc.check.model import Checked
 from plutoc.check.run import check
 from plutoc.diagnostic import Diagnostic, Rejected
-from plutoc.graph.model import END, START, Edge, Graph, Hook, Node
+from plutoc.graph.model import END, START, Action, Edge, Graph, Hook, Node
 from plutoc.source import Source, Span
 from plutoc_blocks import BLOCKS
 from plutoc_runtime.domain.status import Status
@@ -23,8 +24,9 @@ from tests.kit.sections import given
 KINDS: dict[str, Block] = {block.name: block for block in BLOCKS}
 
 BLOCK = re.compile(
-    r"(\w+) = (\w+)(?:\((\w+): (\d+)\))?(?: emits ([A-Z, ]+))?(?: writes ([a-z, ]+))?"
+    r"(\w+) = (\w+)(?:\((\w+): (\w+)\))?(?: emits ([A-Z, ]+))?(?: writes ([a-z, ]+))?"
 )
+ALONG = re.compile(r"action (\w+) along")
 FLOW = re.compile(r"(.*?)(?: (?:when ([A-Z, ]+)|(otherwise)))?")
 ENDS = frozenset({Status.COMPLETED, Status.FAILED})
 
@@ -49,12 +51,15 @@ def build(text: str, title: str = "") -> Graph:
     source = Source(path="app.pluto", text=text)
     nodes: dict[str, Node] = {}
     raw: list[tuple[str, str, tuple[Status, ...] | None, bool, Span]] = []
+    actions: list[Action] = []
     offset = 0
     for line in text.splitlines(keepends=True):
         span = Span(offset + len(line) - len(line.lstrip()), offset + len(line.rstrip()))
         offset += len(line)
         if match := BLOCK.fullmatch(line.strip()):
             nodes[match[1]] = _node(match, span)
+        elif match := ALONG.fullmatch(line.strip()):
+            actions.append(_along(match[1], span))
         elif line.strip():
             raw.extend(_arrows(line.strip(), span))
     edges: list[Edge] = []
@@ -85,7 +90,8 @@ def build(text: str, title: str = "") -> Graph:
         name_span=Span(0, 0),
         title=title,
         categories=(),
-        actions=(),
+        actions=tuple(actions),
+        along=tuple(action.name for action in actions),
         hooks=tuple(node.hook for node in nodes.values() if node.hook),
         nodes=tuple(nodes.values()),
         edges=tuple(edges),
@@ -114,9 +120,9 @@ def _node(match: re.Match[str], span: Span) -> Node:
     block = KINDS[match[2]]
     name_span = Span(span.start, span.start + len(match[1]))
     values = {p.name: p.default for p in block.params if isinstance(p, Param)}
-    if match[3]:
+    if match[4] and match[4].isdecimal():
         values[match[3]] = int(match[4])
-    hook = None
+    hook = _creator(match[4], span) if match[3] == "hook" else None
     if match[5] or match[6]:
         hook = Hook(
             kind=HookKind.MODIFIER,
@@ -134,9 +140,27 @@ def _node(match: re.Match[str], span: Span) -> Node:
         choices=(),
         hook=hook,
         passed=(),
+        event=match[4] if match[3] == "event" else None,
         declaration=match[0],
         span=span,
         name_span=name_span,
+    )
+
+
+def _creator(name: str, span: Span) -> Hook:
+    return Hook(kind=HookKind.CREATOR, name=name, parameters=(), emits=(), writes=(), span=span)
+
+
+def _along(name: str, span: Span) -> Action:
+    return Action(
+        name=name,
+        parameters=(),
+        returns=None,
+        repeat="safe",
+        along=True,
+        takes=None,
+        declaration=f"action {name} along",
+        span=span,
     )
 
 

@@ -14,10 +14,10 @@ export function drawBlocks() {
   markBlocks();
 }
 
-function make({ name, terminal }) {
+function make({ name, terminal, event }) {
   return h("div", {
-    class: `block${terminal ? " terminal" : ""}`, "data-block": name, role: "button", tabIndex: -1,
-    "aria-roledescription": terminal ? "end of the graph" : "block",
+    class: `block${terminal ? " terminal" : ""}${event ? " event" : ""}`, "data-block": name, role: "button", tabIndex: -1,
+    "aria-roledescription": event ? "event" : terminal ? "end of the graph" : "block",
   },
   h("span", { class: "face" },
     h("span", { class: "name" }), !terminal && h("span", { class: "kind" }),

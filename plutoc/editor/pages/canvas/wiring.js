@@ -4,7 +4,7 @@ import { say, tell } from "../announce.js";
 import { h, put, shown, svg } from "../dom.js";
 import { ask } from "../link.js";
 import { connect, connectAll, redirect } from "../operations.js";
-import { START, app, free } from "../state.js";
+import { app, free, isSource } from "../state.js";
 import { showTargets } from "./blocks.js";
 import { toWorld, viewport, world } from "./camera.js";
 import { follow } from "./follow.js";
@@ -41,7 +41,7 @@ export function drawWire(event, source, port, quick) {
     else if (block) connectAll(source, block);
     else {
       const at = toWorld(end.clientX, end.clientY);
-      const statuses = when.length ? when : source === START ? ["UNEXECUTED"] : free(source);
+      const statuses = when.length ? when : isSource(source) ? ["UNEXECUTED"] : free(source);
       quick({ at, clientX: end.clientX, clientY: end.clientY, from: source, when, statuses });
     }
   });

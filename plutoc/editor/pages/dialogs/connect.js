@@ -4,7 +4,7 @@ import { say } from "../announce.js";
 import { targetsOf } from "../canvas/wiring.js";
 import { h, status } from "../dom.js";
 import { connect, connectAll } from "../operations.js";
-import { END, START, app, free } from "../state.js";
+import { END, app, free, isSource } from "../state.js";
 import { choose } from "./chooser.js";
 
 export async function targetOptions(source, when) {
@@ -21,7 +21,7 @@ export async function connectFrom(source, at) {
   let when = [];
   const target = await choose({
     title: `Connect ${source} to`, at, options: targetOptions(source, when), placeholder: "Type a block’s name",
-    above: (renew) => source !== START && node.emits.length > 1 && statuses(renew),
+    above: (renew) => !isSource(source) && node.emits.length > 1 && statuses(renew),
   });
   if (!target) return;
   const made = when.length ? await connect(source, target, when) : await connectAll(source, target);

@@ -1,17 +1,17 @@
 // The quick palette: type a part of a kind, press Enter, and the block is there, connected.
 
 import { add, guardTo, origin } from "../operations.js";
-import { HEIGHT, START, WIDTH, app, snap } from "../state.js";
+import { HEIGHT, WIDTH, app, isSource, snap } from "../state.js";
 import { choose } from "./chooser.js";
 
 // at: where on the graph; from, when, statuses: the end of a wire that was let go of in the open.
 export async function quickAdd({ at = null, clientX, clientY, from, when = [], statuses = null } = {}) {
   const options = app.palette.filter((one) => !one.broken).map((one) => {
-    const takes = from === START ? one.accepts.length === 0 : one.accepts.some((status) => statuses?.includes(status));
+    const takes = isSource(from ?? "") ? one.accepts.length === 0 : one.accepts.some((status) => statuses?.includes(status));
     const byGuard = when.some((status) => one.accepts_by_guard.includes(status));
     return {
       id: one.kind, label: one.kind, detail: one.first,
-      why: statuses && !takes && !byGuard && one.accepts.length + (from === START ? 1 : 0) > 0
+      why: statuses && !takes && !byGuard && one.accepts.length + (isSource(from ?? "") ? 1 : 0) > 0
         ? `It does not take ${statuses.join(" or ") || "what is left"}.` : null,
     };
   });

@@ -13,6 +13,8 @@ const NEW = [
   { id: "modifier", label: "A modifier", detail: "called for every mission that passes", text: (name) => `modifier ${name}` },
   { id: "action", label: "An action", detail: "what a drone does at its target; -> float says what it gives", text: (name) => `action ${name}` },
   { id: "policy", label: "A policy", detail: "chooses the drone", text: (name) => `policy ${name}` },
+  { id: "event", label: "An event", detail: "what can happen; it may have fields: (kind: text)", text: (name) => `event ${name}` },
+  { id: "creator", label: "A creator", detail: "makes a mission of an event", text: (name) => `creator ${name}` },
   { id: "mission", label: "A field of missions", detail: "filled in by users, read by hooks", text: (name) => `mission has ${name}: text = ""` },
   { id: "trip", label: "A field of trips", detail: "filled in by users, read by hooks", text: (name) => `trip has ${name}: text = ""` },
 ];
@@ -29,10 +31,12 @@ export function appPanel() {
   const categories = h("div", { class: "declarations" });
   const fields = h("div", { class: "declarations" });
   const hooks = h("div", { class: "declarations" });
+  const events = h("div", { class: "declarations" });
   const element = h("div", { class: "panel" },
     h("div", { class: "panel-top" }, title,
       button("Declare", () => declareNew(), { kind: "small", sign: "plus", title: "A category of drones, or code of your own" })),
-    h("h3", {}, "Drones"), categories, h("h3", {}, "Fields of missions and trips"), fields, h("h3", {}, "Code of your own"), hooks);
+    h("h3", {}, "Drones"), categories, h("h3", {}, "Fields of missions and trips"), fields,
+    h("h3", {}, "Events"), events, h("h3", {}, "Code of your own"), hooks);
 
   function update() {
     const held = document.activeElement;
@@ -43,6 +47,9 @@ export function appPanel() {
     if (!app.view.categories.length) categories.replaceChildren(h("p", { class: "hint" }, "Any drone does everything. Declare a category to say what drones can do and carry."));
     keyed(fields, app.view.fields, (one) => one.name, fieldRow, (item, one) => item.update(one));
     if (!app.view.fields.length) fields.replaceChildren(h("p", { class: "hint" }, "None but those that blocks bring. Declare one to have users fill in what your code reads."));
+    const own = app.view.events.filter(({ text }) => text);
+    keyed(events, own, (one) => one.name, eventRow, (item, one) => item.update(one));
+    if (!own.length) events.replaceChildren(h("p", { class: "hint" }, "None but late and lost. Declare one to have a mission made, or a flight broken off, when something happens."));
     keyed(hooks, app.view.hooks, (one) => one.name, hookOf, (item, one) => item.update(one));
     if (!app.view.hooks.length) hooks.replaceChildren(h("p", { class: "hint" }, "None. A MissionModifier or a MissionEvaluator calls a function of yours; adding one declares it."));
     if (row && !held.isConnected) list.children[at]?.querySelector("input")?.focus(); // it has another name now
@@ -97,6 +104,13 @@ function categoryOf(one) {
 function fieldRow(one) {
   const text = line(one, (name, written) => rewriteField(name, written, { planned: !unnamed.delete(name) }));
   const item = h("div", { class: "declaration" }, h("div", { class: "row" }, h("code", { class: "hint" }, `${one.on} has`), text.input, remove(one)));
+  item.update = (next) => text.update(next);
+  return item;
+}
+
+function eventRow(one) {
+  const text = line(one);
+  const item = h("div", { class: "declaration" }, h("div", { class: "row" }, text.input, remove(one)));
   item.update = (next) => text.update(next);
   return item;
 }

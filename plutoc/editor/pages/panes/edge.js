@@ -4,7 +4,7 @@ import { go } from "../canvas/keys.js";
 import { choose } from "../dialogs/chooser.js";
 import { button, fill, h, icon, status } from "../dom.js";
 import { disconnect, redirect, setGuard } from "../operations.js";
-import { END, START, app, keyOf, selection } from "../state.js";
+import { END, START, app, isSource, keyOf, selection } from "../state.js";
 import { targetOptions } from "../dialogs/connect.js";
 import { problemRow } from "./problems.js";
 
@@ -31,7 +31,7 @@ function content(edge) {
   const source = app.nodes.get(edge.source);
   const target = app.nodes.get(edge.target);
   const accepts = edge.target === END ? ["COMPLETED", "FAILED"] : target.accepts_by_guard ?? target.accepts;
-  const choices = edge.source === START ? [] : source.emits;
+  const choices = isSource(edge.source) ? [] : source.emits;
   const guarded = edge.when.length > 0;
   const how = guarded ? "when" : edge.otherwise ? "otherwise" : "all";
   const pick = (value, words, doc) => h("label", { class: "option" },
@@ -58,7 +58,7 @@ function content(edge) {
         : h("span", { class: "hint" }, edge.known ? "nothing yet: no mission comes along here" : "not known")),
     edge.fork && h("p", { class: "hint" }, "One of several ways for the same status: a clone of the mission goes along each."),
     edge.implicit ? h("p", { class: "hint" }, "Not written: no edge takes these statuses, so missions end. Draw an edge to end to say so.")
-      : edge.source === START ? h("p", { class: "hint" }, "Every mission begins along this edge.")
+      : isSource(edge.source) ? h("p", { class: "hint" }, edge.source === START ? "Every mission of a user begins along this edge." : "The missions of this event begin along this edge.")
         : h("fieldset", { class: "guard" }, h("legend", {}, "Takes"),
           pick("all", "all that fits", edge.target === END ? "" : `what ${edge.target} accepts`),
           pick("otherwise", "otherwise", "what no other edge takes"),

@@ -11,7 +11,7 @@ export function makeOutline() {
   let rows = new Map();
   let at = null;
 
-  const items = () => [START, ...app.view.blocks.map(({ name }) => name)].flatMap((name) => [
+  const items = () => [START, ...[...app.view.events, ...app.view.blocks].map(({ name }) => name)].flatMap((name) => [
     { key: name, name },
     ...outOf(name).map((edge) => ({ key: keyOf(edge), edge })),
   ]);
@@ -36,7 +36,7 @@ export function makeOutline() {
       set(row, "aria-label", `Edge from ${edgeSaid(edge)}`);
     } else {
       put(what, name);
-      put(more, node.terminal ? "" : node.kind);
+      put(more, node.terminal && !node.event ? "" : node.kind);
     }
     const level = worst((edge ?? node).problems ?? []);
     shown(mark_, level);

@@ -7,11 +7,12 @@ const WORDS = /^(?:pluto|use|as|app|category|can|action|evaluator|modifier|polic
 const SETTINGS = /^(?:version|requires)\b(?=[ \t]*")/;
 const FIELDS = /^(?:mission|trip)[ \t]+has\b(?=[ \t]+[A-Za-z])/;
 const RESULT = /^(?:result)\b(?=[ \t]+[A-Za-z]\w*[ \t]+as\b)/;
+const REACTING = /^(?:event|creator)\b(?=[ \t]+[A-Za-z])/;
 const TAKES = /^(?:takes)\b(?=[ \t]+(?!when\b|otherwise\b)\w)/;
-const CONSTANTS = /^(?:yes|no|safe|once|ask)\b/;
+const CONSTANTS = /^(?:yes|no|safe|once|ask|along)\b/;
 const STATUS = /^(?:UNEXECUTED|RUNNING|STANDBY|COMPLETED|FAILED)\b/;
 const TYPES = /^(?:int|float|bool|text|mass|length|time|angle|percent|speed|temperature)\b/;
-const PHOTO = /^(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask|takes))/;
+const PHOTO = /^(?:photo)\b(?=[ \t]*(?:$|#|safe|once|ask|along|takes))/;
 const QUANTITY = /^-?\d+(?:\.\d+)?(?:[ \t]*(?:km\/h|m\/s|min|deg|rad|ms|mm|cm|km|mg|kg|s|h|m|g|%|C|K)(?!\w))?/;
 
 function token(stream) {
@@ -23,7 +24,7 @@ function token(stream) {
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*:)/)) return "parameter";
   if (stream.match(/^[A-Za-z]\w*(?=[ \t]*=)/)) return "definition";
   if (stream.match(STATUS)) return "status";
-  if (stream.match(WORDS) || stream.match(SETTINGS) || stream.match(FIELDS) || stream.match(RESULT) || stream.match(TAKES)) return "keyword";
+  if (stream.match(WORDS) || stream.match(SETTINGS) || stream.match(FIELDS) || stream.match(RESULT) || stream.match(REACTING) || stream.match(TAKES)) return "keyword";
   if (stream.match(CONSTANTS)) return "constant";
   if (stream.match(TYPES) || stream.match(PHOTO)) return "type";
   if (stream.match(/^(?:start|end)\b/)) return "terminal";

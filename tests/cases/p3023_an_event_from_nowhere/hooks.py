@@ -1,0 +1,2 @@
+def look_after(event, context):
+    return None
