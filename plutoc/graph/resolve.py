@@ -180,7 +180,7 @@ def _unused_actions(
     return [
         errors.unused_action(source, Name(text=action.name, span=action.span))
         for action in actions
-        if declared and action.name not in used
+        if declared and not action.along and action.name not in used
     ]
 
 

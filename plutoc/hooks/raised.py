@@ -17,7 +17,7 @@ from plutoc.hooks.python import parsed
 from plutoc.source import Source
 from plutoc_runtime.domain.quantities import Type
 
-_OF_ALL = frozenset({"at", "track"})
+_OF_ALL = frozenset({"id", "at", "track"})
 """What can be said of each event."""
 
 

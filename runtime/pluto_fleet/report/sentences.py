@@ -136,7 +136,7 @@ _SENTENCES: Mapping[str, Say] = {
     "trip.skipped": "trip {trip} skipped",
     "trip.relieving": "{drone} sets out to relieve the drone of trip {trip}",
     "trip.handed_over": "{drone} takes over trip {trip} from {of}",
-    "action.result": "trip {trip}, on the way ({drone}): {value}",
+    "action.result": "trip {trip}: a result on the way ({drone})",
     "event.raised": _raised,
     "event.over": _over,
     "trip.prioritised": "trip {trip} has priority {priority}",

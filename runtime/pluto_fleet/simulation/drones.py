@@ -215,8 +215,10 @@ class SimulatedNavigation:
         return self._in_the_air(drone).act(action, parameters, None)
 
     async def _see(self, drone: str) -> object:
-        """Return what moves in the view of its camera."""
-        return self._world.moving(self._in_the_air(drone).location, self._kernel.now)
+        """Return what moves in the view of its camera: nothing, on the ground."""
+        body = self.bodies[drone]
+        body.check()
+        return () if body.landed else self._world.moving(body.location, self._kernel.now)
 
     def tracks(self) -> Mapping[str, object]:
         """Return where everything is now that moves in the world."""

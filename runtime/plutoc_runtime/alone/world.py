@@ -86,6 +86,8 @@ class World:
     def moving(self, point: Point, time: float) -> tuple[Sighting, ...]:
         """Return what moves in the view of a camera that looks straight down from a point."""
         x, y, z = point
+        if z <= 0.0:
+            return ()
         return self._moving(x, y, z * _WIDTH, z * _HEIGHT, time)
 
     def _moving(

@@ -282,16 +282,21 @@ class Company(Part):
 
     async def _repeat(self, state: MissionState, flight: Flight, given: Along) -> Failed | None:
         """Do a built-in action again and again on the way, without a stop, by its spacing."""
-        core, drone, trip = self._core, flight.flier, flight.trip
-        kernel, key = core.kernel, mission_key(state.mission.index)
+        core = self._core
+        kernel = core.kernel
+        trip = flight.trip
+        while flight.flier.telemetry.landed:
+            await kernel.sleep(MOMENT, key=state.key)
         if trip.source is not None:
-            while dist(drone.location, trip.source) > AT:
-                await kernel.sleep(_soon(drone, dist(drone.location, trip.source)), key=key)
+            while dist(flight.flier.location, trip.source) > AT:
+                await kernel.sleep(
+                    _soon(flight.flier, dist(flight.flier.location, trip.source)), key=state.key
+                )
         while True:
             try:
                 value = await core.orders.ask(
                     "act",
-                    drone.id,
+                    flight.drone,
                     action=given["action"],
                     parameters=given.get("parameters") or {},
                 )
@@ -299,17 +304,17 @@ class Company(Part):
                 return None  # the end of its flight says why
             core.transitions.keep(state.mission, trip, value)
             if "seconds" in given:
-                await kernel.sleep(given["seconds"], key=key)
+                await kernel.sleep(given["seconds"], key=state.key)
                 continue
-            here = drone.location
-            while (left := given["metres"] - dist(here, drone.location)) > AT:
-                await kernel.sleep(_soon(drone, left), key=key)
+            here = flight.flier.location
+            while (left := given["metres"] - dist(here, flight.flier.location)) > AT:
+                await kernel.sleep(_soon(flight.flier, left), key=state.key)
 
     # A target that moves
 
     async def _pursue(self, state: MissionState, flight: Flight) -> Failed | None:
         """Send the drone elsewhere each time that its target will not be where it was expected."""
-        core, drone = self._core, flight.flier
+        core = self._core
         trip: Any = flight.trip  # of an app whose trips may follow what moves
         tracks: Tracks = core.parts[Tracks]
         while True:
@@ -317,10 +322,10 @@ class Company(Part):
             if track is None:
                 since = duration(trip.lost_after)
                 return Failed(f"track {quoted(trip.track)} has had no news for {since}")
-            point = tracks.meeting(track, drone, core.airspace.cruise_height)
+            point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
             if dist(point, trip.target) <= trip.reach:
                 continue
-            if (why := self._out_of_reach(drone, point)) is not None:
+            if (why := self._out_of_reach(flight.flier, point)) is not None:
                 return Failed(f"track {quoted(trip.track)} {why}")
             put(trip, target=point)
             core.orders.redirect({**flight.order, "company": True})
@@ -336,7 +341,7 @@ class Company(Part):
         return None
 
 
-AT = 0.05
+AT = 0.2
 """Metres that are no distance on the way."""
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ LOST = "lost"
 """Happens when a drone is lost."""
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
     """One occurrence of an event; what is not known of it is None."""
 
@@ -58,7 +58,8 @@ class Creator:
 
 def facts_of(event: Event) -> dict[str, Any]:
     """Return an occurrence as plain data."""
-    return {name: value for name, value in vars(event).items() if value is not None}
+    facts = ((field.name, getattr(event, field.name)) for field in fields(event))
+    return {name: value for name, value in facts if value is not None}
 
 
 def event_of(kind: EventType, facts: Mapping[str, Any]) -> Event:

@@ -136,9 +136,29 @@ class TrackField(Field):
 
 
 TRIP_FIELDS = (
-    TrackField(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
-    Field(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
-    Field(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
+    TrackField(
+        name="track",
+        on=Entity.TRIP,
+        type=Type.TEXT,
+        label="Follows the track",
+        doc="What moves, and it follows; None: its target stands.",
+    ),
+    Field(
+        name="reach",
+        on=Entity.TRIP,
+        type=Type.LENGTH,
+        label="Within",
+        default=0.5,
+        doc="Metres within which what it follows is reached.",
+    ),
+    Field(
+        name="lost_after",
+        on=Entity.TRIP,
+        type=Type.TIME,
+        label="Lost after",
+        default=2.0,
+        doc="Seconds without news after which what it follows is lost.",
+    ),
 )
 """What trips have that may follow what moves."""
 LONGEST_GAP = 5.0

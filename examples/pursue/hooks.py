@@ -1,0 +1,60 @@
+"""What patrols see, what is made of it, and what a broken bound sets free."""
+
+from pursue import Context, Drone, Event, IntruderEvent, Mission, PicturedEvent, Trip
+
+LOOKS = 0.25
+"""Seconds from one look to the next."""
+BOUND = 5.0
+"""Seconds from when somebody is seen to the picture."""
+STAYS = 30.0
+"""Seconds for which a drone stays with whom it has a picture of."""
+URGENT = 10
+"""The priority of a picture that is to be taken within a bound."""
+
+
+async def look(drone: Drone, trip: Trip, context: Context) -> None:
+    """Say on the way whom the camera sees; each is an intruder once."""
+    camera = context.live(drone)
+    while True:
+        for seen in await camera.sees():
+            context.emit("intruder", id=f"seen {seen.track}", at=seen.at, track=seen.track)
+        await context.sleep(LOOKS)
+
+
+def chase(event: IntruderEvent, context: Context) -> Mission | None:
+    """Take a picture of an intruder, within the bound."""
+    if event.at is None or event.track is None:
+        return None  # nobody knows where
+    picture = Trip(
+        name="picture", action="take_photo", target=event.at, track=event.track, priority=URGENT
+    )
+    return Mission(name=f"chase {event.track}", trips=[picture], promises={"deadline": BOUND})
+
+
+def tell_pictured(mission: Mission, context: Context) -> None:
+    """Say that there is a picture of whom a chase was after."""
+    for trip in mission.completed_trips:
+        if trip.track is not None and trip.action == "take_photo":
+            context.emit("pictured", id=f"pictured {trip.track}", at=trip.target, track=trip.track)
+
+
+def stay_with(event: PicturedEvent, context: Context) -> Mission | None:
+    """Stay with an intruder, and take a picture every two seconds."""
+    if event.at is None:
+        return None
+    follow = Trip(
+        name="follow",
+        action="follow",
+        target=event.at,
+        track=event.track,
+        parameters={"for": STAYS, "every": 2.0},
+    )
+    return Mission(name=f"stay with {event.track}", trips=[follow])
+
+
+def release(event: Event, context: Context) -> Mission | None:
+    """Let go of those of whom there is a picture, so that their drones are free for the others."""
+    for mission in context.missions:
+        if mission.name.startswith("stay with"):
+            context.cancel(mission, f"{event.mission} has no picture within {BOUND:g} s")
+    return None
