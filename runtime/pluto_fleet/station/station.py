@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
 from ..flight.commands import perform
-from ..flight.config import End
-from ..flight.lives import FlightSetup, reopen
+from ..flight.config import End, FlightSetup
+from ..flight.lives import flight_of, reopen
 from ..flight.offline import clear_stop, record_loss
 from ..flight.recorded_flight import RecordedFlight
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
@@ -25,7 +25,6 @@ from ..journal.standing import Standing, inherited
 from ..journal.store import Store
 from ..process.at_once import at_once
 from ..process.ipc import NoAnswer, NotRunning
-from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
 from .attention import FILE as ALERTS
@@ -132,13 +131,7 @@ class Station:
             if self.history.flown_elsewhere() is None:
                 self.plan.unlock()
             return
-        self.session = FlightSession(
-            taken.flight(self._config.speed),
-            self._over,
-            self._updates.hurry,
-            name_of=self.map.name_of,
-        )
-        self.session.heard = self._follow
+        self.session = self._session_of(taken.flight(self._config.speed))
         self.session.read(taken.known)
         if taken.is_over:
             self.session.end = End.OVER
@@ -324,23 +317,14 @@ class Station:
         )
         await asyncio.to_thread(self.history.hand_on_the_world, journal)
         store = Store.create(journal, begun)
-        flight = FlightSetup(
-            app=self._app,
-            journal=store.path,
-            missions=missions,
-            fleet=config.fleet,
-            speed=config.speed or 1.0,
-            seed=config.seed,
-            faults=Faults(**config.faults),
-            sim=config.sim,
-            crtp=config.crtp_sim is not None,
-        )
-        known = Standing(inherited(begun))
-        self.session = FlightSession(
-            flight, self._over, self._updates.hurry, known, self.map.name_of
-        )
-        self.session.heard = self._follow
+        flight = flight_of(self._app, store, missions, config.fleet, config.speed or 1.0)
+        self.session = self._session_of(flight, Standing(inherited(begun)))
         self._begin(self.session, store, None)
+
+    def _session_of(self, flight: FlightSetup, known: Standing | None = None) -> FlightSession:
+        return FlightSession(
+            flight, self._over, self._updates.hurry, self._follow, known, self.map.name_of
+        )
 
     def resume(self) -> str:
         """Resume a flight that was stopped or interrupted."""
