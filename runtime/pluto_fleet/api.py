@@ -26,7 +26,7 @@ from .jobs.reports import Down
 from .journal.header import header
 from .journal.store import Store
 from .seam import check
-from .shared.alone.faults import Faults
+from .shared.alone.world import Faults
 from .shared.domain.airspace import Airspace
 from .shared.domain.app import moving
 from .shared.domain.errors import BadInput

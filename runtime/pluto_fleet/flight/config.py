@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from ..jobs.reports import Down
     from ..journal.standing import Standing
     from ..process.realtime import RealTime
-    from ..shared.alone.faults import Faults
+    from ..shared.alone.world import Faults
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 

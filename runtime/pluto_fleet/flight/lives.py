@@ -23,7 +23,7 @@ from ..journal.header import Header, check_whole
 from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..process import respawn
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import place

@@ -24,11 +24,11 @@ from ..domain.trace import Clock, Event
 from ..flow.record import fleet_data
 from ..hooks.plain_data import mission_data
 from ..time.told import Stuck
-from .ideal import IdealDrones
+from .drones import IdealDrones
 
 if TYPE_CHECKING:
     from ..domain.app import App
-    from .faults import Faults
+    from .world import Faults
 
 Listener = Callable[[Event], object]
 Run = Callable[[float | None], bool]
@@ -77,8 +77,8 @@ def simulate(
     *,
     seed: int,
     faults: Faults,
-    until: float | None,
-    on_event: Listener | None,
+    until: float | None = None,
+    on_event: Listener | None = None,
     new_brain: Callable[..., Brain] = Brain,
     prepare: Callable[[Alone], Run] | None = None,
 ) -> Outcome:
@@ -95,8 +95,8 @@ def simulate(
         events.append(event)
         if on_event is not None:
             on_event(event)
-        if until is None and (enough := bound.look(event)) is not None:
-            raise enough
+        if until is None:
+            bound.look(event)
 
     brain = new_brain(app, fleet_data(fleet), space=fleet.airspace)
     with closing(brain):
@@ -119,7 +119,10 @@ class Alone:
     def __init__(
         self, app: App, fleet: FleetData, faults: Faults, seed: int, brain: Brain, hear: Listener
     ) -> None:
-        self.now, self.brain, self._app, self._hear = 0.0, brain, app, hear
+        self.now = 0.0
+        self.brain = brain
+        self._app = app
+        self._hear = hear
         self.drones = IdealDrones(app, fleet, faults, seed, self)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
@@ -131,11 +134,13 @@ class Alone:
 
     def run(self, until: float | None) -> bool:
         """Fly until everything has ended, or until a time; return whether it has ended."""
-        brain, drones = self.brain, self.drones
+        brain = self.brain
+        drones = self.drones
         while brain.over is None:
             for order in brain.orders():
                 drones.obey(order)
-            due, soon = brain.due, drones.due
+            due = brain.due
+            soon = drones.due
             when = soon if due is None else min(soon, due)
             if when == inf:
                 raise Stuck("nothing will ever happen again")
@@ -182,21 +187,21 @@ class Bound:
         """How many rounds are planned; a hook may ask for more."""
         self.last = 0.0  # when the last flight was launched, or will be after a delay
 
-    def look(self, event: Mapping[str, Any]) -> Enough | None:
-        """Count an event; return why the simulation would not end, if it would not."""
-        what, name = event["event"], event.get("mission", "")
+    def look(self, event: Mapping[str, Any]) -> None:
+        """Count an event; raise `Enough` if the simulation would not end."""
+        what = event["event"]
         if what == "trip.delayed":
             self.last = max(self.last, event["until"])
-        elif what == "mission.repeated" and event["round"] <= self._rounds[name]:
-            self._flights[name] = 0
+        elif what == "mission.repeated" and event["round"] <= self._rounds[event["mission"]]:
+            self._flights[event["mission"]] = 0
         elif what == "trip.launched":
+            name = event["mission"]
             self.last = max(self.last, event["t"])
-            self._flights[name] = flights = self._flights[name] + 1
-            if flights >= self._most[name]:
+            self._flights[name] += 1
+            if self._flights[name] >= self._most[name]:
                 trips = counted(self._most[name] // FLIGHTS, "trip")
-                said = f"mission {quoted(name)} has set out {flights} times for {trips}"
-                return Enough(f"{said}, and nothing ends that; {MORE}")
-        return None
+                said = f"mission {quoted(name)} has set out {self._flights[name]} times for {trips}"
+                raise Enough(f"{said}, and nothing ends that; {MORE}")
 
 
 def see_through(
@@ -225,7 +230,6 @@ def see_through(
 
 def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
     """Return the object that `simulate --json` prints."""
-    missions, drones = outcome.standing["missions"], outcome.standing["drones"]
     drained = {one["drone"]: None for one in outcome.events if one["event"] == "drone.drained"}
     return {
         "app": name,
@@ -241,7 +245,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
                 "attempts": stands["attempts"],
                 **promised(stands),
             }
-            for mission, stands in missions.items()
+            for mission, stands in outcome.standing["missions"].items()
         ],
         "trips": trips_data(outcome),
         "drones": [
@@ -252,7 +256,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
                 "battery_level": stands["battery"],
                 "status": stands["status"],
             }
-            for drone, stands in drones.items()
+            for drone, stands in outcome.standing["drones"].items()
         ],
         "log": outcome.log,
         **({"drained": list(drained)} if drained else {}),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING
 
 from ..domain.actions import Action
@@ -115,7 +116,7 @@ class OwnAction(Action):
         category = drone.category
         until = kernel.now + self.lasts(flight.trip.parameters)
         way = needed(category, state.core.airspace, drone.location, (), drone.home)
-        if way is None:
+        if way == inf:
             await Future[None]()  # no rest suffices where no way leads home
             return
         while True:

@@ -25,8 +25,7 @@ from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
