@@ -14,7 +14,7 @@ from collections.abc import Coroutine, Mapping
 from random import Random
 from typing import Any
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.keeper import put
 from pluto_fleet.shared.domain.model import AfterTrip, Category
 from pluto_fleet.shared.domain.status import Status

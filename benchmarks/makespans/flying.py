@@ -16,7 +16,7 @@ from pluto_fleet.app import described
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.errors import BadInput
 
 from .plans import APP, Plan

@@ -356,7 +356,7 @@ def _shown(text: str) -> str:
 
 
 def _mishaps(text: str) -> str:
-    from plutoc_runtime.alone.faults import shares  # only `run` asks
+    from plutoc_runtime.alone.world import shares  # only `run` asks
 
     return _handed_on(shares, text)
 

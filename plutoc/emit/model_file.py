@@ -110,7 +110,7 @@ def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
         imports += names("._runtime.domain.own_fields", "OwnField")
         imports += names("._runtime.domain.quantities", "Type")
     if policies:
-        imports += names("._runtime.fleet", "own_batch")
+        imports += names("._runtime.fleet", "own_policy")
     taken = {field.name for field in fields}
     if shadows(taken, (python_type(field) for field in fields)):
         alias = builtins_alias(taken)

@@ -13,8 +13,8 @@ from plutoc_runtime.domain.status import Status
 
 EXPORTS = {
     "ActionFailed": "._runtime.domain.errors",
-    "Again": "._runtime.fleet.own_batch",
-    "Assignment": "._runtime.fleet.own_batch",
+    "Again": "._runtime.fleet.own_policy",
+    "Assignment": "._runtime.fleet.own_policy",
     "Category": "._runtime.domain.model",
     "Context": "._runtime.hooks.context",
     "Drone": "._runtime.domain.model",

@@ -19,14 +19,14 @@ from .files.missions import load_missions
 from .files.missions_text import missions_text
 from .files.plan_check import endless, problems, wrong_fields
 from .flight.config import End, FlightResult, Stops
-from .flight.lives import FlightObserver, FlightSetup, reopen, run_flight
+from .flight.lives import FlightObserver, flight_of, reopen, run_flight
 from .flight.outcome import SimulationResult
 from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
 from .journal.header import header
 from .journal.store import Store
 from .seam import check
-from .shared.alone.faults import Faults
+from .shared.alone.world import Faults
 from .shared.domain.airspace import Airspace
 from .shared.domain.app import moving
 from .shared.domain.errors import BadInput
@@ -132,16 +132,7 @@ async def fly(
         faults=fail,
     )
     store = Store.create(journal, begun)
-    flight = FlightSetup(
-        app=flown,
-        journal=store.path,
-        missions=missions,
-        fleet=on,
-        speed=speed,
-        seed=seed,
-        faults=Faults(**(fail or {})),
-        sim=not real,
-    )
+    flight = flight_of(flown, store, missions, on, speed)
     return await run_flight(flight, store, stops or Stops(), None, _observer(on_event))
 
 

@@ -24,13 +24,14 @@ if TYPE_CHECKING:
 
     from .alone.simulate import Outcome
     from .domain.app import App
+    from .domain.fleet_data import FleetData
+    from .domain.model import Mission
 
+_LIBRARY = ("size", "fly", "resume", "journal", "tell", "decide", "--runs", "--jobs")
 _EXTRAS = {"serve": "[station]", "drones": "[crazyflie]", "--plot": "[plot]"}
-_EXTRAS |= dict.fromkeys(("size", "fly", "resume", "journal", "tell", "decide", "--runs"), "")
-_EXTRAS["--jobs"] = ""
-"""What needs the library, and with which of its extras."""
-_WORDS = [*_EXTRAS, "check", "simulate", "--version", "--start", "--date", "--zone", "--fleet"]
-_WORDS += ["--seed", "--no-spread", "--fail", "--until", "--trace", "--json"]
+"""What needs the library, and what needs one of its extras."""
+_OPTIONS = "--start --date --zone --fleet --seed --no-spread --fail --until --trace --json"
+_WORDS = [*_LIBRARY, *_EXTRAS, "check", "simulate", "--version", *_OPTIONS.split()]
 _WORLD = "each drone alone in the air"
 
 
@@ -99,8 +100,8 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
         return 0
     flags = [word for word in argv if word.startswith("--")] if argv[:1] == ["simulate"] else []
     for what in (word.partition("=")[0] for word in flags or argv[:1]):
-        if what in _EXTRAS:
-            raise BadInput(f"{name}: {needs_library(what, _EXTRAS[what])}")
+        if what in _LIBRARY or what in _EXTRAS:
+            raise BadInput(f"{name}: {needs_library(what, _EXTRAS.get(what, ''))}")
     app = loaded(load)
     try:
         options = _parser(app).parse_args(argv)
@@ -118,12 +119,11 @@ def _run(name: str, load: Callable[[], App], argv: Sequence[str]) -> int:
 def _checked(app: App, options: Any) -> int:
     from dataclasses import replace
 
-    from .alone.faults import Faults
     from .alone.files import load_fleet, load_missions
-    from .alone.simulate import default_fleet, simulate
+    from .alone.simulate import default_fleet
     from .domain.app import moving
-    from .fleet.reach import idle_actions, problems, reckoned
-    from .time.hours import Hours, beginning
+    from .fleet.reach import problems
+    from .time.hours import beginning
 
     beside = options.missions.parent / "fleet.toml"
     if options.fleet is None and os.path.lexists(beside):
@@ -140,46 +140,53 @@ def _checked(app: App, options: Any) -> int:
     if found := problems(app, missions, fleet, forever=forever):
         raise BadInput("\n".join(f"{options.missions}: {problem}" for problem in found[:50]))
     if options.command == "check":
-        for idle in idle_actions(app, fleet):
-            _tell(f"{printable(str(options.fleet or app.name))}: warning: {idle}")
-        for assumed in reckoned(app, missions):
-            print(printable(assumed))
-        trips = counted(sum(len(mission.trips) for mission in missions), "trip")
-        drones = counted(len(fleet.drones), "drone")
-        there = counted(len(missions), "mission")
-        end = (
-            "" if fleet.charges_at_home else ", as long as its batteries last: nothing charges them"
-        )
-        print(f"{there} with {trips}: a fleet of {drones} can fly them{end}")
-        return 0
-    seed, faults, until = options.seed, Faults(**options.fail), options.until
-    outcome = simulate(app, missions, fleet, seed=seed, faults=faults, until=until, on_event=None)
-    start = Hours(fleet.began, fleet.zone).start
-    return _told(app.name, outcome, options, start, fleet.charges_at_home)
+        return _check(app, missions, fleet, options)
+    return _simulate(app, missions, fleet, options)
 
 
-def _told(name: str, outcome: Outcome, options: Any, start: str, charges: bool) -> int:
-    from .alone.simulate import outcome_data
+def _check(app: App, missions: list[Mission[Any]], fleet: FleetData, options: Any) -> int:
+    from .fleet.reach import idle_actions, reckoned
+
+    for idle in idle_actions(app, fleet):
+        _tell(f"{printable(str(options.fleet or app.name))}: warning: {idle}")
+    for assumed in reckoned(app, missions):
+        print(printable(assumed))
+    trips = counted(sum(len(mission.trips) for mission in missions), "trip")
+    plan = f"{counted(len(missions), 'mission')} with {trips}"
+    lasts = ", as long as its batteries last: nothing charges them"
+    end = "" if fleet.charges_at_home else lasts
+    print(f"{plan}: a fleet of {counted(len(fleet.drones), 'drone')} can fly them{end}")
+    return 0
+
+
+def _simulate(app: App, missions: list[Mission[Any]], fleet: FleetData, options: Any) -> int:
+    from .alone.simulate import outcome_data, simulate
+    from .alone.world import Faults
     from .domain.trace import dumped
+    from .time.hours import Hours
 
+    faults = Faults(**options.fail)
+    outcome = simulate(app, missions, fleet, seed=options.seed, faults=faults, until=options.until)
     if options.trace is not None:
         try:
             options.trace.write_text("".join(f"{dumped(one)}\n" for one in outcome.events), "utf-8")
         except (OSError, ValueError) as error:
             raise BadInput(f"{options.trace}: the trace cannot be written: {error}") from None
+    start = Hours(fleet.began, fleet.zone).start
     if options.json:
         when = {"start": start} if start else {}
-        print(dumped({**outcome_data(name, options.seed, outcome), **when, "world": _WORLD}))
+        data = outcome_data(app.name, options.seed, outcome)
+        print(dumped({**data, **when, "world": _WORLD}))
     else:
         if start:
             print(f"starts at {start}")
-        print("\n".join(map(printable, _report(outcome, charges))))
+        print("\n".join(map(printable, _report(outcome, fleet.charges_at_home))))
     statuses = {mission["status"] for mission in outcome.standing["missions"].values()}
     return 1 if outcome.given_up or Status.FAILED.value in statuses else 0
 
 
 def _report(outcome: Outcome, charges: bool) -> Iterator[str]:
-    missions, drones = outcome.standing["missions"], outcome.standing["drones"]
+    missions = outcome.standing["missions"]
     yield from outcome.log
     for name, mission in missions.items():
         reason = mission["reason"] and f": {mission['reason']}"
@@ -189,8 +196,8 @@ def _report(outcome: Outcome, charges: bool) -> Iterator[str]:
     completed = sum(one["status"] == Status.COMPLETED.value for one in missions.values())
     done = f"{completed} of {counted(len(missions), 'mission')} completed"
     flights = counted(outcome.count("trip.launched"), "flight")
-    drones = f"{counted(len(drones), 'drone')}, {outcome.crashed} crashed"
-    yield f"{done} in {duration(outcome.duration)} ({flights}; {drones})"
+    drones = counted(len(outcome.standing["drones"]), "drone")
+    yield f"{done} in {duration(outcome.duration)} ({flights}; {drones}, {outcome.crashed} crashed)"
     at_home = "charged at home" if charges else "charged nowhere"
     yield f"flown with {_WORLD} and {at_home}; with pluto-fleet they keep apart"
 
@@ -203,27 +210,31 @@ def add_beginning(
     from .domain.quantities import typed
     from .time.hours import day_of, zone_of
 
-    def quoting(read: Callable[[str], Any], keeps: bool = False) -> Callable[[str], Any]:
+    def quoting(read: Callable[[str], Any]) -> Callable[[str], Any]:
         def reading(text: str) -> Any:
             try:
-                return text if (found := read(text)) is None or keeps else found
+                return read(text)
             except ValueError as error:
                 raise ValueError(f"{quoted(text)} {error}") from None
 
         return typed(reading)
+
+    def zone_name(text: str) -> str:
+        zone_of(text)
+        return text
 
     hour = f"at this time of day; default: {default}"
     add("--start", metavar="HH:MM", type=quoting(time_of_day), help=hour)
     day = f"on this day, which may have 23 or 25 hours; default: {any_day}"
     add("--date", metavar="YYYY-MM-DD", type=quoting(day_of), help=day)
     zone = "by the hours of this zone, such as Europe/Rome; default: with --date, this computer's"
-    add("--zone", metavar="ZONE", type=quoting(zone_of, keeps=True), help=zone)
+    add("--zone", metavar="ZONE", type=quoting(zone_name), help=zone)
 
 
 def _parser(app: App) -> ArgumentParser:
     from argparse import ArgumentParser
 
-    from .alone.faults import shares
+    from .alone.world import shares
     from .domain.quantities import time_from, typed, whole
 
     more = "size, fly, resume, tell, decide, journal, drones and serve come with pluto-fleet"

@@ -18,8 +18,7 @@ from pluto_fleet.jobs.controls import Controls
 from pluto_fleet.journal.header import header
 from pluto_fleet.journal.standing import Standing
 from pluto_fleet.journal.store import Entry, Store
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.motion import Motion

@@ -17,7 +17,7 @@ from tests.kit.in_real_time import flown
 if TYPE_CHECKING:
     from pluto_fleet.app import App
     from pluto_fleet.files.fleet import FleetFile
-    from pluto_fleet.shared.alone.faults import Faults
+    from pluto_fleet.shared.alone.world import Faults
     from pluto_fleet.shared.domain.model import Mission
     from pluto_fleet.shared.domain.trace import Event
     from tests.equivalence.fly import Record

@@ -23,7 +23,7 @@ from tests.equivalence.worlds import World
 if TYPE_CHECKING:
     from pluto_fleet.app import App
     from pluto_fleet.files.fleet import FleetFile
-    from pluto_fleet.shared.alone.faults import Faults
+    from pluto_fleet.shared.alone.world import Faults
     from pluto_fleet.shared.domain.app import Flow
     from pluto_fleet.shared.flow.run import Run
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.fleet import default_fleet
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from plutoc import registry
 from plutoc.cli import main
 from plutoc.source import Source

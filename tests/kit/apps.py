@@ -28,7 +28,7 @@ from pluto_fleet.files.fleet import FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain import app as brain_app
 from pluto_fleet.shared.domain import model
 from pluto_fleet.shared.domain.actions import BUILT_IN, Action

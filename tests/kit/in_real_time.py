@@ -12,7 +12,7 @@ from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.process.hook_runner import RealHooks
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
 from tests.kit import apps

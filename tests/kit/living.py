@@ -13,8 +13,7 @@ from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.store import Entry
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Future, Kernel, Key, Task, Timer

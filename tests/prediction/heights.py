@@ -23,7 +23,7 @@ from pluto_fleet.app import App
 from pluto_fleet.files.fleet import load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from tests.kit.apps import NAMES, imported
 from tests.kit.campaign import Campaign
 from tests.prediction.jumping import flown

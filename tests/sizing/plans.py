@@ -10,7 +10,7 @@ from typing import Any
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.files.plan_check import unflyable
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Item

@@ -18,7 +18,7 @@ from pluto_fleet.app import App, described
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Mission, Point, Results

@@ -33,7 +33,7 @@ from ..report.report import exit_code, report
 from ..report.sentences import line_of
 from ..report.terminal import table
 from ..shared import output
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number

@@ -11,13 +11,12 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..flight.config import End, FlightResult, Stops
+from ..flight.config import End, FlightResult, FlightSetup, Stops, how_to_go_on
 from ..flight.lives import (
     FlightObserver,
-    FlightSetup,
     Resumable,
     aloft,
-    how_to_go_on,
+    flight_of,
     reopen,
     run_flight,
 )
@@ -31,7 +30,6 @@ from ..process import respawn as again
 from ..report.report import report_of, waiting_lines
 from ..report.sentences import line_of
 from ..shared import output
-from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
 from .interrupts import Interrupts
@@ -78,17 +76,7 @@ def fly(app: App, options: Options) -> int:
         words = options.supervised_words("--journal", str(journal))
         return supervised(app, options, journal, again.command(app.package, *words))
     store = Store.create(journal, begun)
-    flight = FlightSetup(
-        app=plan.app,
-        journal=store.path,
-        missions=plan.missions,
-        fleet=plan.fleet,
-        speed=options.speed or 1.0,
-        seed=options.seed,
-        faults=Faults(**options.fail),
-        sim=options.sim,
-        crtp=options.crtp_sim is not None,
-    )
+    flight = flight_of(plan.app, store, plan.missions, plan.fleet, options.speed or 1.0)
     return see_through(flight, store)
 
 

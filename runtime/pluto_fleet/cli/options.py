@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..arguments import Deadline, confidence, deadline, positive_number, whole_number
 from ..jobs.link import MISHAPS
 from ..shared import output
-from ..shared.alone.faults import FAULTS, shares
+from ..shared.alone.world import FAULTS, shares
 from ..shared.command import add_beginning
 from ..shared.command_line import CommandLine
 from ..shared.domain.errors import BadInput

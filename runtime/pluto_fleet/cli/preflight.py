@@ -7,8 +7,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
-from ..drones import plugins
-from ..drones.loading import canonical_uri, hears, load_localization, load_navigation
+from ..drones.loading import canonical_uri, deaf, hears, load_localization, load_navigation
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
 from ..files.drones import which
@@ -45,9 +44,9 @@ def check_real(
         load_navigation(name)
     if fleet.localization != OWN:
         load_localization(fleet.localization)
-        deaf = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
-        if deaf:
-            raise plugins.deaf(fleet.localization, deaf)
+        told_in_vain = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
+        if told_in_vain:
+            raise deaf(fleet.localization, told_in_vain)
     _check_options(app, fleet, where)
 
 

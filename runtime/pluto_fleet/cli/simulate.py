@@ -16,7 +16,7 @@ from ..report.report import exit_code, report, simulation_data
 from ..report.sentences import line_of
 from ..report.terminal import Progress, simulation_progress
 from ..shared import output
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration
 from ..shared.domain.trace import Event, dumped

@@ -10,7 +10,7 @@ from ..files.fleet_text import fleet_text
 from ..process.workers import WorkerDied, cores
 from ..report.terminal import Progress, simulation_progress
 from ..shared import output
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.text import counted, duration

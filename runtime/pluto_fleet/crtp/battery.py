@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from ..lithium import SAG, level_at, volts_at
-from ..shared.alone.body import Body
+from ..shared.alone.drones import Body
 from ..shared.domain.model import Point
 from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import resting

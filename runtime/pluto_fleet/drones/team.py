@@ -16,9 +16,9 @@ from ..jobs.telemetry import Subscription
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import ANY_ERROR, BadInput
 from ..shared.domain.text import quoted
-from . import commands, plugins
+from . import commands
 from .connection import Connection, close
-from .loading import make_localization, make_navigation
+from .loading import deaf, make_localization, make_navigation
 from .localization import OWN, LocalizationFeed
 from .protocol import DroneSetup, Locatable, Readable
 from .recovery import recover, wait_until_home
@@ -101,7 +101,7 @@ class Team:
         navigation = make_one(how, drone.home, speed, folder, self._silence)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
-                raise plugins.deaf(self._feed.name, [drone.id])
+                raise deaf(self._feed.name, [drone.id])
             self._feed.feed(drone.id, navigation)
         one = TeamDrone(
             id=drone.id,
@@ -313,8 +313,7 @@ def _feeding(
     if real.localization == OWN:
         return None
     fed = {id: one for id, one in navigations.items() if isinstance(one, Locatable)}
-    deaf = [id for id in navigations if id not in fed]
-    if deaf:
-        raise plugins.deaf(real.localization, deaf)
+    if len(fed) < len(navigations):
+        raise deaf(real.localization, [id for id in navigations if id not in fed])
     source = make_localization(real.localization, real.localization_options)
     return LocalizationFeed(real.localization, source, fed, say)

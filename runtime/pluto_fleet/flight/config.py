@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from ..process.text import in_shell
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -16,6 +18,7 @@ if TYPE_CHECKING:
     from ..jobs.reports import Down
     from ..journal.standing import Standing
     from ..process.realtime import RealTime
+    from ..shared.alone.world import Faults
     from ..shared.domain.model import Drone, Mission
     from ..shared.domain.trace import Event
 
@@ -34,26 +37,48 @@ class End(Enum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FlightConfig:
-    """What all runs of one app share."""
+class FlightSetup:
+    """A journal, and everything that is needed to resume it."""
 
     app: App
+    journal: Path
     missions: Sequence[Mission[Any]]
-    """The missions as planned."""
     fleet: FleetFile
+    speed: float
+    seed: int
+    faults: Faults
+    sim: bool = True
+    """Whether the drones are simulated."""
+    crtp: bool = False
+    """Whether the drones are Crazyflies that are simulated down to their radio."""
+
+    @property
+    def charges(self) -> bool:
+        """Whether a battery that is low may become full: what is real has its say itself."""
+        return self.fleet.charges_at_home or not (self.sim or self.crtp)
+
+    @property
+    def how_to_go_on(self) -> str:
+        """How to resume it: a sentence for the user who has stopped it."""
+        return how_to_go_on(self.app, self.journal)
+
+
+def how_to_go_on(app: App, journal: Path) -> str:
+    """Return how to resume a flight: a sentence for the user who has stopped it, with the command."""
+    return f"to go on: {app.name} resume {in_shell(journal)}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightConfig:
+    """What all runs of one flight share."""
+
+    flight: FlightSetup
     connect: Connect
     """Connects to the gateway, or starts it: given kernel, fleet, epoch, and what to call if it dies."""
-    note: Path
-    """The note with the address for commands."""
     tell: Callable[[Event], object]
     """Called with an event, once it is durable."""
     joining: Joining | None = None
     """Returns the last drone of a fleet as the gateway takes it in; None: no drone can join."""
-    speed: float = 1.0
-    sim: bool = True
-    """Whether drones are simulated: then a lost one is carried home automatically."""
-    charges: bool = True
-    """Whether a battery that is low may become full: False of simulated drones that nothing charges."""
     patient: bool = False
     """Whether it goes on while a mission waits for the user's decision."""
 

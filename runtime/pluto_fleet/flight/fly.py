@@ -49,7 +49,7 @@ async def live(
     `known` is the journal's content, if it has been read already; `born` is called with the run.
     """
     known = known or recovered(store)
-    meanwhile = speed_in(gateway_folder(store.path)) or setting.speed
+    meanwhile = speed_in(gateway_folder(store.path)) or setting.flight.speed
     one = LiveFlight(setting, store, known.records, known.time(meanwhile))
     if born is not None:
         born(one)

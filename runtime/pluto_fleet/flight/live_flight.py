@@ -19,6 +19,7 @@ from ..jobs.link import UNCERTAIN
 from ..jobs.reports import Down
 from ..journal.copies import EVERY
 from ..journal.errors import TROUBLE, JournalError
+from ..journal.place import commands_note
 from ..journal.writer import Writer
 from ..process.hook_runner import RealHooks
 from ..process.realtime import RealTime
@@ -51,7 +52,7 @@ class LiveFlight:
     ) -> None:
         self._setting, self._store = setting, store
         self._loop = asyncio.get_running_loop()
-        self._kernel = RealTime(setting.speed, begin)
+        self._kernel = RealTime(setting.flight.speed, begin)
         self._clock = WallClock(self._kernel, records.clock)
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
@@ -72,13 +73,14 @@ class LiveFlight:
     async def live(self, stops: Stops) -> FlightResult:
         """Run until all missions have ended, it is stopped, or the gateway dies."""
         setting, kernel, self._stops = self._setting, self._kernel, stops
+        flight = setting.flight
         lost = partial(self._end.set, End.LOST)
-        fleet = with_joined(setting.app, setting.fleet, self._records.joined)
+        fleet = with_joined(flight.app, flight.fleet, self._records.joined)
         self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
         link.seen = self._seen
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
-            setting.app,
+            flight.app,
             fleet,
             kernel,
             link,
@@ -88,14 +90,14 @@ class LiveFlight:
             watcher=setting.tell,
             hooks=hooks,
             clock=self._clock,
-            charges=setting.charges,
+            charges=flight.charges,
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
-        life.patient, life.carried_home = setting.patient, setting.sim
+        life.patient, life.carried_home = setting.patient, flight.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
-        async with hear_commands(setting.note, self.answer):
+        async with hear_commands(commands_note(flight.journal), self.answer):
             looks = asyncio.create_task(self._looks())
             try:
                 end = await self._lived(life, stops)
@@ -118,7 +120,7 @@ class LiveFlight:
 
     async def _lived(self, life: RecordedFlight, stops: Stops) -> End:
         """Run to some end, and make everything durable."""
-        over = life.go_on(self._setting.missions)
+        over = life.go_on(self._setting.flight.missions)
         over.watch(self._over)
         self._copy()
         self._kernel.spawn(Waits(life).watch(), FLEET, "what waits")
@@ -252,7 +254,7 @@ class LiveFlight:
             joining = await self._setting.joining(life.control.fleet_with(entry))
             await self._asked(link.ask("join", joining=joining), "a drone joins")
         match request:
-            case {"command": "mishap"} if not self._setting.sim:
+            case {"command": "mishap"} if not self._setting.flight.sim:
                 raise BadInput("mishaps happen to drones that --sim simulates, and to no others")
             case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind != UNCERTAIN:
                 life.control.check_drone(drone)

@@ -20,15 +20,14 @@ from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect, speed_in
 from ..journal import errors
 from ..journal.header import Header, check_whole
-from ..journal.place import commands_note, gateway_folder
+from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..process import respawn
-from ..process.text import in_shell
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import place
-from .config import End, FlightConfig, FlightResult, Stops
+from .config import End, FlightConfig, FlightResult, FlightSetup, Stops
 from .fly import Recovered, live, recovered
 from .live_flight import LiveFlight
 from .mission_status import all_over, finished
@@ -45,38 +44,6 @@ if TYPE_CHECKING:
 
 GATEWAY_DEATHS = 5
 """How many gateways may die in a row without progress in between."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FlightSetup:
-    """A journal, and everything that is needed to resume it."""
-
-    app: App
-    journal: Path
-    missions: Sequence[Mission[Any]]
-    fleet: FleetFile
-    speed: float
-    seed: int
-    faults: Faults
-    sim: bool = True
-    """Whether the drones are simulated."""
-    crtp: bool = False
-    """Whether the drones are Crazyflies that are simulated down to their radio."""
-
-    @property
-    def charges(self) -> bool:
-        """Whether a battery that is low may become full: what is real has its say itself."""
-        return self.fleet.charges_at_home or not (self.sim or self.crtp)
-
-    @property
-    def how_to_go_on(self) -> str:
-        """How to resume it: a sentence for the user who has stopped it."""
-        return how_to_go_on(self.app, self.journal)
-
-
-def how_to_go_on(app: App, journal: Path) -> str:
-    """Return how to resume a flight: a sentence for the user who has stopped it, with the command."""
-    return f"to go on: {app.name} resume {in_shell(journal)}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,17 +67,25 @@ class Resumable:
     def flight(self, speed: float | None) -> FlightSetup:
         """Return the flight to resume; without a speed at its former one."""
         folder = gateway_folder(self.store.path)
-        return FlightSetup(
-            app=self.app,
-            journal=self.store.path,
-            missions=self.planned,
-            fleet=self.fleet,
-            speed=speed or speed_in(folder) or 1.0,
-            seed=self.header["seed"],
-            faults=Faults(**self.header["faults"]),
-            sim=self.header["sim"],
-            crtp=self.header.get("crtp_sim") is not None,
-        )
+        speed = speed or speed_in(folder) or 1.0
+        return flight_of(self.app, self.store, self.planned, self.fleet, speed)
+
+
+def flight_of(
+    app: App, store: Store, missions: Sequence[Mission[Any]], fleet: FleetFile, speed: float
+) -> FlightSetup:
+    """Return a flight as the header of its journal says how it is flown."""
+    return FlightSetup(
+        app=app,
+        journal=store.path,
+        missions=missions,
+        fleet=fleet,
+        speed=speed,
+        seed=store.header["seed"],
+        faults=Faults(**store.header["faults"]),
+        sim=store.header["sim"],
+        crtp=store.header.get("crtp_sim") is not None,
+    )
 
 
 def reopen(app: App, journal: Path) -> Resumable:
@@ -188,16 +163,10 @@ async def run_flight(
         return joining_data(whole.drones[-1], real)
 
     setting = FlightConfig(
-        app=flight.app,
-        missions=flight.missions,
-        fleet=flight.fleet,
+        flight=flight,
         connect=reach,
         joining=joining,
-        note=commands_note(flight.journal),
         tell=observer.tell,
-        speed=flight.speed,
-        sim=flight.sim,
-        charges=flight.charges,
         patient=observer.patient,
     )
     deaths, done = 0, -1

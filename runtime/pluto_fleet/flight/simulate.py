@@ -18,7 +18,7 @@ from .outcome import SimulationResult, result_of
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
-    from ..shared.alone.faults import Faults
+    from ..shared.alone.world import Faults
     from ..shared.brain import Brain
     from ..shared.domain.model import Mission, Telemetry
     from ..shared.domain.trace import Clock, Event
@@ -94,8 +94,8 @@ def simulate(
         events.append(event)
         if on_event is not None:
             on_event(event)
-        if until is None and (enough := bound.look(event)) is not None:
-            raise enough
+        if until is None:
+            bound.look(event)
 
     kernel = VirtualTime()
     simulation = Simulation(app, fleet, kernel, seed, faults, listen, around, stands=stands)

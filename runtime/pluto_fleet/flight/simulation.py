@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..jobs.controls import Controls
     from ..jobs.link import Message
     from ..process.hook_runner import RealHooks
-    from ..shared.alone.faults import Faults
+    from ..shared.alone.world import Faults
     from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Future, Kernel

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from ..drones.real_fleet import RealDrone, RealFleet
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.app import moving
 from ..shared.domain.fleet_data import WorldData

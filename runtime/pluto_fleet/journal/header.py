@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
-from ..shared.alone.faults import FAULTS
+from ..shared.alone.world import FAULTS
 from . import errors
 
 if TYPE_CHECKING:

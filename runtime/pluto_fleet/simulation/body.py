@@ -8,7 +8,7 @@ from math import inf
 from typing import TYPE_CHECKING, Any, cast
 
 from ..jobs.reports import DroneReport
-from ..shared.alone.body import Body
+from ..shared.alone.drones import Body
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.fleet_data import DroneData
 from ..shared.domain.model import Category, Point  # settings are read by these types

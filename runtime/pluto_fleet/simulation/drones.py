@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, See, TakeOff, Trigger, Write
 from ..jobs.reports import motors_cut
-from ..shared.alone.faults import CARRYING_HOME, Faults, draw
+from ..shared.alone.world import CARRYING_HOME, Faults, draw
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import place

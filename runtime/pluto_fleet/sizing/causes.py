@@ -13,7 +13,7 @@ from functools import cached_property
 from statistics import median
 from typing import TYPE_CHECKING
 
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.text import counted, duration, number, quoted
 from .batteries import swapping
 from .question import LATE

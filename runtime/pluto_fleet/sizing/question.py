@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..flight.simulate import simulate
-from ..shared.alone.faults import Faults
+from ..shared.alone.world import Faults
 from ..shared.domain.status import Status
 from ..trials.case import fresh
 from .batteries import most_charging

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..files.fleet import with_joined
-from ..flight.lives import Resumable, fleet_in, how_to_go_on, reopen
+from ..flight.config import how_to_go_on
+from ..flight.lives import Resumable, fleet_in, reopen
 from ..flight.offline import record_loss, record_return, returned
 from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place

@@ -9,7 +9,7 @@ from ..flight.changing import left, refuse_if_stale
 from ..shared.domain.text import quoted
 from .plan.in_flight import drawn_change, named
 from .plan.problems import bare
-from .plan.shape import trips_from, trips_of
+from .plan.shape import trips_from
 
 if TYPE_CHECKING:
     from ..app import App
@@ -54,7 +54,7 @@ class FlightChanges:
                 said = life.control.change_trips(name, list(map(bare, trips)), None)
             else:
                 waits = [one["name"] for one in left(record)]
-                kept = [one for one in named(fixed, trips_of(fixed)) if one["name"] not in waits]
+                kept = [one for one in named(fixed, fixed["trips"]) if one["name"] not in waits]
                 said = self._change(life, {name: [*kept, *trips]}, None)
             life.control.remember(id, "change-trips")
             return said

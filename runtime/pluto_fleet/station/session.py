@@ -12,8 +12,8 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..flight.config import End, Stops
-from ..flight.lives import FlightObserver, FlightSetup, run_flight
+from ..flight.config import End, FlightSetup, Stops
+from ..flight.lives import FlightObserver, run_flight
 from ..flight.mission_status import in_order, records_in
 from ..gateway.wire import STALE_AFTER
 from ..journal.errors import JournalError
@@ -93,10 +93,12 @@ class FlightSession:
         flight: FlightSetup,
         ended: Callable[[], object],
         seen: Callable[[], object],
+        heard: Callable[[Event], object] = lambda _: None,
         known: Standing | None = None,
         name_of: NameOf = nowhere,
     ) -> None:
-        """`seen` is called at each update of telemetry, `ended` when the run has ended.
+        """`ended` is called when the run has ended, `seen` at each update of telemetry, `heard` with each
+        event once it is durable.
 
         `known` has the drones' states before the first record; `name_of` says what a place is called.
         """
@@ -116,9 +118,7 @@ class FlightSession:
         self.trouble = ""
         """Why it could not be resumed."""
         self.task: asyncio.Task[None] | None = None
-        self.heard: Callable[[Event], object] = _ignore
-        """Called with each event, once it is durable."""
-        self._ended, self._seen = ended, seen
+        self._ended, self._seen, self._heard = ended, seen, heard
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
         self._waits = Waits()
@@ -193,7 +193,7 @@ class FlightSession:
 
         def troubled(text: str) -> None:
             with suppress(RuntimeError):  # the loop is closed: the station has ended
-                loop.call_soon_threadsafe(self._say, text)
+                loop.call_soon_threadsafe(self.say, text)
 
         self.recorder = Recorder(
             recording_of(self.journal),
@@ -203,7 +203,7 @@ class FlightSession:
         )
 
     async def _live(self, store: Store, known: Recovered | None) -> None:
-        observer = FlightObserver(tell=self._hear, say=self._say, born=self._born, patient=True)
+        observer = FlightObserver(tell=self._hear, say=self.say, born=self._born, patient=True)
         try:
             lived = await run_flight(self.flight, store, self.stops, known, observer)
         except BadInput as error:
@@ -221,7 +221,7 @@ class FlightSession:
             self._left_at = self.now
             self.one = None
             if self.trouble:
-                self._say(self.trouble, "bad")
+                self.say(self.trouble)
                 self._show_what_counts()
 
     def _show_what_counts(self) -> None:
@@ -238,13 +238,10 @@ class FlightSession:
         """Update the pages outside of the current instant, so that errors there cannot affect the flight."""
         loop = asyncio.get_running_loop()
         loop.call_soon(self.feed.take, event)
-        loop.call_soon(self.heard, event)
+        loop.call_soon(self._heard, event)
 
-    def say(self, text: str) -> None:
+    def say(self, text: str, kind: LineKind = "bad") -> None:
         """Tell users on the console what they should know of it."""
-        self._say(text)
-
-    def _say(self, text: str, kind: LineKind = "bad") -> None:
         if self.recorder is not None:
             line = {"time": self.now, "text": text, "kind": kind}
             self.recorder.tell(line, after=self.feed.log.last - self._said)
@@ -341,7 +338,3 @@ class FlightSession:
         """Return the lost drones of which the gateway knows that they fell."""
         lost = [row["id"] for row in drones if row["status"] == "LOST"]
         return self._idle.crashed() if lost else ()
-
-
-def _ignore(_: object) -> None:
-    """Do nothing: no callback is set."""

@@ -6,15 +6,15 @@ import asyncio
 import secrets
 import time
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
 from ..flight.commands import perform
-from ..flight.config import End
-from ..flight.lives import FlightSetup, reopen
+from ..flight.config import End, FlightSetup
+from ..flight.lives import flight_of, reopen
 from ..flight.offline import clear_stop, record_loss
 from ..flight.recorded_flight import RecordedFlight
 from ..gateway.starting import cut_directly, let_end, still_runs, stop_directly
@@ -25,7 +25,6 @@ from ..journal.standing import Standing, inherited
 from ..journal.store import Store
 from ..process.at_once import at_once
 from ..process.ipc import NoAnswer, NotRunning
-from ..shared.alone.faults import Faults
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted
 from .attention import FILE as ALERTS
@@ -106,8 +105,6 @@ class Station:
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
         self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
-        self.preflight = self._forecasts.preflight
-        """The forecast that is being made, if any."""
         self.files = files
         self.exports = Exports(config, files, self._flight_now)
         self._before: Path | None = None
@@ -124,6 +121,10 @@ class Station:
         """The present phase."""
         return phase_of(self.session)
 
+    @property
+    def _known(self) -> Standing | None:
+        return self.session.known if self.session is not None else None
+
     def begin(self, going_on: bool = False) -> None:
         """Show the unfinished flight of an earlier station or of `fly`, if any."""
         self.history.read()
@@ -132,13 +133,7 @@ class Station:
             if self.history.flown_elsewhere() is None:
                 self.plan.unlock()
             return
-        self.session = FlightSession(
-            taken.flight(self._config.speed),
-            self._over,
-            self._updates.hurry,
-            name_of=self.map.name_of,
-        )
-        self.session.heard = self._follow
+        self.session = self._session_of(taken.flight(self._config.speed))
         self.session.read(taken.known)
         if taken.is_over:
             self.session.end = End.OVER
@@ -147,7 +142,7 @@ class Station:
 
     # Commands
 
-    async def command(self, name: str, id: str, given: Mapping[str, object], by: str = "") -> str:
+    async def command(self, name: str, id: str, given: Mapping[str, Any], by: str = "") -> str:
         """Carry out a command, once; return what was done, or raise `BadInput`.
 
         It is idempotent: a command that is repeated with the same id gets the same answer. `by` is
@@ -155,7 +150,7 @@ class Station:
         """
         if id in self._answers:
             return await asyncio.shield(self._answers[id])
-        known = self.session.known if self.session is not None else None
+        known = self._known
         if known is not None and id in known.commands:
             return "done already"
         answer = asyncio.ensure_future(self._do(name, id, given, by))
@@ -165,12 +160,12 @@ class Station:
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # it is completed even if the page disconnects
 
-    async def _do(self, name: str, id: str, given: Mapping[str, object], by: str) -> str:
+    async def _do(self, name: str, id: str, given: Mapping[str, Any], by: str) -> str:
         match name:
             case "stop":
-                return await self._stop(Down(str(given["how"])))
+                return await self._stop(Down(given["how"]))
             case "cut-motors":
-                return await self._cut_motors(str(given["drone"]))
+                return await self._cut_motors(given["drone"])
             case "start":
                 async with self._one_at_a_time:
                     return await self._start(id, given, by)
@@ -179,9 +174,9 @@ class Station:
                     return self.resume()
             case "bring-back" if self.session is None or not self.session.lives:
                 async with self._one_at_a_time:
-                    return self._bring_back(id, str(given["drone"]))
+                    return self._bring_back(id, given["drone"])
             case "acknowledge":
-                return self.attention.acknowledge(str(given["alert"]), by)
+                return self.attention.acknowledge(given["alert"], by)
             case "discard":
                 async with self._one_at_a_time:
                     return await self._discard()
@@ -190,18 +185,15 @@ class Station:
             case _:
                 return await self._of_the_flight(name, id, given)
 
-    async def _start(self, id: str, given: Mapping[str, object], by: str) -> str:
+    async def _start(self, id: str, given: Mapping[str, Any], by: str) -> str:
         await self.plan.examined()
         if self.session is None:
             self.begin()  # another process may have flown meanwhile
         await self._others_are_down()
         self._may_start()
         phase = self.phase
-        chosen = given["missions"]
         only_failed = given["only_failed"] is True
-        missions, keys = self.plan.launchable(
-            chosen if isinstance(chosen, list) else None, only_failed
-        )
+        missions, keys = self.plan.launchable(given["missions"], only_failed)
         if not missions and phase is Phase.FLYING:  # another page was quicker
             return "every mission of the plan flies already"
         if not missions:
@@ -209,13 +201,12 @@ class Station:
         if given["revision"] not in (None, self.plan.revision):
             raise BadInput("the plan has changed meanwhile: look at it, and start again")
         text = self.plan.export_toml(keys, only_failed)
-        self.plan.launched(
-            keys, only_failed
-        )  # before anything flies: they may not be changed from now on
+        # before anything flies: they may not be changed from now on
+        self.plan.launched(keys, only_failed)
         held_to = promised(missions)
         try:
             if phase is Phase.FLYING:
-                await self._add(id, missions)
+                await self._carry_out(id, "start", lambda life: life.add(missions))
             else:
                 await self._set_out(missions, text, by)
         except BaseException:
@@ -259,26 +250,15 @@ class Station:
             self.session.records = self.history.records
         return said
 
-    async def _add(self, id: str, missions: list[Mission[Any]]) -> None:
-        """Start more missions while others fly."""
-        one = self._commandable()
-
-        def add(life: RecordedFlight) -> str:
-            life.add(missions)
-            life.control.remember(id, "start")
-            return ""
-
-        await one.carry_out(add)
-
     def _lock_what_flies(self) -> None:
         """Lock the flight's missions in the plan, and no others."""
+        known = self._known
         if self.session is None:
             self.plan.unlock()
         elif self.phase is Phase.OVER:
             self.plan.settle(self.session.ends, self.session.done)
         else:
             self.plan.adopt(self.session.names)
-            known = self.session.known
             for name, record in known.missions.items() if known is not None else ():
                 if record["replanned"]:
                     self.plan.follow(name, record)
@@ -286,8 +266,7 @@ class Station:
 
     def _know_the_fleet(self) -> None:
         """Draw for, and show, the drones that have joined, too."""
-        known = self.session.known if self.session is not None else None
-        fleet = self.history.fleet
+        known, fleet = self._known, self.history.fleet
         if known is not None:
             own = {one.id for one in self._config.fleet.drones}  # it may be in the file by now
             joined = [one for one in known.joined if one["id"] not in own]
@@ -299,7 +278,7 @@ class Station:
 
     def _follow(self, event: Event) -> None:
         """Let the plan agree with the flight, whoever has commanded what has happened."""
-        known = self.session.known if self.session is not None else None
+        known = self._known
         if event["event"] == "drone.joined":
             self._know_the_fleet()
         elif event["event"] == "mission.replanned" and known is not None:
@@ -324,23 +303,14 @@ class Station:
         )
         await asyncio.to_thread(self.history.hand_on_the_world, journal)
         store = Store.create(journal, begun)
-        flight = FlightSetup(
-            app=self._app,
-            journal=store.path,
-            missions=missions,
-            fleet=config.fleet,
-            speed=config.speed or 1.0,
-            seed=config.seed,
-            faults=Faults(**config.faults),
-            sim=config.sim,
-            crtp=config.crtp_sim is not None,
+        flight = flight_of(self._app, store, missions, config.fleet, config.speed or 1.0)
+        self.session = self._session_of(flight, Standing(inherited(begun)))
+        self._fly(self.session, store, None)
+
+    def _session_of(self, flight: FlightSetup, known: Standing | None = None) -> FlightSession:
+        return FlightSession(
+            flight, self._over, self._updates.hurry, self._follow, known, self.map.name_of
         )
-        known = Standing(inherited(begun))
-        self.session = FlightSession(
-            flight, self._over, self._updates.hurry, known, self.map.name_of
-        )
-        self.session.heard = self._follow
-        self._begin(self.session, store, None)
 
     def resume(self) -> str:
         """Resume a flight that was stopped or interrupted."""
@@ -352,10 +322,10 @@ class Station:
         taken = reopen(self._app, journal)
         clear_stop(taken.store.path)
         self.session.flight = taken.flight(self._config.speed)
-        self._begin(self.session, taken.store, taken.known)
+        self._fly(self.session, taken.store, taken.known)
         return "going on where it was"
 
-    def _begin(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
+    def _fly(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
         """Let a flight begin, or go on, and be recorded."""
         session.begin(store, known)
         self._watching = asyncio.ensure_future(self._updates.watch(session))
@@ -429,16 +399,22 @@ class Station:
                 record_loss(self._app, self.session.journal, drone, reason, None)
         return said
 
-    async def _of_the_flight(self, name: str, id: str, given: Mapping[str, object]) -> str:
-        one, request = self._commandable(), {"command": name, **given}
-        await one.prepare(request)
+    async def _of_the_flight(self, name: str, id: str, given: Mapping[str, Any]) -> str:
+        request = {"command": name, **given}
+        await self._commandable().prepare(request)
+        return await self._carry_out(id, name, lambda life: perform(life.control, request))
 
-        def do(life: RecordedFlight) -> str:
-            said = perform(life.control, request)
+    async def _carry_out(
+        self, id: str, name: str, do: Callable[[RecordedFlight], str | None]
+    ) -> str:
+        """Do something to the flight that is under way, and remember it as this command."""
+
+        def done(life: RecordedFlight) -> str:
+            said = do(life)
             life.control.remember(id, name)
-            return said
+            return said or ""
 
-        return await one.carry_out(do)
+        return await self._commandable().carry_out(done)
 
     def _commandable(self) -> LiveFlight:
         """Return the run that can be commanded; raise `BadInput` if there is none."""

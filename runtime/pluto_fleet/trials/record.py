@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from ..flight.offline import decided
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
-from ..shared.alone.simulate import Bound
+from ..shared.alone.simulate import Bound, Enough
 from .case import BrokenHook
 from .invariants import ENDS, Invariants, items_of
 from .rules import at
@@ -258,7 +258,9 @@ class TrialRecord:
             self.events.append(event)
             self._invariants.take(event)
             self.once.take(event)
-            if self._bound.look(event) is not None:
+            try:
+                self._bound.look(event)
+            except Enough:
                 self.endless = str(event["mission"])
             if event["event"] == "mission.ended":
                 self._end(event)

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
-from ..shared.alone.faults import Faults
-from ..shared.alone.world import World
+from ..shared.alone.world import Faults, World
 from ..shared.time.kernel import FLEET
 from ..shared.time.kernel import EventKind as When
 from ..shared.time.told import VirtualTime

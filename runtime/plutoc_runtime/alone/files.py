@@ -58,7 +58,8 @@ def load_fleet(path: Path, app: App) -> FleetData:
 def load_missions(path: Path, app: App, airspace: Airspace) -> list[Mission[Any]]:
     """Return the missions of a file, each of the app's own class."""
     top = _top(path, MISSIONS)
-    missions, names = list[Any](), dict[str, Table]()
+    missions: list[Any] = []
+    names: dict[str, Table] = {}
     for index, table in enumerate(top.tables("mission", needed=True)):
         for key in filter(table.data.__contains__, LIBRARY):
             table.problem(needs_library(key, LIBRARY[key]), key)
@@ -99,7 +100,8 @@ def read_trips(table: Table, app: App, airspace: Airspace) -> list[Trip]:
     needed: Keys = {"action": partial(values.one_of, app.actions), "target": point}
     others: Keys = {"name": values.name, "source": point, "parameters": None, "item": None}
     keys = with_fields(app, Entity.TRIP, needed, others)
-    trips, names = list[Any](), dict[str, Table]()
+    trips: list[Any] = []
+    names: dict[str, Table] = {}
     tables = [*table.tables("trip", needed=not table.data.get("area"))]
     for index, one in enumerate(tables):
         for part in app.parts:
@@ -170,7 +172,8 @@ def _named(trip: Trip) -> str:
 
 def read_map(table: Table) -> Airspace | None:
     """Return the map of `[map]`; None if it cannot be read, so that nothing is held against it."""
-    before, plain = len(table.problems), Airspace()
+    before = len(table.problems)
+    plain = Airspace()
     keys: Keys = {"size": values.size, "cruise_height": values.HEIGHT, "ceiling": values.HEIGHT}
     shown = dict.fromkeys(("image", "north", "places", "zones"))
     given = table.read({}, {**keys, "no_fly": values.areas, **shown})
@@ -207,7 +210,8 @@ def read_drones(top: T, app: App, airspace: Airspace | None) -> Iterator[tuple[T
     if len(kinds) == 1:  # it is the default
         others["category"] = needed.pop("category")
     hints = {"category": f"; this app has: {', '.join(kinds)}"}
-    names, homes = dict[str, Table](), dict[str, Point]()
+    names: dict[str, Table] = {}
+    homes: dict[str, Point] = {}
     for table in top.tables("drone", "id", needed=True):
         given = {"category": kinds[0], **table.read(needed, others, hints)}
         table.differs("id", given["id"], "drone", names)

@@ -24,11 +24,11 @@ from ..domain.trace import Clock, Event
 from ..flow.record import fleet_data
 from ..hooks.plain_data import mission_data
 from ..time.told import Stuck
-from .ideal import IdealDrones
+from .drones import IdealDrones
 
 if TYPE_CHECKING:
     from ..domain.app import App
-    from .faults import Faults
+    from .world import Faults
 
 Listener = Callable[[Event], object]
 Run = Callable[[float | None], bool]
@@ -77,8 +77,8 @@ def simulate(
     *,
     seed: int,
     faults: Faults,
-    until: float | None,
-    on_event: Listener | None,
+    until: float | None = None,
+    on_event: Listener | None = None,
     new_brain: Callable[..., Brain] = Brain,
     prepare: Callable[[Alone], Run] | None = None,
 ) -> Outcome:
@@ -95,8 +95,8 @@ def simulate(
         events.append(event)
         if on_event is not None:
             on_event(event)
-        if until is None and (enough := bound.look(event)) is not None:
-            raise enough
+        if until is None:
+            bound.look(event)
 
     brain = new_brain(app, fleet_data(fleet), space=fleet.airspace)
     with closing(brain):
@@ -119,7 +119,10 @@ class Alone:
     def __init__(
         self, app: App, fleet: FleetData, faults: Faults, seed: int, brain: Brain, hear: Listener
     ) -> None:
-        self.now, self.brain, self._app, self._hear = 0.0, brain, app, hear
+        self.now = 0.0
+        self.brain = brain
+        self._app = app
+        self._hear = hear
         self.drones = IdealDrones(app, fleet, faults, seed, self)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
@@ -131,7 +134,8 @@ class Alone:
 
     def run(self, until: float | None) -> bool:
         """Fly until everything has ended, or until a time; return whether it has ended."""
-        brain, drones = self.brain, self.drones
+        brain = self.brain
+        drones = self.drones
         while brain.over is None:
             for order in brain.orders():
                 drones.obey(order)
@@ -188,22 +192,22 @@ class Bound:
         """How many rounds are planned; a hook may ask for more."""
         self.last = 0.0  # when the last flight was launched, or will be after a delay
 
-    def look(self, event: Mapping[str, Any]) -> Enough | None:
-        """Count an event; return why the simulation would not end, if it would not."""
-        what, name = event["event"], event.get("mission", "")
+    def look(self, event: Mapping[str, Any]) -> None:
+        """Count an event; raise `Enough` if the simulation would not end."""
+        what = event["event"]
         if what == "trip.delayed":
             self.last = max(self.last, event["until"])
-        elif what == "mission.repeated" and event["round"] <= self._rounds.get(name, 0):
-            self._flights[name] = 0
+        elif what == "mission.repeated" and event["round"] <= self._rounds.get(event["mission"], 0):
+            self._flights[event["mission"]] = 0
         elif what == "trip.launched":
+            name = event["mission"]
             self.last = max(self.last, event["t"])
             self._flights[name] = flights = self._flights.get(name, 0) + 1
             most = self._most.get(name, FLIGHTS)
             if flights >= most:
                 trips = counted(most // FLIGHTS, "trip")
                 said = f"mission {quoted(name)} has set out {flights} times for {trips}"
-                return Enough(f"{said}, and nothing ends that; {MORE}")
-        return None
+                raise Enough(f"{said}, and nothing ends that; {MORE}")
 
 
 def see_through(
@@ -232,7 +236,6 @@ def see_through(
 
 def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
     """Return the object that `simulate --json` prints."""
-    missions, drones = outcome.standing["missions"], outcome.standing["drones"]
     drained = {one["drone"]: None for one in outcome.events if one["event"] == "drone.drained"}
     return {
         "app": name,
@@ -248,7 +251,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
                 "attempts": stands["attempts"],
                 **promised(stands),
             }
-            for mission, stands in missions.items()
+            for mission, stands in outcome.standing["missions"].items()
         ],
         "trips": trips_data(outcome),
         "drones": [
@@ -259,7 +262,7 @@ def outcome_data(name: str, seed: int, outcome: Outcome) -> dict[str, object]:
                 "battery_level": stands["battery"],
                 "status": stands["status"],
             }
-            for drone, stands in drones.items()
+            for drone, stands in outcome.standing["drones"].items()
         ],
         "log": outcome.log,
         **({"drained": list(drained)} if drained else {}),

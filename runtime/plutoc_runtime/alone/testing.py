@@ -58,7 +58,8 @@ class HookCall(Generic[R]):
     """A hook that was called: it goes on with the clock, until it has ended."""
 
     def __init__(self, clock: Clock, task: Task[Any]) -> None:
-        self._clock, self._task = clock, task
+        self._clock = clock
+        self._task = task
 
     @property
     def done(self) -> bool:
@@ -158,8 +159,11 @@ class AppKit(Generic[M, T, Given]):
     """What the hooks of an app are given, for one test."""
 
     def __init__(self, app: App, mission: Any = None, trip: Any = None) -> None:
-        self._mission, self._trip = mission or {}, trip or {}  # what must be filled in
-        self._app, self._store, self.clock = app, ResultStore(), Clock()
+        self._mission = mission or {}  # what must be filled in
+        self._trip = trip or {}
+        self._app = app
+        self._store = ResultStore()
+        self.clock = Clock()
         kernel = self.clock.kernel
         self._keeper = _Open(kernel.time)
         self._transitions = Transitions(
@@ -167,16 +171,24 @@ class AppKit(Generic[M, T, Given]):
         )
         self._flights: dict[Mission[Any], Flight] = {}
         self._none = app.mission(name="no mission", trips=[], **self._mission)
-        self._drones, self._trips, self._missions = count(1), count(1), count(1)
+        self._drones = count(1)
+        self._trips = count(1)
+        self._missions = count(1)
 
     def drone(
         self, category: str | None = None, *, at: Point = (0.0, 0.0, 0.0), battery: float = 1.0
     ) -> Drone:
         """Return a drone of a category, by default of the app's first."""
         kinds = {kind.name: kind for kind in self._app.categories}
-        kind, number = kinds[category or next(iter(kinds))], next(self._drones)
-        name, told = f"{kind.name} {number}", DroneState(at, battery)
-        return Drone(id=name, category=kind, home=at, telemetry=told, index=number - 1)
+        kind = kinds[category or next(iter(kinds))]
+        number = next(self._drones)
+        return Drone(
+            id=f"{kind.name} {number}",
+            category=kind,
+            home=at,
+            telemetry=DroneState(at, battery),
+            index=number - 1,
+        )
 
     def move(self, drone: Drone, *, to: Point | None = None, battery: float | None = None) -> None:
         """Change where a drone is, or what is left in its battery."""
@@ -213,7 +225,8 @@ class AppKit(Generic[M, T, Given]):
 
     def launch(self, mission: M, drone: Drone | None = None) -> None:
         """Have a drone leave for the mission's next trip; one that flew before is put back."""
-        trip, flier = mission.trips[0], drone or self.drone()
+        trip = mission.trips[0]
+        flier = drone or self.drone()
         if trip.status is TripStatus.EXECUTING:
             raise ValueError(f"trip {trip.name} is in flight: it can be reset when it has ended")
         put_back(trip)

@@ -336,7 +336,7 @@ class Company(Part):
         if (problem := core.airspace.problem(point)) is not None:
             return f"has gone where no drone may be: {problem}"
         share = needed(category, core.airspace, drone.location, ((point, 0.0),), drone.home)
-        if share is None or share + category.reserve > drone.battery_level:
+        if share + category.reserve > drone.battery_level:
             return f"has gone too far for the battery of {drone.id}"
         return None
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PHOTO, Action, Parameter, Plain
@@ -60,7 +61,7 @@ class FollowAction(Action):
                 return
             way = way_home(core, flight.flier)
             left = flight.flier.battery_level - flight.flier.category.reserve
-            if way is not None and way >= left:
+            if left <= way < inf:
                 raise FlightFailed(Failure.BATTERY, NO_MORE)
             await self._stay_near(core, flight, min(picture, ends, now + STEP), key)
 
@@ -70,7 +71,7 @@ class FollowAction(Action):
         kernel, id = core.kernel, track_of(trip)
         failed = Future[object]()
         if id is None:
-            number = core.orders.give("hold", flight.drone, failed.set)
+            number = core.orders.give({"do": "hold", "drone": flight.drone}, failed.set)
         else:
             tracks: Tracks = core.parts[Tracks]
             track = tracks.known.get(id)
@@ -81,7 +82,9 @@ class FollowAction(Action):
                 )
             point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
             put(trip, target=point)
-            number = core.orders.give("go", flight.drone, failed.set, stops=[point])
+            number = core.orders.give(
+                {"do": "go", "drone": flight.drone, "stops": [point]}, failed.set
+            )
         try:
             await kernel.within(failed, until, EventKind.TIMER, key)
             if failed.is_set and isinstance(failed.result(), FlightFailed):

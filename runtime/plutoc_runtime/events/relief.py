@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from math import dist
+from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import FlightFailed, MissionFailed
@@ -24,7 +24,7 @@ URGENT = 1 << 20
 """The priority of who is to take over: a drone that must go home does not wait."""
 NEAR = 1.0
 """Metres within which one drone takes over from another."""
-LOOK = 1.0
+LOOK = 0.25
 """Seconds from one look at a battery, or at where a drone is that is to be relieved, to the next."""
 
 
@@ -72,8 +72,8 @@ async def _until_low(state: MissionState, flight: Flight, margin: float) -> None
     while True:
         drone = flight.flier
         way = way_home(core, drone)
-        left = drone.battery_level - drone.category.reserve - (way or 0.0)
-        if way is not None and left <= margin:
+        left = drone.battery_level - drone.category.reserve - way
+        if way < inf and left <= margin:
             return
         await core.kernel.sleep(LOOK, EventKind.CLOCK, state.key)
 
@@ -84,15 +84,25 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     core.fleet.engage(drone)
     core.transitions.note("trip.relieving", state.mission, trip=flight.trip.name, drone=drone.id)
     core.transitions.set_out(drone)
-    while not flight.is_set and dist(drone.location, flight.flier.location) > NEAR:
-        failed = Future[object]()
-        number = core.orders.give("go", drone.id, failed.set, stops=[_beside(state, flight, drone)])
-        try:
-            await core.kernel.within(failed, core.kernel.now + LOOK, EventKind.TIMER, state.key)
-        finally:
-            core.orders.forget(number)
-        if failed.is_set and isinstance(failed.result(), FlightFailed):
-            raise failed.result()  # type: ignore[misc]  # it was asked what it is
+    going: Future[object] | None = None
+    number = 0
+    goal = drone.location
+    try:
+        while not flight.is_set and dist(drone.location, flight.flier.location) > NEAR:
+            place = _beside(state, flight, drone)
+            if going is None or going.is_set or dist(place, goal) > NEAR / 2:
+                core.orders.forget(number)
+                going = Future()
+                goal = place
+                order = {"do": "go", "drone": drone.id, "stops": [place]}
+                number = core.orders.give(order, going.set)
+            await core.kernel.within(going, core.kernel.now + LOOK, EventKind.TIMER, state.key)
+            if going.is_set and isinstance(failed := going.result(), FlightFailed):
+                raise failed
+            if going.is_set:  # it is where the other was
+                await core.kernel.sleep(LOOK, key=state.key)
+    finally:
+        core.orders.forget(number)
     if flight.is_set or state.flight is not flight:
         return False
     _hand_over(state, flight, drone)

@@ -13,7 +13,7 @@ from .policies import nearest
 
 if TYPE_CHECKING:
     from .policies import Policy
-    from .queue import Queue
+    from .queue import Queue, Request
 
 OLD = 1_800.0
 
@@ -25,7 +25,8 @@ class Batch:
     """
 
     def __init__(self, policy: Policy, of: object = None) -> None:
-        self._policy, self._ages = policy, of is None
+        self._policy = policy
+        self._ages = of is None
         self.asks = policy if of is None else of
         update_wrapper(self, policy)
 
@@ -35,28 +36,35 @@ class Batch:
 
     def share(self, queue: Queue, place: int) -> int:
         """Serve a request, and all around it of its policy and priority; return the place of the last."""
-        waiting, one = queue.requests, queue.requests[place]
-        if self._ages and queue.kernel.now - one.since >= OLD:
-            queue.give(place, nearest(one.trip, queue.ready, one.able))
-            fit = [] if one.is_set else [drone for drone in queue.ready if one.ever(drone)]
-            if fit and all(wanted for _, wanted in queue.low.values()):
-                drone = max(fit, key=lambda drone: drone.battery_level)
-                queue.low[drone] = (
-                    queue.charged(drone, one.level(drone, drone.location)),
-                    0.0,
-                )  # for no other
-                queue.ready.remove(drone)
+        waiting = queue.requests
+        request = waiting[place]
+        if self._ages and queue.kernel.now - request.since >= OLD:
+            queue.give(place, nearest(request.trip, queue.ready, request.able))
+            if not request.is_set:
+                self._charge_one_for(request, queue)
             return place
 
-        def alike(place: int) -> bool:
-            asks = getattr(waiting[place].policy, "asks", None)
-            return asks is self.asks and waiting[place].rank[0] == one.rank[0]
+        def alike(other: Request) -> bool:
+            asks = getattr(other.policy, "asks", None)
+            return asks is self.asks and other.rank[0] == request.rank[0]
 
-        first = next((n + 1 for n in range(place - 1, -1, -1) if not alike(n)), 0)
-        end = next((n for n in range(place + 1, len(waiting)) if not alike(n)), len(waiting))
-        places = range(end - 1, first - 1, -1)
+        first = place
+        while first and alike(waiting[first - 1]):
+            first -= 1
+        while place + 1 < len(waiting) and alike(waiting[place + 1]):
+            place += 1
+        places = range(place, first - 1, -1)
         choices = self._policy([waiting[each] for each in places], queue.ready, queue)
         for each, choice in zip(places, choices, strict=True):
             if queue.room:
                 queue.give(each, choice)
         return first
+
+    def _charge_one_for(self, request: Request, queue: Queue) -> None:
+        """Put the drone aside that has the most in its battery, for no other request, unless one is already."""
+        fit = [drone for drone in queue.ready if request.ever(drone)]
+        if fit and all(wanted for _, wanted in queue.low.values()):
+            drone = max(fit, key=lambda drone: drone.battery_level)
+            level = request.level(drone, drone.location)
+            queue.low[drone] = (queue.charged(drone, level), 0.0)
+            queue.ready.remove(drone)

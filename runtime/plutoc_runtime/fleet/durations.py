@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot, inf
+from math import dist
 from typing import TYPE_CHECKING
 
 from ..domain.status import DroneStatus
@@ -11,8 +11,7 @@ from .reach import chain_of
 
 if TYPE_CHECKING:
     from ..domain.model import Category, Drone, Point
-    from .needs import Request
-    from .queue import Queue
+    from .queue import Queue, Request
 
 FLIES = (DroneStatus.FREE, DroneStatus.BUSY, DroneStatus.RETURNING, DroneStatus.CHARGING)
 
@@ -37,37 +36,33 @@ def busy(category: Category, request: Request) -> float:
 
     From a pick on that is all that follows up to its release.
     """
-    chain, here, way = chain_of(request.trips), request.goal, 0.0
+    chain = chain_of(request.trips)
+    here = request.goal
+    way = 0.0
     for trip in chain:
-        there = trip.target
-        way, here = way + hypot(here[0] - there[0], here[1] - there[1]), there
+        way += dist(here[:2], trip.target[:2])
+        here = trip.target
     return len(chain) * upright(category, request) + way * pace(category, request)
 
 
 def free_again(drone: Drone, queue: Queue) -> tuple[float, Point]:
     """Return in about how many seconds a drone is free again, and where it is then."""
     if drone.status is DroneStatus.RETURNING and drone in queue.homeward:
-        return _home_in(drone), drone.home
+        motion = drone.category.motion
+        speed = drone.category.speed
+        way = motion.flies(dist(drone.location[:2], drone.home[:2]), speed)
+        return way + motion.lands(abs(drone.location[2] - drone.home[2]), speed), drone.home
     now = queue.kernel.now
     then, place = queue.plans["until"].get(drone, (now, drone.location))
-    if drone in queue.low and queue.low[drone][0] < inf:
-        then = queue.low[drone][0]
+    then = queue.ready_at(drone) or then
     if drone.status is DroneStatus.FREE or then < now:
         place = drone.location
     # one that is late will take as long again as it is late by now, for all one knows
     return abs(then - now), place
 
 
-def _home_in(drone: Drone) -> float:
-    """Return in about how many seconds a drone that flies home has landed there."""
-    kind = drone.category
-    (x, y, z), (home_x, home_y, ground) = drone.location, drone.home
-    way = kind.motion.flies(hypot(home_x - x, home_y - y), kind.speed)
-    return way + kind.motion.lands(abs(z - ground), kind.speed)
-
-
 def look_again(queue: Queue, key: object, seconds: float) -> None:
     """Serve the queue again in so many seconds: a drone may be late, and nothing else happens."""
-    plans, kernel = queue.plans, queue.kernel
-    plans.pop(key, Timer(int)).cancel()
-    plans[key] = kernel.at(kernel.now + seconds, EventKind.CLOCK, FLEET, queue.changed)
+    kernel = queue.kernel
+    queue.plans.pop(key, Timer(int)).cancel()
+    queue.plans[key] = kernel.at(kernel.now + seconds, EventKind.CLOCK, FLEET, queue.changed)

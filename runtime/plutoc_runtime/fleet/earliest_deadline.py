@@ -15,14 +15,13 @@ from typing import TYPE_CHECKING
 
 from .batch import Batch
 from .durations import FLIES, busy, ends, free_again, look_again, pace, upright
-from .needs import Request
 from .policies import lowest
 from .reach import LOW
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
     from .policies import Choice
-    from .queue import Queue
+    from .queue import Queue, Request
 
 
 @Batch
@@ -30,24 +29,30 @@ def earliest_deadline(
     requests: Sequence[Request], free: Sequence[Drone], queue: Queue
 ) -> Sequence[Choice | None]:
     """Give drones to missions in the order of their deadlines, each the one that is there first."""
-    now, left, chosen = queue.kernel.now, list(free), dict[Request, "Choice"]()
-    until, again = queue.plans.setdefault("until", {}), inf
+    now = queue.kernel.now
+    left = list(free)
+    chosen: dict[Request, Choice] = {}
+    until = queue.plans.setdefault("until", {})
+    again = inf
     soon = {one: free_again(one, queue) for one in until if one.status in FLIES and one not in left}
     by_deadline = sorted((*_urgency(one, queue.drones, now), n) for n, one in enumerate(requests))
-    for _, deadline, place in by_deadline:
-        one = requests[place]
-        if found := lowest(left, one.able, partial(_way, one)):
-            drone, way = found
-            if queue.stay_out and not one.hurries and (sooner := _sooner(one, soon, way)):
-                del soon[sooner]
-                again = min(again, way)
-                continue
-            left.remove(drone)
-            soon[drone] = seconds, last = way + busy(drone.category, one), ends(one)
-            until[drone] = now + seconds, last
-            due = "no deadline" if deadline == inf else f"due in {deadline - now:.0f} s"
-            metres = f"{drone.distance(one.goal):.1f} m away"
-            chosen[one] = drone, f"{due}; nearest of {len(left) + 1} free: {metres}"
+    for _, deadline, number in by_deadline:
+        one = requests[number]
+        found = lowest(left, one.able, partial(_way, one))
+        if found is None:
+            continue
+        drone, way = found
+        if queue.stay_out and not one.hurries and (sooner := _sooner(one, soon, way)):
+            del soon[sooner]
+            again = min(again, way)
+            continue
+        left.remove(drone)
+        seconds = way + busy(drone.category, one)
+        soon[drone] = (seconds, ends(one))
+        until[drone] = (now + seconds, ends(one))
+        due = "no deadline" if deadline == inf else f"due in {deadline - now:.0f} s"
+        metres = f"{drone.distance(one.goal):.1f} m away"
+        chosen[one] = (drone, f"{due}; nearest of {len(left) + 1} free: {metres}")
     if again < inf:
         look_again(queue, (earliest_deadline, requests[0].rank[0]), again)
     return [chosen.get(one) for one in requests]
@@ -61,10 +66,12 @@ def _sooner(one: Request, soon: dict[Drone, tuple[float, Point]], least: float) 
     """Return the drone that is there first, of others than free ones; None: in no less than so many seconds."""
     first = None
     for drone, (waits, place) in soon.items():
-        if (way := waits + _way(one, drone, place)) < least and one.ever(drone):
+        way = waits + _way(one, drone, place)
+        if way < least and one.ever(drone):
             level = drone.battery_level - waits / drone.category.endurance
             if level >= max(drone.category.reserve + LOW, one.at_least(drone, (*place[:2], 0.0))):
-                least, first = way, drone
+                least = way
+                first = drone
     return first
 
 
@@ -80,7 +87,10 @@ def _least(one: Request, drones: Sequence[Drone]) -> float:
     """Return about how many seconds a mission takes at least, from now on."""
     metres = sum(dist(a.target, b.source or b.target) for a, b in pairwise(one.trips))
     seconds = (
-        len(one.trips) * upright(kind, one) + metres * pace(kind, one) + _way(one, drone)
-        for drone, kind in ((each, each.category) for each in drones if one.ever(each))
+        len(one.trips) * upright(drone.category, one)
+        + metres * pace(drone.category, one)
+        + _way(one, drone)
+        for drone in drones
+        if one.ever(drone)
     )
     return min(seconds, default=inf)

@@ -47,10 +47,13 @@ class Fleet:
         queue: Queue,
         after_trip: AfterTrip,
     ) -> None:
-        self.drones, self.queue = drones, queue
+        self.drones = drones
+        self.queue = queue
         self._by_id = {drone.id: drone for drone in drones}
-        self._kernel, self._trace, self._orders = kernel, trace, orders
-        self._after_trip, queue.stay_out = after_trip, after_trip is not AfterTrip.HOME
+        self._kernel = kernel
+        self._trace = trace
+        self._orders = orders
+        self._after_trip = after_trip
         self.errands: dict[Drone, Task[None]] = {}
         """The tasks of drones that return, land or recover."""
         self._change: Future[None] | None = None
@@ -61,8 +64,9 @@ class Fleet:
         """Drones that no trip may have before a person has looked after them."""
         self.mended: set[Drone] = set()
         """Drones that were lost and repaired, and are not back yet."""
-        self.changed: Callable[[Drone], object] = _ignore
+        self.changed: Callable[[Drone], object] = lambda drone: None
         """Called when what must survive the app has changed of a drone."""
+        queue.stay_out = after_trip is not AfterTrip.HOME
         queue.served = self._fetch_what_is_low
 
     def named(self, id: str) -> Drone | None:
@@ -79,7 +83,8 @@ class Fleet:
         """End what a drone does by itself: it is about to fly for a mission."""
         self.unready.pop(drone, None)
         self.queue.homeward.discard(drone)
-        if (errand := self.errands.pop(drone, None)) is not None:
+        errand = self.errands.pop(drone, None)
+        if errand is not None:
             errand.cancel()
 
     def keep(self, drone: Drone, lose: Callable[[str], None]) -> None:
@@ -99,16 +104,12 @@ class Fleet:
 
     def dismiss(self, drone: Drone) -> None:
         """Take a drone back whose trip has ended well."""
-        telemetry = drone.telemetry
+        may_stay = self._after_trip is AfterTrip.STAY or self._is_docked(drone)
+        has_enough = drone.battery_level > drone.category.reserve
         if drone in self.retired:
             if not self._settle_here(drone):
                 self.send_home(drone)
-        elif (
-            telemetry.landed
-            and telemetry.battery_level > drone.category.reserve
-            and (self._after_trip is _STAY or docked(telemetry.location, drone.home))
-        ):
-            # it is down already where it shall be, with enough in its battery
+        elif drone.telemetry.landed and may_stay and has_enough:
             self.become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
@@ -121,7 +122,8 @@ class Fleet:
 
     def recover(self, drone: Drone, reason: str = "") -> None:
         """Recover a drone whose flight has failed: it is not allocated again before it is home."""
-        self.send(drone, _RECOVERING, partial(self.rescue, reason=reason), "recovers")
+        rescue = partial(self.rescue, reason=reason)
+        self.send(drone, DroneStatus.RECOVERING, rescue, "recovers")
 
     def never_flew(self, drone: Drone) -> None:
         """Take a drone back that was allocated and not launched."""
@@ -147,22 +149,20 @@ class Fleet:
             put(drone, status=status)
             if self.mended and status in _SETTLED:
                 self.mended.discard(drone)
-            if status is DroneStatus.LOST:
-                x, y, z = (round(metres, 3) for metres in drone.location)
-                self.lost.setdefault(drone, Loss(self.unready.get(drone, ""), (x, y, z)))
             self.changed(drone)
             if self._trace.live:
                 self._note(drone)
         self.queue.moved(drone)
-        if self._change is not None:
-            change, self._change = self._change, None
+        change = self._change
+        if change is not None:
+            self._change = None
             change.set(None)
 
     def _note(self, drone: Drone) -> None:
         at = [round(metres, 3) for metres in drone.location]
         facts: dict[str, object] = {"battery": round(drone.battery_level, 4), "at": at}
         if drone.status is DroneStatus.LOST:
-            facts["reason"] = self.unready.get(drone, "")
+            facts["reason"] = self.unready[drone]
         self._trace.note(f"drone.{drone.status.value.lower()}", drone=drone.id, **facts)
 
     # On the ground
@@ -172,11 +172,12 @@ class Fleet:
         reserve = drone.category.reserve
         level = drone.battery_level
         retired = drone in self.retired
-        if self._is_docked(drone) and drone.status in _UNDER_WAY and level < reserve - 0.005:
+        is_docked = self._is_docked(drone)
+        if is_docked and drone.status in _UNDER_WAY and level < reserve - 0.005:
             self._trace.note("drone.drained", drone=drone.id, level=level)
         if level > reserve and not retired:
             self.become(drone, _FREE)
-        elif not self._is_docked(drone):
+        elif not is_docked:
             return False
         elif retired:
             self.become(drone, DroneStatus.OFFLINE)
@@ -191,10 +192,11 @@ class Fleet:
         """Free a charging drone; if its battery is still low then, look at it again later."""
 
         def look() -> None:
-            charging = drone.status is DroneStatus.CHARGING
-            if charging and drone.battery_level > drone.category.reserve:
+            if drone.status is not DroneStatus.CHARGING:
+                return
+            if drone.battery_level > drone.category.reserve:
                 self.become(drone, _FREE)
-            elif charging:
+            else:
                 self._free_after(10.0, drone)  # it should be charged by now
 
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
@@ -245,7 +247,7 @@ class Fleet:
 
     async def _recovered(self, drone: Drone, reason: str, repaired: bool = False) -> bool:
         """Recover a drone; return False if it is lost."""
-        self.become(drone, _RECOVERING)
+        self.become(drone, DroneStatus.RECOVERING)
         home = await self._orders.ask("recover", drone.id)  # true, or what a lost drone says
         if drone in self.lost:
             self._lose(drone, self.lost[drone].reason)
@@ -255,10 +257,12 @@ class Fleet:
             self._lose(drone, why or reason)
         else:
             self.unready.pop(drone, None)
-        return drone.status is _RECOVERING
+        return drone.status is DroneStatus.RECOVERING
 
     def _lose(self, drone: Drone, reason: str) -> None:
         self.unready[drone] = reason
+        x, y, z = (round(metres, 3) for metres in drone.location)
+        self.lost.setdefault(drone, Loss(reason, (x, y, z)))
         self.become(drone, DroneStatus.LOST)
 
     # After an interruption, and when people look after drones
@@ -269,7 +273,8 @@ class Fleet:
         It is allocated only once it is on the ground, healthy, with nothing aboard; a lost one only
         once it has been repaired, even if it reports to be healthy.
         """
-        reached, landed = report.get("reached", True), report.get("landed", True)
+        reached = report.get("reached", True)
+        landed = report.get("landed", True)
         if drone in self.lost:
             if reached and not landed:
                 self.recover(drone)  # it comes home, and stays lost
@@ -309,11 +314,11 @@ class Fleet:
             self.mended.add(drone)
         self.changed(drone)
         if drone.status is DroneStatus.LOST or drone in self.unready:
-            self._orders.mended(drone.id)  # its errand may be waiting for this
+            self._orders.give({"do": "mended", "drone": drone.id})  # its errand may wait for this
         if drone.status is DroneStatus.LOST:
             unknown = "it was brought back, and could not be reached"
             back = partial(self.rescue, reason=unknown, repaired=True)
-            self.send(drone, _RECOVERING, back, "comes back")
+            self.send(drone, DroneStatus.RECOVERING, back, "comes back")
         elif drone.status is DroneStatus.OFFLINE and not self._settle_here(drone):
             self.send_home(drone)
 
@@ -334,13 +339,12 @@ class Fleet:
         return FLEET + 1 + drone.index
 
 
-def _ignore(_: Drone) -> None:
-    """Do nothing: no callback is set."""
-
-
+_FREE = DroneStatus.FREE
 _SETTLED = (DroneStatus.FREE, DroneStatus.CHARGING, DroneStatus.LOST)
 """With one of these a repair is settled."""
-_FREE, _RECOVERING, _STAY = DroneStatus.FREE, DroneStatus.RECOVERING, AfterTrip.STAY
-_UNDER_WAY = (DroneStatus.RETURNING, _RECOVERING)  # and not one that has stood there before
+_UNDER_WAY = (
+    DroneStatus.RETURNING,
+    DroneStatus.RECOVERING,
+)  # and not one that has stood there before
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
 LONGEST = 500  # characters of the reason why a drone is lost

@@ -9,18 +9,17 @@ lacks for a route makes it longer by the time to charge that.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
-from math import hypot, inf
+from math import dist, inf
 from typing import TYPE_CHECKING
 
 from ..domain.model import Category, Drone, Point
 from ..domain.status import DroneStatus
 from .batch import Batch
 from .durations import FLIES, busy, ends, free_again, look_again, pace
-from .needs import Request
 
 if TYPE_CHECKING:
     from .policies import Choice
-    from .queue import Queue
+    from .queue import Queue, Request
 
 MOST = 100
 """Of more requests those that came first are planned, so that no choice takes long."""
@@ -42,22 +41,25 @@ def least_makespan(
     if plan.again < inf:  # the other may be late, and nothing else happens
         look_again(queue, plan, plan.again)
     why = f"planned so that the last of {len(requests)} waiting trips ends soonest"
-    given = dict[Request, "Choice"]()
+    given: dict[Request, Choice] = {}
     for drone, stop in chosen.items():
-        until[drone] = queue.kernel.now + stop.seconds(drone.category, drone.location), stop.last
-        given[stop.one] = drone, f"{why}: {drone.distance(stop.goal):.1f} m away"
+        ends_at = queue.kernel.now + stop.seconds(drone.category, drone.location)
+        until[drone] = (ends_at, stop.last)
+        given[stop.one] = (drone, f"{why}: {drone.distance(stop.goal):.1f} m away")
     return [given.get(one) for one in requests]
 
 
 def _metres(here: Point, there: Point) -> float:
-    return hypot(here[0] - there[0], here[1] - there[1])
+    return dist(here[:2], there[:2])
 
 
 class _Stop:
     """A request on a route."""
 
     def __init__(self, one: Request, kinds: Collection[Category]) -> None:
-        self.one, self.goal, self.last = one, one.goal, ends(one)
+        self.one = one
+        self.goal = one.goal
+        self.last = ends(one)
         self.busy = {kind: busy(kind, one) for kind in kinds}
         self.pace = {kind: pace(kind, one) for kind in kinds}
 
@@ -70,21 +72,26 @@ class _Route:
     """What one drone is to fly, and from when and where on."""
 
     def __init__(self, drone: Drone) -> None:
-        self.drone, self.stops = drone, list[_Stop]()
+        self.drone = drone
+        self.stops: list[_Stop] = []
 
     def begin(self, waits: float, place: Point) -> None:
         """Begin anew: in so many seconds, and there."""
-        drone, kind, self.waits, self.place = self.drone, self.drone.category, waits, place
-        left = (drone.battery_level - kind.reserve) * kind.endurance * _PLANNED
-        self.lasts = left - (waits if drone.status is DroneStatus.BUSY else 0.0)
+        kind = self.drone.category
+        self.waits = waits
+        self.place = place
+        left = (self.drone.battery_level - kind.reserve) * kind.endurance * _PLANNED
+        self.lasts = left - (waits if self.drone.status is DroneStatus.BUSY else 0.0)
         self.slower = min(kind.charge_time, _ENDLESS) / kind.endurance
         self.seconds = self.flown(self.stops)
 
     def flown(self, stops: Sequence[_Stop]) -> float:
         """Return the seconds that stops take."""
-        here, seconds = self.place, 0.0
+        here = self.place
+        seconds = 0.0
         for stop in stops:
-            seconds, here = seconds + stop.seconds(self.drone.category, here), stop.last
+            seconds += stop.seconds(self.drone.category, here)
+            here = stop.last
         return seconds
 
     def end(self, seconds: float) -> float:
@@ -93,13 +100,14 @@ class _Route:
 
     def with_one_more(self, new: _Stop) -> Iterator[tuple[float, int]]:
         """Yield the seconds with one more stop, at each place."""
-        here, goal, last, a_metre = self.place, new.goal, new.last, new.pace[self.drone.category]
-        alone, place = self.seconds + new.busy[self.drone.category], 0
-        for stop in self.stops:
-            more = _metres(here, goal) + _metres(last, stop.goal) - _metres(here, stop.goal)
+        a_metre = new.pace[self.drone.category]
+        alone = self.seconds + new.busy[self.drone.category]
+        here = self.place
+        for place, stop in enumerate(self.stops):
+            more = _metres(here, new.goal) + _metres(new.last, stop.goal) - _metres(here, stop.goal)
             yield alone + a_metre * more, place
-            here, place = stop.last, place + 1
-        yield alone + a_metre * _metres(here, goal), place
+            here = stop.last
+        yield alone + a_metre * _metres(here, new.goal), len(self.stops)
 
 
 class _Plan:
@@ -111,10 +119,14 @@ class _Plan:
 
     def renew(self, requests: Sequence[Request], free: Sequence[Drone], queue: Queue) -> None:
         """Bring the routes up to date: what waits no more is gone, and what is new is inserted."""
-        new, before, self.routes, ready = set(requests), self.routes, {}, set(free)
+        new = set(requests)
+        ready = set(free)
+        before = self.routes
+        self.routes = {}
         for drone in queue.drones:
             if drone.status in FLIES:
-                self.routes[drone] = route = before.get(drone) or _Route(drone)
+                route = before.get(drone) or _Route(drone)
+                self.routes[drone] = route
                 waits, place = free_again(drone, queue)
                 route.stops = [stop for stop in route.stops if stop.one in new]
                 new.difference_update(stop.one for stop in route.stops)
@@ -131,13 +143,16 @@ class _Plan:
 
     def _insert(self, stop: _Stop) -> _Route | None:
         """Insert a stop where it costs least, and return the route; None: no drone can ever fly it."""
-        least, best = inf, None
+        least = inf
+        best = None
         for route in self.routes.values():
             if stop.one.ever(route.drone):
                 before = route.end(route.seconds) ** 2
                 for seconds, place in route.with_one_more(stop):
-                    if (cost := route.end(seconds) ** 2 - before) < least:
-                        least, best = cost, (route, seconds, place)
+                    cost = route.end(seconds) ** 2 - before
+                    if cost < least:
+                        least = cost
+                        best = (route, seconds, place)
         if best is None:
             return None
         route, route.seconds, place = best
@@ -167,36 +182,38 @@ class _Plan:
         """Give stops of the route that ends last to drones that have none, while it ends sooner by that."""
         idle = [route for route in self.routes.values() if not route.stops]
         while idle:
-            last, best = self._last(), None
+            last = self._last()
             least = last.end(last.seconds)
+            best = None
             for stop in last.stops:
                 rest = last.end(last.flown([one for one in last.stops if one is not stop]))
                 for route in idle if rest < least else ():
                     end = max(rest, route.end(route.flown([stop])))
                     if end < least and stop.one.ever(route.drone):
-                        least, best = end, (stop, route)
+                        least = end
+                        best = (stop, route)
             if best is None:
                 return
             stop, route = best
             idle.remove(route)
             last.stops.remove(stop)
             route.stops.append(stop)
-            for one in route, last:
-                one.seconds = one.flown(one.stops)
+            for changed in (route, last):
+                changed.seconds = changed.flown(changed.stops)
 
     def next(self, free: Sequence[Drone]) -> dict[Drone, _Stop]:
         """Return the next stop of each drone; without one, one that it has flown before its own drone."""
         self.again = inf
-        chosen, idle = dict[Drone, _Stop](), list[_Route]()
-        for route in map(self.routes.__getitem__, free):
-            able = (stop for stop in route.stops if stop.one.able(route.drone))
+        chosen: dict[Drone, _Stop] = {}
+        for drone in free:
+            route = self.routes[drone]
+            able = (stop for stop in route.stops if stop.one.able(drone))
             if (stop := next(able, None)) is not None:
-                chosen[route.drone] = stop
+                chosen[drone] = stop
                 route.stops.remove(stop)
             else:
-                idle.append(route)
                 route.waits = inf  # it must be charged for what it has
-        for drone in [route.drone for route in idle]:
+        for drone in [drone for drone in free if drone not in chosen]:
             for mine, _, other, stop in sorted(self._flown_by(drone), key=lambda found: found[:2]):
                 if stop.one.able(drone):
                     its = other.end(other.flown(other.stops[: other.stops.index(stop) + 1]))

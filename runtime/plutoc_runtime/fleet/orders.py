@@ -47,14 +47,16 @@ class Orders:
 
     def drone_of(self, app: App, data: Mapping[str, Any], status: DroneStatus, index: int) -> Drone:
         """Return a drone of the fleet, of which nothing has been told yet."""
-        id, kinds = data["id"], {category.name: category for category in app.categories}
+        id = data["id"]
+        kinds = {category.name: category for category in app.categories}
         category = kinds.get(data.get("category", app.categories[0].name))
         if category is None or id in self.drones:
             why = "category " + data["category"] if category is None else f"second drone {id}"
             raise BadInput(f"the fleet can have no {why}")
         x, y, *z = data["home"]
-        home = x, y, z[0] if z else 0.0
-        self.drones[id] = known = KnownState(self._clock, home, app.categories[0].motion)
+        home = (x, y, z[0] if z else 0.0)
+        known = KnownState(self._clock, home, app.categories[0].motion)
+        self.drones[id] = known
         drone = Drone(
             id=id, category=category, home=home, telemetry=known, status=status, index=index
         )
@@ -63,7 +65,8 @@ class Orders:
 
     def take(self) -> list[Order]:
         """Return the orders that were given since the last call."""
-        pending, self.pending = self.pending, []
+        pending = self.pending
+        self.pending = []
         return pending
 
     # What is told
@@ -71,43 +74,33 @@ class Orders:
     def answered(self, message: Mapping[str, Any]) -> None:
         """Called when an order was `done` or has `failed`; an unknown or earlier one is ignored."""
         failed = "failed" in message
-        order = message["failed"] if failed else message["done"]
-        answer = self._answers.pop(order, None)
+        answer = self._answers.pop(message["failed" if failed else "done"], None)
         if answer is not None:
             answer(failure_of(message) if failed else value_of(message.get("value")))
 
     # Flights
 
     def fly(self, drone: str, answer: Answer, flight: Order) -> None:
-        """Order a flight: take off, fly to its stops and do its action; without one, arrive and hover."""
-        self._flying[drone] = self._give(flight, answer)
-
-    def attach(self, drone: str, answer: Answer, flight: str) -> None:
-        """Order the report of a flight that began before an interruption."""
-        order = {"do": "attach", "drone": drone, "flight": flight}
-        self._flying[drone] = self._give(order, answer)
+        """Order a flight, or attach to one: its end is the answer."""
+        self._flying[drone] = self.give(flight, answer)
 
     def redirect(self, flight: Order) -> None:
         """Order a flight that is under way to other stops; its end is the answer to the order to fly."""
-        self._give({**flight, "do": "redirect"})
+        self.give({**flight, "do": "redirect"})
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; nothing of its flight is answered any more."""
         self._answers.pop(self._flying.pop(drone, 0), None)
-        self._give({"do": "break_off", "drone": drone})
+        self.give({"do": "break_off", "drone": drone})
 
     def settle(self, drone: str, flight: str, answer: Answer | None = None) -> None:
         """Stop a flight; what came of it is the answer to the order to fly."""
-        settle = self._flying.get(drone)
-        if settle is not None and answer is not None:
-            self._answers[settle] = answer
-        self._give({"do": "break_off", "drone": drone, "flight": flight, "settle": settle})
+        order = self._flying.get(drone)
+        if order is not None and answer is not None:
+            self._answers[order] = answer
+        self.give({"do": "break_off", "drone": drone, "flight": flight, "settle": order})
 
     # All else
-
-    def give(self, do: str, drone: str, answer: Answer, **more: object) -> int:
-        """Give an order, and call this with what came of it, unless it is forgotten; return its number."""
-        return self._give({"do": do, "drone": drone, **more}, answer)
 
     def forget(self, number: int) -> None:
         """Want no answer to an order any more."""
@@ -116,31 +109,25 @@ class Orders:
     async def ask(self, do: str, drone: str, **more: object) -> Any:
         """Give an order, and return what came of it; raise `FlightFailed`. Cancelling this cancels the order."""
         outcome: Future[Any] = Future()
-        number = self._give({"do": do, "drone": drone, **more}, outcome.set)
+        number = self.give({"do": do, "drone": drone, **more}, outcome.set)
         try:
             result = await outcome
         finally:
             if not outcome.is_set:
                 self._answers.pop(number, None)
-                self._give({"do": "cancel", "drone": drone, "order": number})
+                self.give({"do": "cancel", "drone": drone, "order": number})
         if isinstance(result, FlightFailed):
             raise result
         return result
 
-    def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it can be recovered once more."""
-        self._give({"do": "mended", "drone": drone})
-
-    def probed(self, drone: str, flight: str, answer: bool | None) -> None:
-        """Order to note whether the action of a flight was done; None: the app cannot tell."""
-        self._give({"do": "probed", "drone": drone, "flight": flight, "value": answer})
-
-    def _give(self, order: Order, answer: Answer | None = None) -> int:
-        self._count = order["id"] = number = self._count + 1
+    def give(self, order: Order, answer: Answer | None = None) -> int:
+        """Give an order, and return its id."""
+        self._count += 1
+        order["id"] = self._count
         if answer is not None:
-            self._answers[number] = answer
+            self._answers[self._count] = answer
         self.pending.append(order)
-        return number
+        return self._count
 
 
 def failure_of(told: Mapping[str, Any]) -> FlightFailed:

@@ -9,28 +9,151 @@ from __future__ import annotations
 
 from bisect import bisect_left, insort
 from collections import Counter
-from collections.abc import Callable, Iterator
-from math import inf
+from collections.abc import Callable, Iterator, Sequence
+from heapq import heappop, heappush, heapreplace
+from math import hypot, inf
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import HookFault, MissionFailed
-from ..domain.keeper import put
+from ..domain.keeper import put, trips_of
 from ..domain.status import IN_THE_AIR, DroneStatus
-from ..time.kernel import FLEET, EventKind, Kernel, Timer
-from .needs import Needs, Request
-from .reach import Reach, docked
+from ..time.kernel import FLEET, EventKind, Future, Kernel, Timer
+from .reach import Reach, chain_of, docked, miss_of
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Trip
+    from ..domain.model import Category, Drone, Mission, Point, Trip
     from .policies import Choice, Policy
+    from .reach import Bounds
 
+UNCHARGED = "what is left in its battery is too little, and nothing charges it at home"
 _FREE = DroneStatus.FREE
-_BUSY = DroneStatus.BUSY
-_LOST = DroneStatus.LOST
 _SERVE = EventKind.SERVE
 _MANY = 30  # for more requests it is not worth while to find out for which a drone suffices
 _by_rank = attrgetter("rank")
+
+
+class Request(Future["Drone"]):
+    """A mission's request for a drone; as a future it is set to the drone that it gets."""
+
+    def __init__(
+        self,
+        reach: Reach,
+        mission: Mission[Any],
+        policy: Policy,
+        rank: tuple[int, int],
+        since: float = 0.0,
+    ) -> None:
+        """`rank`: its priority, and minus the number of its arrival; the highest is served first."""
+        super().__init__()
+        self._reach = reach
+        self.mission = mission
+        self.policy = policy
+        self.rank = rank
+        self.since = since
+        self.trips = trips_of(mission)
+        self.trip: Trip = self.trips[0]
+        self.goal: Point = self.trip.source or self.trip.target  # where its drone flies to first
+        self.why = ""  # why its drone was chosen
+        self.hurries = False  # its mission waits for a limited time only
+        self._bounds: dict[Category, Bounds] = {}
+        self._levels: dict[tuple[Category, Point, Point], float] = {}
+
+    def able(self, drone: Drone) -> bool:
+        """Return whether a drone can fly the trip now."""
+        telemetry = drone.telemetry
+        return telemetry.battery_level >= self.level(drone, telemetry.location)
+
+    def ever(self, drone: Drone) -> bool:
+        """Return whether a drone can fly the trip from its home with a full battery."""
+        return self.level(drone, drone.home) < inf
+
+    def never(self, drone: Drone) -> str | None:
+        """Return why a drone cannot fly the trip even with all that its battery will have; None: it can."""
+        if not self.ever(drone):
+            reach = self._reach
+            chain = chain_of(self.trips)
+            miss = miss_of(reach.app, reach.airspace, drone.category, drone.home, chain)
+            return miss and miss.reason
+        if drone.category.charge_time == inf and not self.able(drone):
+            is_final = drone.telemetry.landed and docked(drone.location, drone.home)
+            return UNCHARGED if is_final else None
+        return None
+
+    def level(self, drone: Drone, here: Point) -> float:
+        """Return the battery level that a drone needs from here; infinite: none suffices, here or at home."""
+        key = (drone.category, drone.home, here)
+        level = self._levels.get(key)
+        if level is None:
+            level = self._reach.level(drone.category, drone.home, here, self.trips)
+            if level > 1.0 or (here != drone.home and not self.ever(drone)):
+                level = inf
+            self._levels[key] = level
+        return level
+
+    def at_least(self, drone: Drone, here: Point) -> float:
+        """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
+        upright, a_metre = self._bounds.get(drone.category) or self.takes(drone.category)
+        x, y, _ = self.goal
+        from_x, from_y, height = here
+        home_x, home_y, _ = drone.home
+        level = a_metre * (hypot(x - from_x, y - from_y) + hypot(x - home_x, y - home_y))
+        # one in the air has taken off already; and no bound is below 0 where it leads is not a number
+        return max(0.0, upright + level if height <= 0.0 else level)
+
+    def takes(self, category: Category) -> Bounds:
+        """Return at least what one trip takes of a battery."""
+        bounds = self._bounds.get(category)
+        if bounds is None:
+            bounds = self._reach.takes(category, self.trip)
+            self._bounds[category] = bounds
+        return bounds
+
+
+class Needs:
+    """What the waiting requests need of one drone where it stands, the least first.
+
+    An exact level takes a search for a route, and there are as many levels as requests times places
+    where drones stand. So a request is known by a lower bound until it is the first; only then is its
+    exact level asked for, and it finds its place by that.
+    """
+
+    def __init__(self, drone: Drone, arrived: Sequence[Request]) -> None:
+        """`arrived`: the requests, to which later ones are appended."""
+        self.place = drone.location
+        self._drone = drone
+        self._arrived = arrived
+        self._seen = 0
+        self._heap: list[tuple[float, int, bool, Request]] = []
+
+    def least(self, most: float = inf) -> float:
+        """Return the least level that suffices for a request that waits; infinite: none up to `most` does."""
+        heap = self._heap
+        for request in self._arrived[self._seen :]:
+            if not request.is_set:
+                bound = request.at_least(self._drone, self.place)
+                heappush(heap, (bound, request.rank[1], False, request))
+        self._seen = len(self._arrived)
+        while heap:
+            level, number, is_exact, request = heap[0]
+            if request.is_set:
+                heappop(heap)
+            elif level > most:
+                return inf
+            elif is_exact:
+                return level
+            else:
+                heapreplace(heap, (request.level(self._drone, self.place), number, True, request))
+        return inf
+
+    def up_to(self, level: float, most: int) -> list[Request]:
+        """Return the requests that need no more than a level; of many, one more than `most`."""
+        found = list[tuple[float, int, bool, Request]]()
+        while len(found) <= most and self.least(level) < inf:
+            found.append(heappop(self._heap))
+        for entry in found:
+            heappush(self._heap, entry)
+        return [request for *_, request in found]
 
 
 class Queue:
@@ -43,8 +166,7 @@ class Queue:
         self.kernel = kernel
         self.drones = drones
         self._reach = reach
-        reach.drones = drones
-        self._max_airborne = max_airborne
+        self._max_airborne = inf if max_airborne is None else max_airborne
         self.requests: list[Request] = []  # sorted by rank, the last is served first
         self._fresh: list[Request] = []  # the requests that have not been looked at yet
         self._arrived: list[Request] = []  # those that wait, and some that have; see `Needs`
@@ -72,23 +194,20 @@ class Queue:
         self._arrivals -= 1
         rank = (priority, self._arrivals)
         request = Request(self._reach, mission, policy, rank, self.kernel.now)
-        if self.requests and rank < self.requests[0].rank:  # as most that enter
-            self.requests.insert(0, request)
-        else:
-            insort(self.requests, request, key=_by_rank)
+        insort(self.requests, request, key=_by_rank)
         self._fresh.append(request)
         self.changed()
         return request
 
     def leave(self, request: Request) -> None:
         """Withdraw a request."""
-        self._drop(request)
+        del self.requests[self._place(request)]
         request.is_set = True
 
     def moved(self, drone: Drone) -> None:
         """Called when a drone's status was set: serve the queue at the end of this instant."""
         self.low.pop(drone, None)
-        if drone.status is _LOST:
+        if drone.status is DroneStatus.LOST:
             self._one_is_lost = True
         self.changed()
 
@@ -121,7 +240,7 @@ class Queue:
     def room(self) -> bool:
         """Whether one more drone may fly."""
         most = self._max_airborne
-        return most is None or sum(drone.status in IN_THE_AIR for drone in self.drones) < most
+        return most == inf or sum(drone.status in IN_THE_AIR for drone in self.drones) < most
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
@@ -168,15 +287,13 @@ class Queue:
         if place and self.ready:
             below: tuple[float, int] = self.requests[place - 1].rank
             for request in self._suited():
-                if not self.ready:
-                    return
                 if request.rank <= below:
                     place = self._ask(self._place(request))
                     below = self.requests[place - 1].rank if place else (-inf, 0)
 
     def _ask(self, place: int) -> int:
         """Ask which drone the request at this place gets; return the least place that this was asked for."""
-        if not self.ready or (self._max_airborne is not None and not self.room):
+        if not self.ready or not self.room:
             return place
         request = self.requests[place]
         share = getattr(request.policy, "share", None)
@@ -204,16 +321,13 @@ class Queue:
             request = self.requests.pop(place)
             drone, request.why = choice
             self.ready.remove(drone)
-            put(drone, status=_BUSY)  # at once: no other request may have it
+            put(drone, status=DroneStatus.BUSY)  # at once: no other request may have it
             request.set(drone)
 
     def refuse(self, request: Request, error: MissionFailed) -> None:
         """Fail a request, and with it its mission."""
-        self._drop(request)
-        request.fail(error)
-
-    def _drop(self, request: Request) -> None:
         del self.requests[self._place(request)]
+        request.fail(error)
 
     def _place(self, request: Request) -> int:
         place = bisect_left(self.requests, request.rank, key=_by_rank)
@@ -234,7 +348,7 @@ class Queue:
         """Return why none of the drones that are left can ever fly a trip; None: one can."""
         reasons: list[str] = []
         for drone in self.drones:
-            if drone.status is not _LOST:
+            if drone.status is not DroneStatus.LOST:
                 why = request.never(drone)
                 if why is None:
                     return None
@@ -260,11 +374,10 @@ class Queue:
         for drone, (until, wanted) in list(self.low.items()):
             if until <= now or any(request.able(drone) for request in urgent):
                 del self.low[drone]
-            elif self._fresh:
-                least = self._needs_of(drone).least(wanted)
-                if least < wanted and drone.battery_level >= least:
+            elif self._fresh and (least := self._needs_of(drone).least(wanted)) < wanted:
+                if drone.battery_level >= least:
                     del self.low[drone]
-                elif least < wanted:
+                else:
                     self.low[drone] = (min(until, self.charged(drone, least)), least)
 
     def _put_aside_the_low(self) -> None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from functools import cached_property, lru_cache
-from math import dist, hypot, inf
+from functools import lru_cache
+from math import dist, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
-    from ..domain.model import Category, Drone, Item, Mission, Point, Trip
+    from ..domain.model import Category, Item, Mission, Point, Trip
 
 Stop = tuple["Point", float]  # a point to fly to, and the seconds that the drone is busy there
 Stops = Sequence[Stop]
@@ -42,40 +42,39 @@ def flight_seconds(
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
     counts the landing there, from the height flown before. Infinite where no route leads.
     """
-    seconds, here, motion, speed = actions, start, category.motion, category.speed
+    motion = category.motion
+    speed = category.speed
+    seconds = actions
+    here = start
     if points and start[2] <= 0:
         here = (start[0], start[1], airspace.cruise_height)
         seconds += motion.rises(here[2], speed)
-    for i, point in enumerate(points, 1):
+    for number, point in enumerate(points, 1):
         there = point
-        if i == len(points) and point[2] <= 0:
+        if number == len(points) and point[2] <= 0:
             there = (point[0], point[1], here[2])
             seconds += motion.lands(there[2], speed)
         way = airspace.route(here, there)
         if way is None:
             return inf
-        for place_ in way:
-            seconds += motion.flies(dist(here, place_), speed)
-            here = place_
+        for corner in way:
+            seconds += motion.flies(dist(here, corner), speed)
+            here = corner
         here = there
     return seconds
 
 
 def needed(
     category: Category, airspace: Airspace, start: Point, stops: Stops, home: Point
-) -> float | None:
-    """Return the share of the battery for all stops, each with its action, and back home.
+) -> float:
+    """Return the share of the battery for all stops, each with its action, and back home, without the reserve.
 
-    None: no route leads there, or none home. The reserve is not in it.
+    Infinite: no route leads there, or none home.
     """
-    points: list[Point] = []
-    actions = 0.0
-    for point, seconds in stops:
-        points.append(point)
-        actions += seconds
+    points = [point for point, _ in stops]
     points.append((home[0], home[1], 0.0))
-    seconds = flight_seconds(category, airspace, start, points, actions)
-    return None if seconds == inf else seconds / category.endurance
+    actions = sum(seconds for _, seconds in stops)
+    return flight_seconds(category, airspace, start, points, actions) / category.endurance
 
 
 class Lacks(IntEnum):
@@ -98,9 +97,9 @@ class Miss(NamedTuple):
 def chain_of(trips: Sequence[Trip]) -> Sequence[Trip]:
     """Return the trips that one drone must fly: the first, and from a pick all to its release."""
     if trips and trips[0].action == PICK:
-        for place_, trip in enumerate(trips):
-            if trip.action == RELEASE and place_ > 0:
-                return trips[: place_ + 1]
+        for number, trip in enumerate(trips, 1):
+            if trip.action == RELEASE:
+                return trips[:number]
         return trips
     return trips[:1]
 
@@ -109,11 +108,12 @@ def miss_of(
     app: App, airspace: Airspace, category: Category, home: Point, chain: Sequence[Trip]
 ) -> Miss | None:
     """Return what a drone of this category and home lacks for the chain; None: nothing."""
-    if (miss := _unfit(category, chain)) is not None:
-        return miss
+    unfit = _unfit(category, chain)
+    if unfit is not None:
+        return unfit
     stops = stops_of(app, category, airspace.cruise_height, chain)
     share = needed(category, airspace, home, stops, home)
-    if share is None:
+    if share == inf:
         return Miss(Lacks.WAY, 0.0, _no_way(category, airspace, home, stops))
     if share + category.reserve > 1:
         reason = (
@@ -131,8 +131,10 @@ def _unfit(category: Category, chain: Sequence[Trip]) -> Miss | None:
             return Miss(Lacks.ACTION, 0.0, f"{category.name} cannot {trip.action}")
     for trip in chain:
         if trip.item is not None and trip.item.mass > category.payload:
-            most, weighs = mass(category.payload), mass(trip.item.mass)
-            reason = f"{category.name} carries at most {most}, the item weighs {weighs}"
+            most = mass(category.payload)
+            reason = (
+                f"{category.name} carries at most {most}, the item weighs {mass(trip.item.mass)}"
+            )
             return Miss(Lacks.PAYLOAD, trip.item.mass - category.payload, reason)
     return None
 
@@ -143,13 +145,14 @@ def stops_of(app: App, category: Category, cruise: float, chain: Sequence[Trip])
     Between two trips of a chain it lands with its item, and takes off again.
     """
     stops: list[Stop] = []
-    for place_, trip in enumerate(chain, start=1):
+    motion = category.motion
+    for number, trip in enumerate(chain, 1):
         if trip.source is not None:
             stops.append((trip.source, 0.0))
         busy = app.actions[trip.action].lasts(trip.parameters)
-        if place_ < len(chain):
-            motion, speed = category.motion, category.speed
-            busy += motion.lands(trip.target[2], speed) + motion.rises(cruise, speed)
+        if number < len(chain):
+            busy += motion.lands(trip.target[2], category.speed)
+            busy += motion.rises(cruise, category.speed)
         stops.append((trip.target, busy))
     return stops
 
@@ -189,19 +192,21 @@ def problems(
     Unless `forever` is allowed, also one for each mission that repeats without end.
     """
     kinds = {category.name: category for category in app.categories}
+    rounds = [field.name for field in app.fields if field.type is FieldType.ROUNDS]
     found: list[str] = []
     for mission in missions:
         trips: Sequence[Trip] = mission.trips
         while trips:
             chain = chain_of(trips)
             trips = trips[len(chain) :]
-            asked = ((kinds[one.category], one.home) for one in fleet.drones)
-            misses = [miss_of(app, fleet.airspace, kind, home, chain) for kind, home in asked]
+            misses = [
+                miss_of(app, fleet.airspace, kinds[drone.category], drone.home, chain)
+                for drone in fleet.drones
+            ]
             if None not in misses:
                 nearest = min(filter(None, misses), key=lambda miss: (-miss.lacks, miss.by))
                 who = f"mission {quoted(mission.name)}, trip {chain[0].name}"
                 found.append(f"{who}: no drone of the fleet can do it: {nearest.reason}")
-        rounds = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
         if not forever and any(getattr(mission, name, None) is True for name in rounds):
             why = "repeats until it is stopped: say when with --until, such as --until 2h"
             found.append(f"mission {quoted(mission.name)} {why}")
@@ -210,7 +215,8 @@ def problems(
 
 def idle_actions(app: App, fleet: FleetData) -> list[str]:
     """Return a sentence for each action that no drone can do; these missions may not need it."""
-    there, found = {drone.category for drone in fleet.drones}, list[str]()
+    there = {drone.category for drone in fleet.drones}
+    found: list[str] = []
     for action in app.actions:
         able = [category.name for category in app.categories if category.can(action)]
         if there.isdisjoint(able) and (able or action not in BUILT_IN):
@@ -229,13 +235,19 @@ def reckoned(app: App, missions: Sequence[Mission[Any]]) -> list[str]:
     ]
 
 
+Bounds = tuple[float, float]
+"""The least level beside the way, and for each metre of it."""
+_FAR = 1e6  # metres of a long leg: a metre of a short one takes no less
+_LESS = 1 - 1e-9  # sums of floats are not exact, and bounds must be true
+
+
 class Reach:
     """The battery that trips take of drones: exactly, by a search for a route, and at least."""
 
     def __init__(self, app: App, airspace: Airspace) -> None:
-        self.app, self.airspace = app, airspace
+        self.app = app
+        self.airspace = airspace
         self._bounds = lru_cache(1_000)(self._bounds_of)  # plans repeat their targets
-        self.drones: Sequence[Drone] = ()  # those whose docks count
 
     def level(self, category: Category, home: Point, here: Point, trips: Sequence[Trip]) -> float:
         """Return the battery level that the first chain of trips needs from here; infinite: it cannot be flown."""
@@ -243,45 +255,18 @@ class Reach:
         if _unfit(category, chain):
             return inf
         stops = stops_of(self.app, category, self.airspace.cruise_height, chain)
-        share = needed(category, self.airspace, here, stops, home)
-        return inf if share is None else share + category.reserve
+        return needed(category, self.airspace, here, stops, home) + category.reserve
 
     def takes(self, category: Category, trip: Trip) -> Bounds:
-        """Return bounds of what a trip takes of a battery."""
+        """Return what a trip takes of a battery at least."""
         seconds = self.app.actions[trip.action].lasts(trip.parameters)
-        straight = trip.source is None and trip.item is None and trip.action != PICK
-        return self._bounds(category, trip.action, seconds, trip.target, straight)
+        return self._bounds(category, seconds, trip.target[2])
 
-    def _bounds_of(
-        self, category: Category, action: str, seconds: float, target: Point, straight: bool
-    ) -> Bounds:
-        space = self.airspace
-        motion, speed, height = category.motion, category.speed, target[2]
-        upright = motion.rises(space.cruise_height, speed) + motion.lands(height, speed)
+    def _bounds_of(self, category: Category, seconds: float, height: float) -> Bounds:
+        motion = category.motion
+        speed = category.speed
+        upright = motion.rises(self.airspace.cruise_height, speed) + motion.lands(height, speed)
         upright += 2 * motion.settles + seconds
-        a_metre = motion.leg(_FAR, speed) / _FAR  # of a short leg it takes no less
+        a_metre = motion.leg(_FAR, speed) / _FAR
         share = 1.0 / category.endurance
-        least = category.reserve + share * upright * _LESS
-        way = share * a_metre * _LESS
-        enough = inf
-        if straight and self._is_open and category.can(action) and not space.problem(target):
-            slack = a_metre * abs(height - space.cruise_height) + 2 * motion.shortness(speed)
-            enough = (least + 2 * (hypot(*space.size) + _BEYOND) * way) * _MORE + share * slack
-        return least, way, enough
-
-    @cached_property
-    def _is_open(self) -> bool:
-        """Whether nothing is in the way from any dock on the ground to any place on the map."""
-        space = self.airspace
-        docks = [(x, y, -z) for x, y, z in (drone.home for drone in self.drones)]
-        ends = [(0.0, 0.0, space.cruise_height), *docks]
-        return not (space.no_fly or any(map(space.problem, ends)))
-
-
-Bounds = tuple[float, float, float]
-"""The least level beside the way, and for each metre of it; and what is enough for a drone that stands
-at home, wherever on the map that is: infinite where a route must be searched to tell."""
-_FAR = 1e6  # metres of a long leg
-_BEYOND = 0.01  # metres beyond an edge of the map that do not count
-_LESS = 1 - 1e-9  # sums of floats are not exact, and bounds must be true
-_MORE = 1 + 1e-8
+        return category.reserve + share * upright * _LESS, share * a_metre * _LESS

@@ -36,8 +36,9 @@ class Leg:
             return self.start
         part = (now - self.leaves) / (self.arrives - self.leaves)
         part = smoothly(part) if self.smooth else part
-        (ax, ay, az), (bx, by, bz) = self.start, self.end
-        return ax + part * (bx - ax), ay + part * (by - ay), az + part * (bz - az)
+        x, y, z = self.start
+        end_x, end_y, end_z = self.end
+        return x + part * (end_x - x), y + part * (end_y - y), z + part * (end_z - z)
 
     def length(self, now: float) -> float:
         """Return the metres flown at a time."""

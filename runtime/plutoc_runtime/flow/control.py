@@ -123,7 +123,8 @@ class Control:
 
         async def ask() -> None:
             known = await flight.action.was_done(state, flight)
-            self._core.orders.probed(flight.drone, flight.id, known)
+            order = {"do": "probed", "drone": flight.drone, "flight": flight.id, "value": known}
+            self._core.orders.give(order)
 
         state.spawn(ask(), f"{flight.id} is probed")
 

@@ -248,7 +248,8 @@ class Engine:
     def _hear(self, state: MissionState, flight: Flight, report: Record | None) -> None:
         """Register for the end of a flight; if it is known, report it at once, before any time-out."""
         if report is None:
-            self.core.orders.attach(flight.drone, partial(state.reported, flight), flight.id)
+            order = {"do": "attach", "drone": flight.drone, "flight": flight.id}
+            self.core.orders.fly(flight.drone, partial(state.reported, flight), order)
         else:
             failed = "failure" in report
             state.reported(flight, failure_of(report) if failed else value_of(report.get("value")))

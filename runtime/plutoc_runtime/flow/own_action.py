@@ -144,8 +144,8 @@ async def _call(state: MissionState, hook: Hook, /, *args: object, **named: obje
         take_over(state, hook)
 
 
-def way_home(core: Core, drone: Drone) -> float | None:
-    """Return the share of its battery that a drone needs home from where it is; None: no way leads there."""
+def way_home(core: Core, drone: Drone) -> float:
+    """Return the share of its battery that a drone needs home from where it is; infinite: no way leads there."""
     return needed(drone.category, core.airspace, drone.location, (), drone.home)
 
 
@@ -157,7 +157,7 @@ async def while_it_suffices(core: Core, drone: Drone, key: Key, until: float = -
     kernel = core.kernel
     category = drone.category
     way = way_home(core, drone)
-    if way is None:
+    if way == inf:
         await Future[None]()  # no rest suffices where no way leads home
         return
     while True:

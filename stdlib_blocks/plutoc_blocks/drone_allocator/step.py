@@ -16,8 +16,8 @@ from plutoc_runtime.time.kernel import EventKind
 
 if TYPE_CHECKING:
     from plutoc_runtime.domain.model import Mission
-    from plutoc_runtime.fleet.needs import Request
     from plutoc_runtime.fleet.policies import Policy
+    from plutoc_runtime.fleet.queue import Request
     from plutoc_runtime.flow.run import Run
 
 

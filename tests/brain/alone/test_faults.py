@@ -6,7 +6,7 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.shared.alone.faults import Faults, draw
+from pluto_fleet.shared.alone.world import Faults, draw
 from pluto_fleet.shared.domain.errors import Failure
 
 

@@ -13,9 +13,9 @@ import pytest
 
 from pluto_fleet.flight import simulate as library
 from pluto_fleet.flight.outcome import SimulationResult
-from pluto_fleet.shared.alone.faults import CARRYING_HOME, OUTAGE, Faults
-from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.alone.drones import IdealDrones
 from pluto_fleet.shared.alone.simulate import IDLE
+from pluto_fleet.shared.alone.world import CARRYING_HOME, OUTAGE, Faults
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import AfterTrip, Drone, Trip
 from pluto_fleet.shared.domain.status import DroneStatus, Status

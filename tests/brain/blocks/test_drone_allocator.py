@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status
 from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.mission_creator.step import create_mission

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.status import Status, TripStatus
 from pluto_fleet.shared.flow import asking

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.flow.run import Run

@@ -12,8 +12,8 @@ import pytest
 from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.ideal import IdealDrones
+from pluto_fleet.shared.alone.drones import IdealDrones
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.actions import BUILT_IN, MEASURE
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.alone.simulate import Outcome, simulate
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.airspace import Airspace

@@ -8,7 +8,7 @@ from itertools import permutations
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.fleet.assignment import assign
+from pluto_fleet.shared.fleet.batch_optimal import assign
 
 Costs = Sequence[Sequence[float | None]]
 """A row each; None: that pair may not be."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import inf
 from types import SimpleNamespace
 from typing import Any
 
@@ -24,8 +23,9 @@ def told(
     [drone] = fleet(HERE)
     drone.status = status
     plans: dict[Drone, Any] = {} if until is None else {drone: (until, THERE)}
-    low = {} if charged is None else {drone: (charged, 0.5)}
-    queue: Any = SimpleNamespace(kernel=SimpleNamespace(now=NOW), plans={"until": plans}, low=low)
+    queue: Any = SimpleNamespace(
+        kernel=SimpleNamespace(now=NOW), plans={"until": plans}, ready_at=lambda _: charged
+    )
     return free_again(drone, queue)
 
 
@@ -38,7 +38,6 @@ def told(
         (DroneStatus.BUSY, None, None, (0.0, HERE)),
         (DroneStatus.FREE, 130.0, None, (30.0, HERE)),
         (DroneStatus.BUSY, 110.0, 160.0, (60.0, THERE)),
-        (DroneStatus.BUSY, 110.0, inf, (10.0, THERE)),
     ],
 )
 def test_a_drone_is_free_when_and_where_its_plan_says_unless_it_is_late(

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.fleet.batch_optimal import batch_optimal

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category, Drone, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion
-from pluto_fleet.shared.fleet.needs import Needs, Request
 from pluto_fleet.shared.fleet.policies import first
+from pluto_fleet.shared.fleet.queue import Needs, Request
 from pluto_fleet.shared.fleet.reach import Reach
 from tests.brain.fleet.standing import known
 from tests.kit import apps

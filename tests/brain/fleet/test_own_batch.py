@@ -10,8 +10,13 @@ import pytest
 
 from pluto_fleet.shared.domain.model import Category, Drone
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.fleet.own_batch import Again, Assignment, Waiting, chooses_for_all
-from pluto_fleet.shared.fleet.own_policy import own_policy
+from pluto_fleet.shared.fleet.own_policy import (
+    Again,
+    Assignment,
+    Waiting,
+    chooses_for_all,
+    own_policy,
+)
 from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))
@@ -114,7 +119,7 @@ def test_it_can_give_some_now_and_be_asked_again_for_the_rest() -> None:
 def test_one_that_asks_for_ever_and_gives_nothing_is_at_fault(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("pluto_fleet.shared.fleet.own_batch.MOST_IN_VAIN", 20)
+    monkeypatch.setattr("pluto_fleet.shared.fleet.own_policy.MOST_IN_VAIN", 20)
     outcome = fly(lambda waiting, drones, now: Again(after=1.0), *missions(3.0))
     (mission,) = outcome.missions
     assert "has asked 20 times to be asked again, and given no drone" in mission.reason

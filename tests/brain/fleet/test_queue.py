@@ -12,13 +12,13 @@ import pytest
 
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.report.report import exit_code
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Drone, Trip
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.fleet.least_makespan import least_makespan
-from pluto_fleet.shared.fleet.needs import Request
 from pluto_fleet.shared.fleet.own_policy import own_policy
 from pluto_fleet.shared.fleet.policies import Policy, first, least_used, nearest
+from pluto_fleet.shared.fleet.queue import Request
 from tests.kit import apps
 
 HOMES = ((0.5, 0.5, 0.0), (9.5, 0.5, 0.0), (18.5, 0.5, 0.0))

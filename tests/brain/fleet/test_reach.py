@@ -10,15 +10,15 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from pluto_fleet.shared.alone.faults import Faults
 from pluto_fleet.shared.alone.simulate import simulate
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.brain import Brain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.model import Category, Drone, Item, Point
 from pluto_fleet.shared.domain.motion import Motion
-from pluto_fleet.shared.fleet.needs import Request
 from pluto_fleet.shared.fleet.policies import first
+from pluto_fleet.shared.fleet.queue import Request
 from pluto_fleet.shared.fleet.reach import Reach, docked, flight_seconds, grip_problem, needed
 from tests.brain.fleet.standing import known
 from tests.brain.hand import settled
@@ -31,7 +31,7 @@ WALL = Airspace(no_fly=(((8, 0), (9, 0), (9, 20), (8, 20)),))
 def test_where_no_way_leads_takes_for_ever() -> None:
     """Behind a wall without an end there is nothing to wait for."""
     assert flight_seconds(SCOUT, WALL, (1, 1, 0), [(15, 1, 1.2)], 0) == inf
-    assert needed(SCOUT, WALL, (1, 1, 0), [((15, 1, 1.2), 1)], (1, 1, 0)) is None
+    assert needed(SCOUT, WALL, (1, 1, 0), [((15, 1, 1.2), 1)], (1, 1, 0)) == inf
 
 
 def test_a_dock_charges_who_lands_near_enough() -> None:
@@ -153,7 +153,6 @@ def test_who_is_able_is_found_the_same_without_a_look_at_the_map(
         name="1", action=action, target=on_map(space, target), source=begins, item=item
     )
     drone = Drone(id="cf1", category=kind, home=home, telemetry=known(here, 1.0, kind.motion))
-    reach.drones = [drone]
     request = Request(reach, apps.mission("m", trip), first, (0, -1))
     exact, from_home = (reach.level(kind, home, place, [trip]) for place in (here, home))
     assert request.at_least(drone, here) <= exact

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.files.promises import misplaced
 from pluto_fleet.jobs.reports import Down
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status
 from pluto_fleet.shared.flow.promises import kept_from
 from pluto_fleet.shared.time.hours import Hours

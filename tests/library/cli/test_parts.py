@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from pluto_fleet.cli.runs import RunFigures, spread, summary
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.report.terminal import Progress, table
-from pluto_fleet.shared.alone.faults import shares
+from pluto_fleet.shared.alone.world import shares
 from pluto_fleet.shared.domain.trace import dumped
 
 

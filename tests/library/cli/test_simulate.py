@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.app import App
-from pluto_fleet.shared.alone.faults import FAULTS, Faults
+from pluto_fleet.shared.alone.world import FAULTS, Faults
 from tests.kit import apps
 from tests.library.cli.conftest import Command
 from tests.library.files.an_app import APP, POLLINATE

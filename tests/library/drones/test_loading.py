@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones import loading
 from pluto_fleet.drones.loading import (
     load_localization,
     load_navigation,
@@ -29,12 +28,6 @@ class Eyes:
 """
 SETUP = DroneSetup(id="cf1", uri=None, home=(1.0, 2.0, 0.0), speed=0.5, options={}, folder=Path())
 _numbers = count()
-
-
-@pytest.fixture
-def quick(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Import modules without trying that in another process first: these end none."""
-    monkeypatch.setattr(loading, "try_import", lambda *_: None)
 
 
 class Installed:
@@ -134,20 +127,9 @@ def test_the_folder_where_one_happens_to_be_is_no_place_for_code(
         ("import asyncio; raise asyncio.CancelledError", "cannot be imported: CancelledError"),
     ],
 )
-@pytest.mark.usefixtures("quick")
 def test_what_a_module_raises_is_told(installed: Installed, text: str, why: str) -> None:
     installed.write(author=f"{text}\n{CLASSES}")
     assert why in refused(f"{installed.author}:Drone")
-
-
-@pytest.mark.process
-def test_a_module_that_ends_the_process_ends_another(installed: Installed) -> None:
-    ends = "import os; os.write(2, b'no\\nlicence\\x1b\\n'); os._exit(7)"
-    installed.write(author=f"{ends}\n{CLASSES}")
-    assert refused(f"{installed.author}:Drone").startswith(
-        f'the navigation "{installed.author}:Drone" cannot be imported: "{installed.author}" ends'
-        " the process that imports it (exit code 7); the last it said: licence"
-    )
 
 
 @pytest.mark.parametrize(
@@ -209,16 +191,7 @@ GOOD = f"from {HERE} import Good"
     ("text", "named", "why"),
     [
         ("class Drones: ...", "Drone", 'did you mean "Drones"?'),
-        ("def Drone(setup): ...", "Drone", "is no class"),
-        ("class Drone: ...", "Drone", "it has no method connect; it has no method preflight"),
-        ("class Drone: ...", "Drone.Inner", 'no class "Inner"'),
-        ("from os import path as Drone", "Drone", '"os" is a module of Python\'s own'),
-        ("from elsewhere import Drone", "Drone", 'no class "Drone"'),
-        ("from elsewhere import *", "Drone", 'no class "Drone"'),
-        ("from gone import Drone", "Drone", 'needs "gone"'),
-        ("from ... import Drone", "Drone", 'no class "Drone"'),
-        ("def __getattr__(name): return OTHERS[name]", "Drone", 'no class "Drone"'),
-        ("1 +", "Drone", "cannot be imported: SyntaxError"),
+        ("from elsewhere import Other", "Drone.Inner", 'no class "Drone"'),
     ],
 )
 @pytest.mark.parametrize("load", [load_navigation, load_localization])
@@ -227,7 +200,6 @@ def test_a_module_without_the_class_is_not_run(
 ) -> None:
     """For all else that it does as it is imported: a fleet file from elsewhere may name anything."""
     installed.write(marked=True, author=text, elsewhere="")
-    why = why if load is load_navigation else why.replace("connect; it has no method preflight", "")
     assert installed.named(why) in refused(f"{installed.author}:{named}", load)
     assert not installed.mark.exists()
 
@@ -269,7 +241,6 @@ def test_nor_is_what_a_module_stands_in(installed: Installed, name: str, why: st
         ),
     ],
 )
-@pytest.mark.usefixtures("quick")
 def test_a_class_is_found_however_its_module_comes_by_it(
     installed: Installed, modules: dict[str, str], name: str
 ) -> None:

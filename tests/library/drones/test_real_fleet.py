@@ -15,8 +15,9 @@ from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction, 
 from pluto_fleet.files.crtp_fleet import as_crtp_fleet
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.flight.lives import FlightSetup, aloft, may_hover
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.flight.config import FlightSetup
+from pluto_fleet.flight.lives import aloft, may_hover
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Drone, Point

@@ -14,6 +14,7 @@ import pytest
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.config import FlightConfig, FlightResult, Stops
 from pluto_fleet.flight.fly import live
+from pluto_fleet.flight.lives import flight_of
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.link import Link
@@ -21,12 +22,10 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
 from pluto_fleet.journal.copies import newest_whole
 from pluto_fleet.journal.errors import JournalError
-from pluto_fleet.journal.place import commands_note
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
@@ -78,16 +77,9 @@ class Tried:
         self.watch(event)
 
     async def live(self, stops: Stops | None = None) -> FlightResult:
-        setting = FlightConfig(
-            app=self.app,
-            missions=self.missions,
-            fleet=self.fleet,
-            connect=self.connect,
-            note=commands_note(self.path),
-            tell=self.tell,
-            speed=1000.0,
-        )
         with closing(Store.open(self.path)) as store:
+            flight = flight_of(self.app, store, self.missions, self.fleet, 1000.0)
+            setting = FlightConfig(flight=flight, connect=self.connect, tell=self.tell)
             return await live(setting, store, stops or Stops())
 
     def on(self, kind: str, call: Callable[[], object]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.app import App
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import Results
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.flow.own_action import OwnAction

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.flight.lives import FlightSetup
+from pluto_fleet.flight.config import FlightSetup
 from pluto_fleet.shared.domain.model import Category
 from tests.kit import apps
 from tests.kit.command import python

@@ -10,8 +10,7 @@ from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.link import Link, Message, Order
-from pluto_fleet.shared.alone.faults import Faults
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World
 from pluto_fleet.shared.domain.actions import BUILT_IN, Plain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed

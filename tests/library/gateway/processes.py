@@ -24,7 +24,7 @@ from pluto_fleet.gateway.wire import MAX_REPORT
 from pluto_fleet.jobs.link import Link
 from pluto_fleet.process import ipc
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.time.kernel import FLEET, Future
 from pluto_fleet.simulation.body import SimulatedDrone

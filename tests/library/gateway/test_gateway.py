@@ -6,7 +6,7 @@ import pytest
 
 from pluto_fleet.gateway.gateway import Busy
 from pluto_fleet.jobs.reports import Down, FleetReport, JobState
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.errors import BadInput, Failure, FlightFailed
 from pluto_fleet.shared.time.kernel import FLEET
 from tests.library.gateway.flights import PILLS, THERE, Field, Task

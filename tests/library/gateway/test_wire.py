@@ -21,7 +21,7 @@ from pluto_fleet.jobs.reports import (
     result_data,
 )
 from pluto_fleet.process.ipc import line, message_in
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData

@@ -7,8 +7,7 @@ from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.controls import TakeOff
-from pluto_fleet.shared.alone.faults import Faults, draw
-from pluto_fleet.shared.alone.world import World
+from pluto_fleet.shared.alone.world import Faults, World, draw
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category

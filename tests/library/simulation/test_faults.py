@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.jobs.controls import Act, GoTo, Land
-from pluto_fleet.shared.alone.faults import Faults, draw
+from pluto_fleet.shared.alone.world import Faults, draw
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.fleet.reach import docked

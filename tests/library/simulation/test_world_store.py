@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.jobs.controls import GoTo, Land, TakeOff
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, varied, varies

@@ -6,8 +6,7 @@ from itertools import pairwise
 from math import dist, hypot, isfinite, pi
 
 from ...shared.domain.errors import Failure
-from ..inspection import problems
-from ..loading import NAVIGATION
+from ..loading import NAVIGATION, problems
 from ..protocol import CRASHED, LOCKED
 from .author import Author
 from .flights import LOOK

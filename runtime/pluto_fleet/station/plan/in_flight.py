@@ -15,7 +15,7 @@ from ...shared.domain.fields import Entity, FieldType
 from ...shared.domain.text import quoted
 from ...shared.hooks.plain_data import trip_data, trip_of
 from .problems import bare, read
-from .shape import BROKEN_OFF, COMPLETED, Shape, trips_of
+from .shape import BROKEN_OFF, COMPLETED, Shape
 from .text import trip_shape
 
 if TYPE_CHECKING:
@@ -45,26 +45,19 @@ class DrawnChange:
     """Whether it changes the flight."""
 
 
-def flight_names(mission: Shape) -> dict[str, str]:
-    """Return the names of a drawn mission's trips in its flight, by their keys."""
-    return {
-        str(one["key"]): str(one.get("name") or place)
-        for place, one in enumerate(trips_of(mission), 1)
-    }
-
-
 def named(fixed: Shape, trips: Sequence[Shape]) -> list[Shape]:
     """Return trips as drawn, each known one with its name in the flight."""
-    names = flight_names(fixed)
+    numbers = {one["key"]: str(number) for number, one in enumerate(fixed["trips"], 1)}
+    names = {one["key"]: one.get("name") or numbers[one["key"]] for one in fixed["trips"]}
     return [
-        {**one, "name": one.get("name") or names[str(one["key"])]} if one["key"] in names else one
+        {**one, "name": one.get("name") or names[one["key"]]} if one["key"] in names else one
         for one in trips
     ]
 
 
 def differs(fixed: Shape, drawn: Shape) -> bool:
     """Return whether a page has drawn other trips than a mission flies."""
-    before, after = (named(fixed, trips_of(one)) for one in (fixed, drawn))
+    before, after = (named(fixed, one["trips"]) for one in (fixed, drawn))
     keys = [[one["key"] for one in trips] for trips in (before, after)]
     return keys[0] != keys[1] or list(map(bare, before)) != list(map(bare, after))
 
@@ -75,18 +68,17 @@ def drawn_change(app: App, fixed: Shape, drawn: Sequence[Shape], record: Record)
     What the page has left as it was is flown as the flight has it, as the app's own code may have
     changed that; so are trips that this has added.
     """
-    to_do = {str(one["name"]): one for one in left(record)}
-    off = [str(one["name"]) for one in (*record["done"], *flying(record))]
-    known = {str(one["name"]): one for one in named(fixed, trips_of(fixed))}
+    to_do = {one["name"]: one for one in left(record)}
+    off = [one["name"] for one in (*record["done"], *flying(record))]
+    known = {one["name"]: one for one in named(fixed, fixed["trips"])}
     given = _with_free_names(named(fixed, drawn), {*known, *to_do, *off})
-    after = {str(one["name"]): one for one in given}
+    after = {one["name"]: one for one in given}
     for name in off:
-        if (name in known and name not in after) or (
-            name in after and not _same(known, after[name])
-        ):
-            what = "has been flown" if name not in map(_name, flying(record)) else "has taken off"
+        if _bare(known, name) != _bare(after, name):
+            flies = any(one["name"] == name for one in flying(record))
+            what = "has taken off" if flies else "has been flown"
             raise BadInput(
-                f"mission {quoted(str(fixed['name']))}: trip {quoted(name)} {what} meanwhile, and cannot"
+                f"mission {quoted(fixed['name'])}: trip {quoted(name)} {what} meanwhile, and cannot"
                 " be changed any more: look at the mission again"
             )
     trips = [one for name, one in known.items() if name in off]
@@ -96,9 +88,10 @@ def drawn_change(app: App, fixed: Shape, drawn: Sequence[Shape], record: Record)
         if name in off:
             continue
         trips.append(trip)
-        if name in to_do and _same(known, trip):
+        is_same = _bare(known, name) == bare(trip)
+        if name in to_do and is_same:
             tables.append(trip_table(app, trip_of(app, to_do[name])))
-        elif name in to_do or not _same(known, trip):  # else it was skipped, and stays so
+        elif name in to_do or not is_same:  # else it was skipped, and stays so
             tables.append(bare(trip))
             is_one = True
     others = [one for name, one in to_do.items() if name not in known]
@@ -111,17 +104,17 @@ def followed(
     app: App, airspace: Airspace, fixed: Shape, record: Record, keyed: Callable[[Shape], Shape]
 ) -> list[Shape]:
     """Return the trips of a drawn mission as its flight has them; `keyed` gives new ones a key."""
-    known = {str(one["name"]): one for one in named(fixed, trips_of(fixed))}
+    known = {one["name"]: one for one in named(fixed, fixed["trips"])}
     missions, problems = read(
-        app, airspace, [{**fixed, "trips": list(known.values())}], _after(fixed)
+        app, airspace, [{**fixed, "trips": list(known.values())}], fixed.get("after", ())
     )
     drawn: Mapping[str, Any] = {}
     if not problems:
         drawn = {one.name: _content(trip_data(app, one)) for one in missions[0].trips}
-    gone = {str(one["name"]) for one in record["gone"]}
+    gone = {one["name"] for one in record["gone"]}
     trips = []
     for now in (*record["done"], *record["todo"]):
-        name = str(now["name"])
+        name = now["name"]
         if name in known and drawn.get(name) == _content(now):
             trips.append(known[name])
         elif not now.get("added"):
@@ -135,22 +128,12 @@ def _content(trip: Mapping[str, Any]) -> dict[str, Any]:
     return {key: one for key, one in trip.items() if key not in _OF_FLIGHTS}
 
 
-def _after(mission: Shape) -> list[str]:
-    after = mission.get("after")
-    return [str(name) for name in after] if isinstance(after, list) else []
-
-
-def _same(known: Mapping[str, Shape], trip: Shape) -> bool:
-    name = str(trip["name"])
-    return name in known and bare(known[name]) == bare(trip)
-
-
-def _name(trip: Mapping[str, object]) -> str:
-    return str(trip["name"])
+def _bare(trips: Mapping[str, Shape], name: str) -> Shape | None:
+    return bare(trips[name]) if name in trips else None
 
 
 def _with_free_names(trips: Sequence[Shape], taken: set[str]) -> list[Shape]:
-    used = taken | {str(one["name"]) for one in trips if one.get("name")}
+    used = taken | {one["name"] for one in trips if one.get("name")}
     free = (str(number) for number in count(1) if str(number) not in used)
     return [one if one.get("name") else {**one, "name": next(free)} for one in trips]
 
@@ -169,7 +152,7 @@ FAILED = ("FAILED", BROKEN_OFF)
 
 def settled(record: Mapping[str, Any]) -> list[str]:
     """Return the names of the trips of a flown mission that were done, or left out by a decision."""
-    return [str(trip["name"]) for trip in (*record["done"], *record["gone"])]
+    return [trip["name"] for trip in (*record["done"], *record["gone"])]
 
 
 def only_missing(app: App, missions: Sequence[Shape], chosen: bool) -> list[Shape]:
@@ -205,7 +188,7 @@ def missing(mission: Shape) -> list[Shape]:
     done: Any = mission.get("done") or ()
     trips: list[Shape] = [
         {**trip, "name": trip.get("name") or str(number)}
-        for number, trip in enumerate(trips_of(mission), 1)
+        for number, trip in enumerate(mission["trips"], 1)
     ]
     wanted = [trip["name"] not in done for trip in trips]
     for place, trip in enumerate(trips):

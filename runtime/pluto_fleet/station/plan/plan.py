@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from ...shared.domain.errors import BadInput, PlutoError
 from ...shared.domain.text import counted, printable, quoted
-from ...shared.domain.values import shown
 from . import kept as on_disk
 from .example import example_missions
 from .in_flight import differs, followed, only_missing
 from .problems import FlyabilityCache, PlanProblem, as_in_a_file, as_json, bare, read
-from .shape import COMPLETED, Shape, check_together, missions_from, trips_of
+from .shape import COMPLETED, Shape, check_together, missions_from
 from .text import NAME, renamed, shapes_of, text_of, unfinished_shapes
 
 if TYPE_CHECKING:
@@ -59,8 +58,7 @@ class MissionPlan:
         self._missions = list(kept.missions)
         self._unread = read(app, fleet.airspace, self._missions)[1]
         self._flyability = FlyabilityCache(app, fleet)
-        self.on_change: Callable[[], object] = _nothing
-        """Called after each change."""
+        self.on_change: Callable[[], object] = lambda: None
 
     def data(self) -> Shape:
         """Return the plan for pages."""
@@ -81,7 +79,7 @@ class MissionPlan:
 
         The check runs in a thread. Before, `data` has only the other problems.
         """
-        while not self._flyability.knows(self._readable()):  # the plan may change meanwhile
+        while self._flyability.unknown(self._readable()):  # the plan may change meanwhile
             await self._flyability.ask(self._readable())
 
     # Changes by pages
@@ -92,18 +90,17 @@ class MissionPlan:
         drawn = self._with_launched(given)
         if drawn != self._missions or self._overrules(given):
             self.check_current(revision)
-        if drawn != self._missions:  # an identical plan is no conflict
-            self._change(drawn)
+        self.take(drawn)  # an identical plan is no conflict
 
     # Changes of what flies
 
     def drawn_in_flight(self, missions: object) -> dict[str, Sequence[Shape]]:
         """Return the trips of a page's missions that fly and were drawn otherwise, by their names."""
-        given = {str(one["key"]): one for one in missions_from(missions, self._app)}
+        given = {one["key"]: one for one in missions_from(missions, self._app)}
         return {
-            name: trips_of(given[str(fixed["key"])])
+            name: given[fixed["key"]]["trips"]
             for name, fixed in self._flying.items()
-            if fixed["key"] in given and differs(fixed, given[str(fixed["key"])])
+            if fixed["key"] in given and differs(fixed, given[fixed["key"]])
         }
 
     def launched_mission(self, name: str) -> Shape | None:
@@ -116,7 +113,7 @@ class MissionPlan:
         return self._with_launched(given, trips)
 
     def take(self, missions: list[Shape]) -> None:
-        """Take what was merged for the plan."""
+        """Take other missions as the plan, if they are others."""
         if missions != self._missions:
             self._change(missions)
 
@@ -132,14 +129,17 @@ class MissionPlan:
         self._fleet, self._flyability = fleet, FlyabilityCache(self._app, fleet)
 
     @property
+    def _names(self) -> list[str]:
+        return [one["name"] for one in self._missions]
+
+    @property
     def _flying(self) -> dict[str, Shape]:
-        return {str(one["name"]): one for one in self._missions if one["launched"]}
+        return {one["name"]: one for one in self._missions if one["launched"]}
 
     def import_toml(
         self, text: str, revision: object, file: str = NAME, folder: Path | None = None
     ) -> None:
         """Replace the missions that were not launched by those of a file; `folder`: where it lies."""
-        self.check_current(revision)
         self.take_instead(self._shapes(text, file, folder), revision)
 
     async def import_file(self, text: str, revision: object, file: str = NAME) -> None:
@@ -175,14 +175,12 @@ class MissionPlan:
     def add(self, read: Sequence[Shape], revision: object) -> None:
         """Add these missions, which have no keys, under names that no other has."""
         self.check_current(revision)
-        names = [str(mission["name"]) for mission in self._missions]
-        self._change([*self._missions, *self._shaped(renamed(read, names))])
+        self._change([*self._missions, *self._shaped(renamed(read, self._names))])
 
     def example(self, revision: object) -> None:
         """Add example missions that this app and fleet can fly."""
         self.check_current(revision)
-        names = [str(mission["name"]) for mission in self._missions]
-        added = example_missions(self._app, self._fleet, names)
+        added = example_missions(self._app, self._fleet, self._names)
         self._change([*self._missions, *self._shaped(added)])
 
     # Flights
@@ -198,7 +196,7 @@ class MissionPlan:
         """
         self._flyability.ask_at_once(self._readable())
         waiting = self._wanted(chosen, only_failed)
-        keys = [str(one["key"]) for one in waiting]
+        keys = [one["key"] for one in waiting]
         of_these = (None, *keys)
         problems = [one.alone for one in self._problems() if one.mission in of_these]
         if problems:
@@ -206,8 +204,7 @@ class MissionPlan:
             if more > 0:
                 problems[MOST_SAID:] = [f"… and {counted(more, 'more problem')}"]
             raise BadInput("\n".join(problems))
-        names = [str(one["name"]) for one in self._missions]
-        missions, _ = read(self._app, self._fleet.airspace, waiting, names)
+        missions, _ = read(self._app, self._fleet.airspace, waiting, self._names)
         return [self._in_order(one, waiting) for one in missions], keys
 
     def _in_order(self, mission: Mission[Any], started: Sequence[Shape]) -> Mission[Any]:
@@ -215,9 +212,8 @@ class MissionPlan:
 
         Raises `BadInput` if it comes after one that is not started with it.
         """
-        under_way = {str(one["name"]) for one in self._missions if one["launched"]}
-        under_way.update(str(one["name"]) for one in started)
-        done = {str(one["name"]) for one in self._missions if one["ended"] == COMPLETED}
+        under_way = {*self._flying, *(one["name"] for one in started)}
+        done = {one["name"] for one in self._missions if one["ended"] == COMPLETED}
         after = []
         for name in mission.promises.get("after", ()):
             if name in under_way:
@@ -235,7 +231,7 @@ class MissionPlan:
         if chosen is None:
             to_do = [mission for mission in waiting if mission["ended"] != COMPLETED]
             return waiting if not to_do and len(waiting) == len(self._missions) else to_do
-        known = {str(mission["key"]): mission for mission in self._missions}
+        known = {mission["key"]: mission for mission in self._missions}
         for key in chosen:
             if key not in known:
                 raise BadInput(
@@ -260,9 +256,7 @@ class MissionPlan:
                 flies.pop("done", None)
             return flies
 
-        missions = [locked(mission) for mission in self._missions]
-        if missions != self._missions:
-            self._change(missions)
+        self.take([locked(mission) for mission in self._missions])
 
     def adopt(self, names: Collection[str]) -> None:
         """Lock the missions of these names, which fly according to a journal, and no others."""
@@ -276,15 +270,13 @@ class MissionPlan:
         def settled(mission: Shape) -> Shape:
             if not mission["launched"]:
                 return mission
-            name = str(mission["name"])
+            name = mission["name"]
             ended = {**mission, "launched": False, "ended": ends.get(name)}
             before: Any = ended.pop("done", ())
             trips = [*dict.fromkeys((*before, *(done or {}).get(name, ())))]
             return ended | ({"done": trips} if trips and ended["ended"] != COMPLETED else {})
 
-        missions = [settled(mission) for mission in self._missions]
-        if missions != self._missions:
-            self._change(missions)
+        self.take([settled(mission) for mission in self._missions])
 
     def unlock(self) -> None:
         """Unlock all missions: nothing flies any more."""
@@ -306,18 +298,12 @@ class MissionPlan:
         return [mission for mission in self._missions if mission["key"] not in bad]
 
     def _mark(self, is_launched: Callable[[Mapping[str, object]], bool]) -> None:
-        marked = [{**mission, "launched": is_launched(mission)} for mission in self._missions]
-        if marked != self._missions:
-            self._change(marked)
+        self.take([{**one, "launched": is_launched(one)} for one in self._missions])
 
     def check_current(self, revision: object) -> None:
         """Raise `Stale` if a change was made on an old revision."""
-        if isinstance(revision, bool) or not isinstance(revision, int):
-            raise BadInput(f"the plan's revision {shown(revision)} is not a whole number")
         if revision != self.revision:
-            raise Stale(
-                f"the plan has been changed meanwhile: it is at {self.revision}, not at {revision}"
-            )
+            raise Stale(f"the plan has been changed meanwhile: it is at {self.revision}")
 
     def _overrules(self, given: Sequence[Shape]) -> bool:
         """Return whether an edit changes a mission that has been launched meanwhile."""
@@ -330,7 +316,7 @@ class MissionPlan:
     ) -> list[Shape]:
         """Restore launched missions in an edit, with these trips by name; missing ones come first."""
         fixed = {
-            one["key"]: {**one, "trips": [*trips.get(name, trips_of(one))]}
+            one["key"]: {**one, "trips": [*trips.get(name, one["trips"])]}
             for name, one in self._flying.items()
         }
         known = {one["key"]: one for one in self._missions}
@@ -345,12 +331,12 @@ class MissionPlan:
     def _shaped(self, missions: Sequence[Shape]) -> list[Shape]:
         """Add keys to missions and trips that do not come from a page."""
         keyed = self._keyed()
-        shapes = [{**keyed(one), "trips": [*map(keyed, trips_of(one))]} for one in missions]
+        shapes = [{**keyed(one), "trips": [*map(keyed, one["trips"])]} for one in missions]
         return missions_from(shapes, self._app)
 
     def _keyed(self) -> Callable[[Shape], Shape]:
         """Return what gives shapes keys that no other has."""
-        taken = {one["key"] for mission in self._missions for one in (mission, *trips_of(mission))}
+        taken = {one["key"] for mission in self._missions for one in (mission, *mission["trips"])}
         count = 0
 
         def keyed(shape: Shape) -> Shape:
@@ -379,10 +365,6 @@ class MissionPlan:
             )
         else:
             self.trouble = ""
-
-
-def _nothing() -> None:
-    """Do nothing: no callback is set."""
 
 
 def _as_it_ended(drawn: Shape, before: Shape | None) -> Shape:

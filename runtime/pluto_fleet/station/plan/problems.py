@@ -16,7 +16,7 @@ from ...files.promises import moment
 from ...files.reading import Document
 from ...shared.domain.values import shown
 from ...shared.time.hours import Hours
-from .shape import MOMENTS, Shape, trips_of
+from .shape import MOMENTS, Shape
 
 if TYPE_CHECKING:
     from collections.abc import Container
@@ -115,9 +115,7 @@ def unflyable_trips(
     app: App, fleet: FleetFile, airspace: Airspace, mission: Shape
 ) -> list[PlanProblem]:
     """Return the trips of a mission that no drone of the fleet can fly."""
-    after = mission.get("after")
-    known = [str(name) for name in after] if isinstance(after, list) else []
-    missions, found = read(app, airspace, [mission], known)
+    missions, found = read(app, airspace, [mission], mission.get("after", ()))
     if found:
         return []
     names, problems = own_names(app), []
@@ -139,9 +137,9 @@ def as_json(problem: PlanProblem) -> Shape:
     }
 
 
-def as_in_a_file(mission: Mapping[str, object]) -> dict[str, object]:
+def as_in_a_file(mission: Shape) -> dict[str, Any]:
     """Return a mission as in a missions file, without keys and empty values."""
-    trips = [bare(trip) for trip in trips_of(mission)]
+    trips = [bare(trip) for trip in mission["trips"]]
     table = bare(mission)
     if (opens := table.pop("opens", None)) is not None:
         table["window"] = [opens, table.pop("deadline", "")]
@@ -175,7 +173,7 @@ def _of_its_height(
     """Assign a problem to the field of the height, if only that is wrong."""
     if problem.field != "target":
         return problem
-    trips = [one for mission in missions for one in trips_of(mission) if one["key"] == problem.trip]
+    trips = [one for mission in missions for one in mission["trips"] if one["key"] == problem.trip]
     match trips[0]["target"]:
         case [int() | float() as x, int() | float() as y, _] if (
             airspace.problem((x, y, 0.0)) is None
@@ -200,12 +198,12 @@ def _problem(missions: Sequence[Shape], place: KeyPath, text: str, alone: str) -
     inside: Sequence[str | int] = ()
     match place:
         case ("mission", int(i), "trip", int(j), *inside):
-            mission, trip = missions[i]["key"], trips_of(missions[i])[j]["key"]
+            mission, trip = missions[i]["key"], missions[i]["trips"][j]["key"]
         case ("mission", int(i), *inside):
             mission = missions[i]["key"]
     return PlanProblem(
-        mission=None if mission is None else str(mission),
-        trip=None if trip is None else str(trip),
+        mission=mission,
+        trip=trip,
         field=".".join(part for part in inside if isinstance(part, str)) or None,
         text=text,
         alone=alone,
@@ -222,35 +220,28 @@ class FlyabilityCache:
         self._one_at_a_time = asyncio.Lock()
 
     def known(self, missions: Collection[Shape]) -> Iterator[PlanProblem]:
-        """Yield the known problems of these missions."""
+        """Yield the known problems of these missions, and forget all others."""
+        keys = [one["key"] for one in missions]
+        self._known = {key: self._known[key] for key in keys if key in self._known}
         for mission in missions:
             if self._is_known(mission):
                 yield from self._known[mission["key"]][1]
 
-    def knows(self, missions: Collection[Shape]) -> bool:
-        """Return whether all these missions have been checked."""
-        return not self._unknown(missions)
-
-    async def ask(self, missions: Collection[Shape]) -> None:
-        """Check the missions that are not cached, in a thread."""
-        async with self._one_at_a_time:
-            for mission in self._unknown(missions):
-                found = await asyncio.to_thread(self._found, mission, self._beside)
-                self._known[mission["key"]] = mission, found
-            self._forget_all_but(missions)
-
-    def ask_at_once(self, missions: Collection[Shape]) -> None:
-        """Check them at once."""
-        for mission in self._unknown(missions):
-            self._known[mission["key"]] = mission, self._found(mission, self._fleet.airspace)
-        self._forget_all_but(missions)
-
-    def _unknown(self, missions: Collection[Shape]) -> list[Shape]:
+    def unknown(self, missions: Collection[Shape]) -> list[Shape]:
+        """Return the missions that have not been checked as they are."""
         return [mission for mission in missions if not self._is_known(mission)]
 
-    def _forget_all_but(self, missions: Collection[Shape]) -> None:
-        keys = [mission["key"] for mission in missions]
-        self._known = {key: self._known[key] for key in keys if key in self._known}
+    async def ask(self, missions: Collection[Shape]) -> None:
+        """Check those, in a thread."""
+        async with self._one_at_a_time:
+            for mission in self.unknown(missions):
+                found = await asyncio.to_thread(self._found, mission, self._beside)
+                self._known[mission["key"]] = mission, found
+
+    def ask_at_once(self, missions: Collection[Shape]) -> None:
+        """Check those at once."""
+        for mission in self.unknown(missions):
+            self._known[mission["key"]] = mission, self._found(mission, self._fleet.airspace)
 
     def _is_known(self, mission: Shape) -> bool:
         return self._known.get(mission["key"], (None, ()))[0] == mission

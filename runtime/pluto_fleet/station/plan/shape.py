@@ -22,7 +22,7 @@ from ..operation import in_words
 if TYPE_CHECKING:
     from ...app import App
 
-Shape = dict[str, object]
+Shape = dict[str, Any]
 """A mission or a trip as JSON."""
 
 MOST_MISSIONS, MOST_TRIPS = 1_000, 10_000
@@ -126,7 +126,7 @@ def without_unknown(missions: Sequence[Shape], app: App) -> tuple[Sequence[Shape
 
 def check_together(missions: Sequence[Shape]) -> None:
     """Raise `BadInput` if there are too many, or two have the same key."""
-    keys = [str(one["key"]) for mission in missions for one in (mission, *trips_of(mission))]
+    keys = [one["key"] for mission in missions for one in (mission, *mission["trips"])]
     if len(missions) > MOST_MISSIONS:
         raise BadInput(f"a plan has at most {MOST_MISSIONS} missions")
     if len(keys) - len(missions) > MOST_TRIPS:
@@ -136,12 +136,6 @@ def check_together(missions: Sequence[Shape]) -> None:
         if key in seen:
             raise BadInput(f"two missions or trips have the key {quoted(key)}")
         seen.add(key)
-
-
-def trips_of(mission: Mapping[str, object]) -> Sequence[Shape]:
-    """Return a mission's trips."""
-    trips = mission["trips"]
-    return trips if isinstance(trips, list) else ()
 
 
 def fields_of(app: App, entity: Entity) -> list[str]:

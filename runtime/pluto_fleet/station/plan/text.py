@@ -17,7 +17,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.values import point
 from .problems import as_in_a_file
-from .shape import TRIP_KEYS, Shape, fields_of, trips_of
+from .shape import TRIP_KEYS, Shape, fields_of
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -65,7 +65,7 @@ def renamed(missions: Sequence[Shape], taken: Collection[str]) -> list[Shape]:
     """Return missions under names that are not taken, such as "North field 2", by which others come after them."""
     names, new = {*taken}, dict[str, str]()
     for mission in missions:
-        name = str(mission["name"])
+        name = mission["name"]
         counted = (f"{name} {number}" for number in count(2))
         new[name] = next(one for one in chain([name], counted) if one not in names)
         names.add(new[name])
@@ -73,7 +73,7 @@ def renamed(missions: Sequence[Shape], taken: Collection[str]) -> list[Shape]:
 
 
 def _with_names(mission: Shape, new: Mapping[str, str]) -> Shape:
-    found = {**mission, "name": new[str(mission["name"])]}
+    found = {**mission, "name": new[mission["name"]]}
     match mission.get("after"):
         case list(after):
             found["after"] = [new.get(str(name), name) for name in after]
@@ -101,7 +101,7 @@ def _mission(app: App, mission: Shape) -> Iterator[str]:
     yield "[[mission]]"
     yield from _pairs(given, ("name", *KEYS, *fields_of(app, Entity.MISSION)), "")
     yield ""
-    for trip in trips_of({"trips": given["trip"]}):
+    for trip in given["trip"]:
         yield "  [[mission.trip]]"
         yield from _pairs(trip, (*_BASIC, *fields_of(app, Entity.TRIP)), "  ")
         yield ""

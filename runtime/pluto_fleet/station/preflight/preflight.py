@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...process.beside import in_a_copy
 from ...process.copies import Died
-from ...shared.alone.faults import Faults
+from ...shared.alone.world import Faults
 from ...shared.domain.app import moving
 from ...shared.domain.errors import BadInput
 from ...shared.domain.status import TripStatus

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ...flight.driver import Stands
     from ...gateway.sightings import Sighting
     from ...journal.standing import Standing
-    from ...shared.alone.faults import Faults
+    from ...shared.alone.world import Faults
     from ...shared.domain.model import Category, Mission, Point
     from ..wire import Words
 

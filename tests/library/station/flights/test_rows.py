@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.flight.simulation import Simulation
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.station.rows import blocks_of, living_row, recorded_row
 from pluto_fleet.station.wire import MissionRow, Words

@@ -10,7 +10,7 @@ import pytest
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.flight.simulate import simulate
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.actions import Action, Parameter
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Category, Mission

@@ -12,7 +12,7 @@ import pytest
 
 from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import FleetFile, default_fleet
-from pluto_fleet.shared.alone.faults import Faults
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.station.preflight import preflight
 from pluto_fleet.station.preflight.preflight import Preflight
