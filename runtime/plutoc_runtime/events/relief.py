@@ -10,20 +10,26 @@ from ..domain.errors import FlightFailed, MissionFailed
 from ..fleet.policies import nearest
 from ..flow.own_action import way_home
 from ..time.kernel import EventKind, Future
-from .company import Company
+from .company import Company, track_of
 from .follow import FollowAction
 from .tracks import Tracks
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Point
+    from ..domain.model import Drone, Point, Trip
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
     from ..flow.run import Run
 
 URGENT = 1 << 20
 """The priority of who is to take over: a drone that must go home does not wait."""
-NEAR = 1.0
-"""Metres within which one drone takes over from another."""
+REACH = 0.5
+"""Metres within which one drone takes over from another, where a trip says nothing of it."""
+KEPT_OFF = 2.0
+"""Seconds without coming nearer after which a drone is kept off by the one that it relieves."""
+KEPT_OFF_WITHIN = 3.0
+"""How many times the reach that may be."""
+NEARER = 0.05
+"""Metres that count as nearer."""
 LOOK = 0.25
 """Seconds from one look at a battery, or at where a drone is that is to be relieved, to the next."""
 
@@ -88,9 +94,10 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     number = 0
     goal = drone.location
     try:
-        while not flight.is_set and dist(drone.location, flight.flier.location) > NEAR:
+        nearness = Nearness(state, flight, drone)
+        while not flight.is_set and not nearness.suffices():
             place = _beside(state, flight, drone)
-            if going is None or going.is_set or dist(place, goal) > NEAR / 2:
+            if going is None or going.is_set or dist(place, goal) > reach_of(flight.trip) / 2:
                 core.orders.forget(number)
                 going = Future()
                 goal = place
@@ -109,16 +116,52 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     return True
 
 
+class Nearness:
+    """How near a drone has come to where it is to take over."""
+
+    def __init__(self, state: MissionState, flight: Flight, drone: Drone) -> None:
+        self._state = state
+        self._flight = flight
+        self._drone = drone
+        self._least = inf
+        self._since = state.core.kernel.now  # when it came nearer the last time
+
+    def suffices(self) -> bool:
+        """Return whether it is within reach, or as near as the other drone lets it come."""
+        now = self._state.core.kernel.now
+        reach = reach_of(self._flight.trip)
+        metres = dist(self._drone.location, _where(self._state, self._flight))
+        if metres < self._least - NEARER:
+            self._least = metres
+            self._since = now
+        is_kept_off = now - self._since >= KEPT_OFF and metres <= KEPT_OFF_WITHIN * reach
+        return metres <= reach or is_kept_off
+
+
+def reach_of(trip: Trip) -> float:
+    """Return the metres within which what a trip is about is reached."""
+    reach: float = getattr(trip, "reach", REACH)  # not every app has this field
+    return reach
+
+
+def _where(state: MissionState, flight: Flight) -> Point:
+    """Return where the drone that is relieved ought to be now."""
+    core = state.core
+    track = core.parts[Tracks].known.get(track_of(flight.trip) or "")
+    if track is None:
+        return flight.flier.location
+    x, y, z = track.place(core.kernel.now)
+    return x, y, z + core.airspace.cruise_height
+
+
 def _beside(state: MissionState, flight: Flight, drone: Drone) -> Point:
     """Return where the drone that is relieved will be met."""
     core = state.core
-    track_id = getattr(flight.trip, "track", None)
-    if track_id is not None:
-        tracks: Tracks = core.parts[Tracks]
-        track = tracks.known.get(track_id)
-        if track is not None:
-            return tracks.meeting(track, drone, core.airspace.cruise_height)
-    return flight.flier.location
+    tracks: Tracks = core.parts[Tracks]
+    track = tracks.known.get(track_of(flight.trip) or "")
+    if track is None:
+        return flight.flier.location
+    return tracks.meeting(track, drone, core.airspace.cruise_height)
 
 
 def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:
