@@ -23,7 +23,8 @@ from pluto_fleet.crtp.equipment import camera, fitted, port_of
 from pluto_fleet.crtp.flight_log import MemoryLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import commands
-from pluto_fleet.drones.vehicle import Cargo, TeamDrone, Vehicle
+from pluto_fleet.drones.vehicle import Cargo, Vehicle
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.actions import BUILT_IN, PICK, RELEASE
 from pluto_fleet.shared.domain.model import Category, Item
 from tests.kit.campaign import Campaign
@@ -122,13 +123,10 @@ async def measured(drones: int, times: int) -> dict[str, list[float]]:
 
 def _vehicle(build: Build, uri: str, options: dict[str, object], folder: Path) -> Vehicle:
     folder.mkdir(parents=True)
-    drone = TeamDrone(
-        id=build.id,
-        category=Category(name="measured", flight_time=ENDURING),
-        home=build.home,
-        navigation=navigation(build, uri, folder, options),
-    )
-    return Vehicle(drone, Cargo(folder, print), print, the_air().time)
+    category = Category(name="measured", flight_time=ENDURING)
+    drone = FleetDrone(id=build.id, category=category, home=build.home)
+    flown = navigation(build, uri, folder, options)
+    return Vehicle(drone, flown, Cargo(folder, print), print, the_air().time)
 
 
 async def _times(times: int, fly: Callable[[], Coroutine[Any, Any, None]]) -> None:

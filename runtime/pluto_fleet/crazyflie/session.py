@@ -15,7 +15,7 @@ from math import inf
 from typing import TYPE_CHECKING, Protocol
 
 from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
-from ..drones.lag import Lag
+from ..drones.timeouts import Lag
 from ..jobs.reports import SILENCE
 from . import messages
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
@@ -89,19 +89,15 @@ class SessionObserver(Protocol):
 
     def told(self, state: State) -> None:
         """Called with a new state."""
-        ...
 
     def doubted(self, variance: float) -> None:
         """Called with the variance of its position, in square metres."""
-        ...
 
     def gone(self, why: str) -> None:
         """Called when the link is lost."""
-        ...
 
     def releasing(self, gone: asyncio.Future[None]) -> None:
         """Called when the link is being closed, with a future of its end."""
-        ...
 
 
 class CrazyflieSession:

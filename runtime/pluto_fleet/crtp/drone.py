@@ -9,7 +9,7 @@ from random import Random
 
 from ..shared.alone.world import World
 from ..shared.domain.airspace import Airspace
-from ..shared.domain.fleet_data import DroneData, WorldData
+from ..shared.domain.fleet_data import WorldData
 from ..shared.domain.model import Category
 from ..shared.domain.motion import CRAZYFLIE
 from .battery import CHARGE, FLIGHT, CarriedBody, SimulatedBattery
@@ -98,8 +98,7 @@ class SimulatedCrazyflie:
             charge_time=build.charge,
             motion=CRAZYFLIE.exact,
         )
-        entry = DroneData(id=build.id, category=kind.name, home=build.home)
-        self.carried = CarriedBody(entry, kind, world, self)
+        self.carried = CarriedBody(build.id, build.home, kind, world, self)
         """The drone as all simulated ones are: its battery, and what it measures."""
         self.battery = SimulatedBattery(
             self.carried, cells=build.cells, shuts_down=build.shuts_down

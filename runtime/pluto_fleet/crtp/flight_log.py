@@ -42,11 +42,9 @@ class FlightLog(Protocol):
 
     def command(self, command: CommandRecord) -> None:
         """Log a command."""
-        ...
 
     def position(self, place: PositionRecord) -> None:
         """Log the position of a drone in the air."""
-        ...
 
 
 class MemoryLog:

@@ -38,7 +38,6 @@ class Localization(Protocol):
         Most simply an async generator: what it has opened it closes in its `finally`. If it ends or
         raises, it is called again a second later. Nothing in it may hold up the event loop.
         """
-        ...
 
 
 SILENCE = 1.0

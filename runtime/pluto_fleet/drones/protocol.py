@@ -110,21 +110,18 @@ class DroneNavigation(Protocol):
         hovers or is on the ground. Raises `LinkLost` if it does not answer; the runtime waits 15 s.
         Arms nothing, and starts no motor.
         """
-        ...
 
     async def preflight(self) -> Sequence[str]:
         """Return why it must not take off now, as short reasons; nothing: it is ready.
 
         Called before the first flight and before every take-off: quick, and harmless at any time.
         """
-        ...
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Take off straight up, and hover at this height above the map's ground.
 
         Arms if that is needed. Raises `NotReady` if `preflight` would have a reason.
         """
-        ...
 
     async def go_to(self, target: Point, speed: float) -> None:
         """Fly straight to a point, never faster than this, and hover there.
@@ -132,28 +129,24 @@ class DroneNavigation(Protocol):
         The speed is a limit, not a wish: a course that eases in and out peaks above its mean.
         Raises `Rejected` for a drone that does not fly.
         """
-        ...
 
     async def hold(self) -> None:
         """Stop here, and return once it hovers; does nothing for a drone on the ground.
 
         Called after a command was cancelled, and at any other time.
         """
-        ...
 
     async def land(self, speed: float) -> None:
         """Land straight down, and return when the motors are off.
 
         Does nothing for a drone on the ground.
         """
-        ...
 
     async def emergency_stop(self) -> None:
         """Switch the motors off at once, wherever it is: it falls.
 
         Called only on a user's explicit command, and by no other command of a navigation.
         """
-        ...
 
     async def close(self) -> None:
         """Close the link; `events` ends, and no thread, task or socket is left.
@@ -161,7 +154,6 @@ class DroneNavigation(Protocol):
         This must not cut motors: a library that does so when it closes must land first, or wait.
         Called once, usually after a landing; it may be unconnected, or lost.
         """
-        ...
 
     @property
     def telemetry(self) -> DroneTelemetry:
@@ -169,14 +161,12 @@ class DroneNavigation(Protocol):
 
         The last known one while it is silent; its `time` shows that.
         """
-        ...
 
     def events(self) -> AsyncIterator[DroneEvent]:
         """Return an iterator of what happens to it without a command, until `close`.
 
         Iterated over once. Yield each event once, when it begins.
         """
-        ...
 
 
 # Optional abilities, each recognised by the names of its methods
@@ -191,14 +181,12 @@ class Acts(Protocol):
 
         It depends on the hardware: "cf1 has no camera". Called once it is connected.
         """
-        ...
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do an action where it hovers, and return its result.
 
         `measure` returns a number, `take_photo` a `Photo`, the others None. Raises `ActionNotDone`.
         """
-        ...
 
 
 @runtime_checkable
@@ -207,11 +195,9 @@ class Readable(Protocol):
 
     async def read(self, name: str) -> float:
         """Return a sensor or variable; raise `Rejected` if there is none of this name."""
-        ...
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter, and return once it is set; raise `Rejected` if there is none of this name."""
-        ...
 
 
 @runtime_checkable
@@ -220,7 +206,6 @@ class Locatable(Protocol):
 
     async def locate(self, position: Point) -> None:
         """Send it its position in the map's frame, many times a second; without waiting for an answer."""
-        ...
 
 
 @runtime_checkable
@@ -232,7 +217,6 @@ class CaredFor(Protocol):
 
         Called only on a user's explicit command, for a drone on the ground.
         """
-        ...
 
 
 @runtime_checkable
@@ -241,7 +225,6 @@ class Identifiable(Protocol):
 
     async def identify(self) -> None:
         """Blink or beep for some seconds, and then restore the former state. Starts no motor."""
-        ...
 
 
 @runtime_checkable
@@ -253,7 +236,6 @@ class Scannable(Protocol):
 
         The options are the table `[navigation.NAME]` of the fleet file. Commands no drone.
         """
-        ...
 
 
 @runtime_checkable
@@ -266,4 +248,3 @@ class Addressed(Protocol):
         Two that reach one drone are the same text then. Raises `ValueError` with what is wrong, to be said
         after the URI. Called before anything flies, also by `--dry-run`; reaches for nothing.
         """
-        ...

@@ -18,9 +18,8 @@ from ..shared.domain.airspace import Polygon, distance, inside, tidy
 from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
 from ..shared.domain.text import duration, number, percent, place
 from .commands import fly, land
-from .lag import Lag
 from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
-from .timeouts import shortened
+from .timeouts import Lag, shortened
 from .vehicle import LAND, RISE
 
 if TYPE_CHECKING:

@@ -23,7 +23,7 @@ from .localization import OWN, LocalizationFeed
 from .protocol import DroneSetup, Locatable, Readable
 from .recovery import recover, wait_until_home
 from .safety import EACH, SafetyMonitor, follow_events
-from .vehicle import Cargo, TeamDrone, Vehicle
+from .vehicle import Cargo, Vehicle
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -44,7 +44,8 @@ class Team:
     def __init__(
         self,
         kernel: RealTime,
-        drones: Sequence[TeamDrone],
+        drones: Sequence[FleetDrone],
+        navigations: Mapping[str, DroneNavigation],
         airspace: Airspace,
         *,
         folder: Path,
@@ -54,10 +55,11 @@ class Team:
         clock: Callable[[], float] = time.monotonic,
         loaded: Collection[str] = (),
         silence: float = SILENCE,
+        parameters: Mapping[str, Mapping[str, float]] | None = None,
     ) -> None:
         """`loaded`: the names of the navigations that drones may have that join.
 
-        `silence`: seconds for which a drone in the air may tell nothing.
+        `silence`: seconds for which a drone in the air may tell nothing. `parameters`: what each is set to.
         """
         self._loaded = frozenset(loaded)
         self._silence = silence
@@ -74,10 +76,15 @@ class Team:
         self._tasks: list[asyncio.Task[None]] = []
         self._monitoring: Subscription[float] | None = None
         for drone in drones:
-            self._have(drone)
+            self._have(drone, navigations[drone.id], (parameters or {}).get(drone.id))
 
-    def _have(self, drone: TeamDrone) -> Vehicle:
-        vehicle = Vehicle(drone, self._cargo, self._say, self._clock)
+    def _have(
+        self,
+        drone: FleetDrone,
+        navigation: DroneNavigation,
+        parameters: Mapping[str, float] | None,
+    ) -> Vehicle:
+        vehicle = Vehicle(drone, navigation, self._cargo, self._say, self._clock, parameters)
         self.vehicles[drone.id], self._told[drone.id] = vehicle, vehicle.telemetry
         self._links[drone.id] = Connection(vehicle)
         self._monitor.watch(vehicle)
@@ -96,21 +103,13 @@ class Team:
                 f"{drone.id} cannot join: no drone of this flight is flown by {how.navigation}, and to"
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
-        folder = self._folder / FILES
-        speed = drone.category.speed
-        navigation = make_one(how, drone.home, speed, folder, self._silence)
+        files = self._folder / FILES
+        navigation = make_one(how, drone.home, drone.category.speed, files, self._silence)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise deaf(self._feed.name, [drone.id])
             self._feed.feed(drone.id, navigation)
-        one = TeamDrone(
-            id=drone.id,
-            category=drone.category,
-            home=drone.home,
-            navigation=navigation,
-            parameters=how.parameters,
-        )
-        self._connect(self._have(one))
+        self._connect(self._have(drone, navigation, how.parameters))
 
     def begin(self) -> None:
         """Start to connect to all drones, and to monitor them; waits for none."""
@@ -286,16 +285,8 @@ def make_team(
     }
     return Team(
         kernel,
-        [
-            TeamDrone(
-                id=drone.id,
-                category=drone.category,
-                home=drone.home,
-                navigation=navigations[drone.id],
-                parameters=how[drone.id].parameters,
-            )
-            for drone in drones
-        ],
+        drones,
+        navigations,
         airspace,
         folder=folder,
         say=say,
@@ -303,6 +294,7 @@ def make_team(
         feeding=_feeding(real, navigations, say),
         loaded={drone.navigation for drone in real.drones},
         silence=real.silence,
+        parameters={drone.id: drone.parameters for drone in real.drones},
     )
 
 

@@ -11,8 +11,8 @@ from math import inf, isfinite
 from typing import TYPE_CHECKING, TypeVar
 
 from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
-from .lag import Lag
 from .protocol import CRASHED, DroneEvent, DroneTelemetry
+from .timeouts import Lag
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Point

@@ -9,7 +9,6 @@ import asyncio
 import json
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -25,7 +24,7 @@ from .telemetry import EMPTY, VehicleTelemetry
 from .timeouts import NavigationCalls, shortened
 
 if TYPE_CHECKING:
-    from ..shared.domain.model import Category, Point
+    from ..jobs.controls import FleetDrone
     from .protocol import DroneNavigation
 
 
@@ -86,29 +85,21 @@ RECENTLY = 3.0
 """Seconds after being seen in the air within which a crash counts as a fall from the air."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TeamDrone:
-    """The data of a drone that its vehicle needs."""
-
-    id: str
-    category: Category
-    home: Point
-    navigation: DroneNavigation
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    """What it is set to when it is connected to."""
-
-
 class Vehicle:
     """A drone flown by its navigation, in asyncio's loop."""
 
     def __init__(
         self,
-        drone: TeamDrone,
+        drone: FleetDrone,
+        navigation: DroneNavigation,
         cargo: Cargo,
         say: Callable[[str], object],
         clock: Callable[[], float],
+        parameters: Mapping[str, float] | None = None,
     ) -> None:
-        self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
+        """`parameters`: what it is set to when it is connected to."""
+        self.drone, self.id, self.navigation = drone, drone.id, navigation
+        self.parameters = parameters or {}
         self.position_problem: Callable[[], str | None] = _seeing
         """Returns why it has no position from its localization, if it needs one."""
         self.missing_actions: Callable[[], tuple[str, ...]] = tuple
@@ -253,7 +244,7 @@ class Vehicle:
         unset = list[str]()
         if not isinstance(navigation, Readable) or navigation.telemetry.flying:
             return  # in the air it has them since it was connected to first
-        for name, value in self.drone.parameters.items():
+        for name, value in self.parameters.items():
             try:
                 await self.calls.call(f"set {name}", SET, navigation.write, name, value)
             except FlightFailed as error:

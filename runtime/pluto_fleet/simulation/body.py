@@ -10,39 +10,17 @@ from typing import TYPE_CHECKING, Any, cast
 from ..jobs.reports import DroneReport
 from ..shared.alone.drones import Body
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.fleet_data import DroneData
-from ..shared.domain.model import Category, Point  # settings are read by these types
 from ..shared.domain.motion import varies
 from ..shared.fleet.telemetry import Charge, Leg
 from ..shared.hooks.plain_data import item_data, item_of, point_of
 from ..shared.time.kernel import FLEET, Key
 
 if TYPE_CHECKING:
-    from ..app import App
+    from ..jobs.controls import FleetDrone
     from ..shared.alone.world import World
-    from ..shared.domain.fleet_data import FleetData
+    from ..shared.domain.model import Point
     from ..shared.domain.trace import Clock
     from ..shared.time.kernel import Future
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SimulatedDrone:
-    """A drone to simulate, initially in its dock. Docks are on the ground, at height 0."""
-
-    id: str
-    category: Category
-    home: Point
-    index: int = 0
-    """Its index in the fleet file."""
-
-
-def simulated(app: App, fleet: FleetData) -> list[SimulatedDrone]:
-    """Return the drones of a fleet file, to be simulated."""
-    categories = {category.name: category for category in app.categories}
-    return [
-        SimulatedDrone(id=one.id, category=categories[one.category], home=one.home, index=index)
-        for index, one in enumerate(fleet.drones)
-    ]
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,11 +41,11 @@ HEIGHTS = 0.025
 class SimulatedBody(Body):
     """A drone by a kernel's clock."""
 
-    def __init__(self, drone: SimulatedDrone, world: World, time: Callable[[], float]) -> None:
+    def __init__(self, drone: FleetDrone, world: World, time: Callable[[], float]) -> None:
         self.on_change: Callable[[], object] = _nothing
         """Called when its state has changed other than by time."""
-        entry = DroneData(id=drone.id, category=drone.category.name, home=drone.home)
-        super().__init__(entry, drone.category, world, cast("Clock", _Clock(time)))
+        clock = cast("Clock", _Clock(time))
+        super().__init__(drone.id, drone.home, drone.category, world, clock)
         self.above = 0.0
         """How much higher than it is it says that it is."""
         self.key: Key = FLEET + 1 + drone.index

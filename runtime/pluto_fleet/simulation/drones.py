@@ -15,16 +15,14 @@ from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.text import place
 from ..shared.time.kernel import EventKind, Future, Kernel
-from .body import SimulatedBody, SimulatedDrone, Told
+from .body import SimulatedBody, Told
 
 if TYPE_CHECKING:
-    from ..jobs.controls import Command
+    from ..jobs.controls import Command, FleetDrone
     from ..jobs.reports import DroneReport
     from ..jobs.telemetry import Telemetry
     from ..shared.alone.world import World
     from ..shared.domain.model import Item, Point
-
-__all__ = ["SimulatedDrone", "SimulatedNavigation"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +48,7 @@ class SimulatedNavigation:
     def __init__(
         self,
         kernel: Kernel,
-        drones: Sequence[SimulatedDrone],
+        drones: Sequence[FleetDrone],
         world: World,
         faults: Faults,
         seed: int,
@@ -69,7 +67,7 @@ class SimulatedNavigation:
         self._forgotten: dict[str | None, Future[None]] = {}
         """By jobs, what to set when their actions were done and forgotten."""
 
-    def join(self, drone: SimulatedDrone, _: object = None) -> None:
+    def join(self, drone: FleetDrone, _: object = None) -> None:
         """Have one more drone, in its dock."""
         body = SimulatedBody(drone, self._world, self._kernel.time)
         self.bodies[drone.id] = body

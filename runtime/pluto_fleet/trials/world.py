@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
+from ..jobs.controls import fleet_drones
 from ..shared.alone.world import Faults, World
 from ..shared.time.kernel import FLEET
 from ..shared.time.kernel import EventKind as When
 from ..shared.time.told import VirtualTime
-from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
 from .case import Strike
@@ -34,7 +34,7 @@ class TrialWorld:
         self.fired, self.found = self.record.fired, self.record.found
         self.chance = Random(f"{case.seed}/trial")
         self.world = world = VirtualTime()
-        self.drones = simulated(app, case.fleet)
+        self.drones = fleet_drones(app, case.fleet)
         airspace = case.fleet.airspace
         self.navigation = SimulatedNavigation(
             world,

@@ -17,6 +17,7 @@ from pluto_fleet.flight.fly import live
 from pluto_fleet.flight.lives import flight_of
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.jobs.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
@@ -30,7 +31,6 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
 
@@ -48,7 +48,7 @@ class Tried:
         )
         self.fleet = apps.fleet(airspace=AIRSPACE)
         self.told: list[Event] = []
-        self.drones = simulated(self.app, self.fleet)
+        self.drones = fleet_drones(self.app, self.fleet)
         self.ledger = Ledger()
         self.gateway: Gateway | None = None
         self.watch: Callable[[Event], object] = lambda event: None

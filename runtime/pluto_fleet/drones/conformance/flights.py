@@ -36,11 +36,9 @@ class Subject(Protocol):
 
     def make(self) -> DroneNavigation:
         """Return a fresh navigation of a drone that is ready to fly."""
-        ...
 
     def truth(self, navigation: DroneNavigation) -> Truth | None:
         """Return the true state of its drone, if it is known."""
-        ...
 
 
 def now() -> float:
