@@ -13,7 +13,7 @@ from typing import Any
 from pluto_fleet.app import App
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.real_fleet import real_fleet
 from pluto_fleet.drones.team import Team, make_one
@@ -71,7 +71,7 @@ async def _flown(
         for one in crafts
     ]
     world = World(seed, fleet.airspace, fleet.world)
-    server = Server(builds, MemoryLog(), world)
+    server = Server(builds, FlightLog(), world)
     await server.start()
     for drone in server.drones.values():
         prepare(drone)

@@ -20,7 +20,7 @@ from typing import Any
 
 from pluto_fleet.crtp.drone import EMPTY_WORLD, Build
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import commands
 from pluto_fleet.drones.vehicle import Cargo, Vehicle
@@ -46,7 +46,7 @@ class Craft:
     """One drone with what flies it, and what each phase took besides its trajectory."""
 
     vehicle: Vehicle
-    log: MemoryLog
+    log: FlightLog
     home: tuple[float, float, float]
     beside: dict[str, list[float]] = field(default_factory=dict)
 
@@ -94,7 +94,7 @@ class Craft:
 
 async def measured(drones: int, times: int) -> dict[str, list[float]]:
     """Return the seconds of each phase besides what was planned."""
-    log, folder = MemoryLog(), Path(mkdtemp(prefix="phases-"))
+    log, folder = FlightLog(), Path(mkdtemp(prefix="phases-"))
     homes = [(1.0, 4.0 * place, 0.0) for place in range(drones)]
     builds = [
         Build(id=f"cf{place}", home=home, seed=place, flight=ENDURING)

@@ -111,15 +111,27 @@ def why_not(
         quantity = _quantity(parameters_)
         name = options.variable_of(quantity)
         if name is None:
-            return messages.no_quantity(drone, quantity, tuple(options.measure))
+            has = f"it measures {', '.join(options.measure)}; " if options.measure else ""
+            return (
+                f"{drone} cannot measure {quoted(quantity)}: {has}name its log variable in the fleet"
+                f' file: measure = {{ {quantity} = "group.name" }}'
+            )
         if cf is not None and not logs.has(cf, name):
             return messages.no_variable(drone, name)
         return None
     if action == PHOTO:
-        return messages.no_camera(drone) if options.camera is None else None
+        if options.camera is not None:
+            return None
+        return (
+            f"{drone} has no camera: name its AI-deck's streamer in the fleet file:"
+            ' camera = "192.168.4.1:5000"'
+        )
     if action in (PICK, RELEASE):
         if options.grip is None:
-            return messages.no_grip(drone)
+            return (
+                f"{drone} cannot pick or release: name the parameter of its gripper in the fleet file:"
+                ' grip = { parameter = "gripper.closed", pick = 1, release = 0 }'
+            )
         name = options.grip.parameter
         if cf is not None and parameters.element_of(cf, name) is None:
             return messages.no_parameter(drone, name)

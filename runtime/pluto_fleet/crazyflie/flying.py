@@ -33,7 +33,9 @@ _SEEN = 1.0
 def check(drone: str, target: Point, speed: float) -> None:
     """Refuse an invalid target or speed before anything moves."""
     if not all(map(isfinite, target)) or target[2] <= 0.0:
-        raise OutsideArea(messages.outside(drone, target))
+        raise OutsideArea(
+            f"{drone} cannot go to ({', '.join(map(number, target))}): it must be finite, and above the ground"
+        )
     check_speed(drone, speed)
 
 
@@ -157,7 +159,8 @@ async def _hovering(
         return state.finished and not session.doubts and hovers(session.recent, off)
 
     if await session.until(there, seconds + SLACK) is None:
-        raise TargetTimeout(messages.not_arrived(session.drone, what, off(session.now())))
+        missing = number(off(session.now()))
+        raise TargetTimeout(f"{session.drone} has not {what} in time: {missing} m are missing")
 
 
 async def _down(session: CrazyflieSession, ready: Callable[[State], bool], limit: float) -> None:

@@ -102,7 +102,9 @@ class AlarmDetector:
         if state.crashed and not self._crashed:
             yield DroneEvent(kind=CRASHED, reason=messages.LIES)
         if state.locked and not self._locked:
-            why = messages.LOCKED_BY_DECK if state.deck_failed else messages.IS_LOCKED
+            why = messages.IS_LOCKED
+            if state.deck_failed:
+                why = f"one of its decks reports a fault, and {why}"
             yield DroneEvent(kind=LOCKED, reason=why)
         self._crashed, self._locked = state.crashed, state.locked
         if self._battery_low(state):

@@ -234,7 +234,13 @@ class Crazyflie:
             return await parameters.read(session, name)
         variable = name if logs.has(session.cf, name) else self._options.variable_of(name)
         if variable is None or not logs.has(session.cf, variable):
-            raise Rejected(messages.nothing_to_read(self._id, name))
+            said = f"{self._id} has neither a log variable nor a parameter {quoted(name)}"
+            if "." not in name:
+                said += (
+                    "; what a quantity is read from, the fleet file says:"
+                    f' measure = {{ {name} = "group.name" }}'
+                )
+            raise Rejected(said)
         return await self._reader().mean(variable, 0.0)
 
     async def write(self, name: str, value: float) -> None:

@@ -265,7 +265,8 @@ class CrazyflieSession:
         """Return its state; raise if it cannot fly on."""
         state = self.now()
         if state.locked:
-            raise Locked(messages.locked(self.drone, state.deck_failed))
+            why = ", as one of its decks reports a fault" if state.deck_failed else ""
+            raise Locked(f"{self.drone} has locked its motors{why}: switch it off and on")
         if state.crashed:
             raise Crashed(f"{self.drone} has tumbled or crashed")
         return state
@@ -293,7 +294,7 @@ class CrazyflieSession:
             if cf.link is not None and not self.lost:
                 raise
             raise LinkLost(
-                messages.ended(self.drone, self.lost or messages.WHILE_SENDING)
+                messages.ended(self.drone, self.lost or "it was closed while something was sent")
             ) from error
 
     async def until(

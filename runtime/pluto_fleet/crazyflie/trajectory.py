@@ -15,7 +15,8 @@ from math import dist, inf, sqrt
 from typing import TYPE_CHECKING
 
 from ..shared.domain.motion import CLIMB_SPEED, MOST, PEAK, PUSH, SHORTEST, SINKS
-from . import messages, parameters
+from ..shared.domain.text import number
+from . import parameters
 
 if TYPE_CHECKING:
     from ..shared.domain.model import Point
@@ -122,7 +123,11 @@ class SpeedLimits:
         asked = (speed, speed, min(speed, _CLIMB))
         for name, limit, wanted in zip(_LIMIT_PARAMETERS, self.limits, asked, strict=True):
             if wanted > limit + _ROUNDING:
-                yield messages.too_fast(wanted, name, limit)
+                yield (
+                    f"it is to fly at up to {number(wanted)} m/s, and its firmware follows no course faster"
+                    f" than {number(limit)} m/s ({name}): give its category a lower speed, or set that"
+                    " parameter"
+                )
 
 
 def speed_limits_of(session: CrazyflieSession) -> SpeedLimits:

@@ -23,23 +23,12 @@ META, RELEASE = 1, 0
 
 
 class Setpoint(IntEnum):
-    """Position setpoints of the generic port."""
+    """Setpoints of the generic port that say where it is to be; others let it stay where it is."""
 
     STOP = 0
-    Z_DISTANCE_LEGACY = 2
-    HOVER_LEGACY = 5
-    FULL_STATE = 6
     POSITION = 7
-    Z_DISTANCE = 9
     HOVER = 10
 
-
-_WITH_HEIGHT = (
-    Setpoint.Z_DISTANCE_LEGACY,
-    Setpoint.HOVER_LEGACY,
-    Setpoint.Z_DISTANCE,
-    Setpoint.HOVER,
-)
 
 STOP = bytes(14)
 """A setpoint of the older port without thrust: cflib's goodbye over UDP."""
@@ -61,10 +50,7 @@ def target_of(port: int, data: bytes, here: Point) -> Point | None:
         if kind == Setpoint.POSITION:
             x, y, z, _ = struct.unpack("<ffff", data[1:])
             return x, y, z
-        if kind == Setpoint.FULL_STATE:
-            x, y, z = struct.unpack("<hhh", data[1:7])
-            return x / 1000.0, y / 1000.0, z / 1000.0
-        if kind in _WITH_HEIGHT:
+        if kind == Setpoint.HOVER:
             *_, height = struct.unpack("<ffff", data[1:])
             return here[0], here[1], height
     except struct.error:

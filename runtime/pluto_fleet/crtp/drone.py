@@ -186,12 +186,12 @@ class SimulatedCrazyflie:
         match port:
             case Port.LINK:
                 self._link(channel, data)
-            case Port.LOG:
-                answer = self._logs.take(channel, data, now)
+            case Port.LOG | Port.PARAMETERS:
+                if port == Port.LOG:
+                    answer = self._logs.take(channel, data, now)
+                else:
+                    answer = self.parameters.take(channel, data)
                 if answer is not None:
-                    self._send(answer)
-            case Port.PARAMETERS:
-                for answer in self.parameters.take(channel, data):
                     self._send(answer)
             case Port.HIGH_LEVEL if data:
                 told = command(data, self.body, self.supervisor, now, self.busy)

@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple, Protocol, TextIO
+from typing import NamedTuple, TextIO
 
 Point = tuple[float, float, float]
 
@@ -37,18 +37,8 @@ class PositionRecord(NamedTuple):
     at: Point
 
 
-class FlightLog(Protocol):
-    """Receives events; times are those of `time.monotonic`."""
-
-    def command(self, command: CommandRecord) -> None:
-        """Log a command."""
-
-    def position(self, place: PositionRecord) -> None:
-        """Log the position of a drone in the air."""
-
-
-class MemoryLog:
-    """A log in memory, for tests in this process."""
+class FlightLog:
+    """A log in memory; times are those of `time.monotonic`."""
 
     def __init__(self) -> None:
         self.commands: list[CommandRecord] = []
@@ -63,7 +53,7 @@ class MemoryLog:
         self.positions.append(place)
 
 
-class FileLog:
+class FileLog(FlightLog):
     """A log in two files of a folder, which are continued if they exist."""
 
     def __init__(self, folder: Path) -> None:

@@ -15,8 +15,8 @@ from .body import Body
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
 from .supervisor import Supervisor
 
-LOG_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
-_LETTERS = {kind: letter for letter, kind in LOG_TYPES.items()}
+_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
+_LETTERS = {kind: letter for letter, kind in _TYPES.items()}
 
 _CONTROL, _DATA = 1, 2
 
@@ -55,7 +55,7 @@ class Logs:
 
     def __init__(self, variables: Mapping[str, tuple[str, Reader]]) -> None:
         self._readers = [reader for _, reader in variables.values()]
-        kinds = [(name, LOG_TYPES[letter]) for name, (letter, _) in variables.items()]
+        kinds = [(name, _TYPES[letter]) for name, (letter, _) in variables.items()]
         self._table = TableOfContents(Port.LOG, kinds, bytes([MOST_BLOCKS, MOST_VARIABLES]))
         self._blocks: dict[int, _Block] = {}
 

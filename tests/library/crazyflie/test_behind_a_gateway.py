@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.team import Team
 from pluto_fleet.gateway.gateway import Gateway
@@ -30,7 +30,7 @@ FAILS = {"away": Failure.LINK, "tumbler": Failure.CRASH}
 
 
 async def fly(folder: Path) -> None:
-    record, asked = MemoryLog(), Asked()
+    record, asked = FlightLog(), Asked()
     builds = [Build(id=id, home=home) for id, home in HOMES.items()]
     server = Server(builds, record)
     await server.start()

@@ -111,7 +111,7 @@ async def test_one_that_is_still_telling_its_parameters_is_waited_for(one: Hanga
     cf = one.navigation
     await one.let("latency", 0.03)
     await cf.connect()
-    one.drone.parameters.put("posCtlPid.yVelMax", 0.5)
+    one.drone.parameters["posCtlPid.yVelMax"] = 0.5
     (reason,) = await cf.preflight()
     assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
 

@@ -7,7 +7,7 @@ from random import Random
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.faults import Value, let
-from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
+from pluto_fleet.crtp.flight_log import CommandRecord, FlightLog
 from pluto_fleet.crtp.packets import LossyChannel, Packet, Port, packed, unpacked
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
@@ -20,7 +20,7 @@ class Bench:
     """One drone, what it was sent, and what it has sent."""
 
     def __init__(self, build: Build = CF1) -> None:
-        self.record = MemoryLog()
+        self.record = FlightLog()
         self.sent: list[Packet] = []
         self.drone = SimulatedCrazyflie(
             build, self.record, lambda raw: self.sent.append(unpacked(raw))
