@@ -27,8 +27,7 @@ from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones.errors import NavigationError
-from pluto_fleet.drones.protocol import DroneSetup
+from pluto_fleet.drones.protocol import DroneSetup, NavigationError
 
 TICK = 0.002
 LIMIT = 0.050

@@ -14,10 +14,15 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
-from ..drones.errors import NavigationError
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
-from ..drones.protocol import Identifiable, Locatable, Readable, Scannable
+from ..drones.protocol import (
+    Identifiable,
+    Locatable,
+    NavigationError,
+    Readable,
+    Scannable,
+)
 from ..drones.real_fleet import RealDrone
 from ..drones.team import make_one
 from ..files.fleet import OWN

@@ -7,7 +7,13 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
-from ..drones.loading import canonical_uri, deaf, hears, load_localization, load_navigation
+from ..drones.loading import (
+    canonical_uri,
+    deaf,
+    hears,
+    load_localization,
+    load_navigation,
+)
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
 from ..files.drones import which

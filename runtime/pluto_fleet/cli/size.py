@@ -17,11 +17,10 @@ from ..shared.domain.text import counted, duration
 from ..shared.domain.trace import dumped
 from ..shared.flow.promises import kept_from
 from ..sizing.answer import Answer, sized
-from ..sizing.batteries import swapping
-from ..sizing.bounds import Rule, usual_runs
 from ..sizing.fleets import Stock
-from ..sizing.question import Question
+from ..sizing.question import Question, swapping
 from ..sizing.report import data, report
+from ..sizing.tries import Rule, usual_runs
 from .picture import drawing, kind_of, write
 from .plans import load
 from .written import refuse_if_there, write_new

@@ -14,20 +14,14 @@ from itertools import count
 from math import radians, tan
 from pathlib import Path
 from struct import Struct
-from typing import TYPE_CHECKING
 
-from ..drones.errors import ActionNotDone, PositionLost, Rejected
-from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE
+from ..drones.protocol import ActionNotDone, PositionLost, Rejected
+from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
 from ..shared.domain.model import Photo
 from ..shared.domain.text import quoted
 from . import logs, messages, parameters
-
-if TYPE_CHECKING:
-    from ..shared.domain.actions import Plain
-    from .options import CrazyflieOptions
-    from .session import CrazyflieSession
-    from .worker import Worker
-
+from .options import CrazyflieOptions
+from .session import CrazyflieSession, Worker
 
 _PACKET = Struct("<HBB")
 _WAY = 2
@@ -89,7 +83,6 @@ async def _next(reader: asyncio.StreamReader) -> Picture:
 
 
 async def _part(reader: asyncio.StreamReader) -> bytes:
-    """Return the data of one packet."""
     length, _, _ = _PACKET.unpack(await reader.readexactly(_PACKET.size))
     return await reader.readexactly(max(0, length - _WAY))
 

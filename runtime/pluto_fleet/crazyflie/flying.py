@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from math import inf, isfinite
-from typing import TYPE_CHECKING
 
-from ..drones.errors import (
+from ..drones.protocol import (
     NavigationError,
     NotReady,
     OutsideArea,
@@ -15,14 +14,12 @@ from ..drones.errors import (
     Rejected,
     TargetTimeout,
 )
+from ..shared.domain.model import Point
 from ..shared.domain.text import number
-from . import commander, messages, supervisor
+from . import commander, messages
+from .session import CrazyflieSession
+from .state import State
 from .trajectory import NEAR, SLACK, braking, hovers, speed_limits_of
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-    from .session import CrazyflieSession
-    from .state import State
 
 _SETTLES = 6.0
 """Seconds after its motors have stopped within which it may still report to fly."""
@@ -40,7 +37,6 @@ def check(drone: str, target: Point, speed: float) -> None:
 
 
 def check_speed(drone: str, speed: float) -> None:
-    """Refuse an invalid speed."""
     if not 0.0 < speed < inf:
         raise Rejected(f"{drone} cannot fly at {number(speed)} m/s: a speed must be above 0")
 
@@ -60,7 +56,7 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
     except (NotReady, Rejected):
         with suppress(NavigationError):
             if not (await session.fresh()).flies:
-                await supervisor.disarm(session)
+                await commander.disarm(session)
         raise
     await _hovering(session, lambda state: abs(state.position[2] - height), seconds, "risen")
 
@@ -70,7 +66,7 @@ async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bo
     await session.fresh()
     if await session.until(lambda state: not state.flies, _SETTLES) is None:
         raise Rejected(f"{session.drone} cannot take off: it says that it still flies")
-    await supervisor.rearm(session)
+    await commander.rearm(session)
     session.took_off_at = session.loop.time()
     try:
         await commander.takeoff(session, height, seconds)

@@ -79,7 +79,6 @@ def release(version: int) -> str:
 
 
 def deviation(variance: float) -> str:
-    """Format a variance as a standard deviation."""
     return f"{sqrt(variance):.2f} m" if isfinite(variance) else "any distance"
 
 

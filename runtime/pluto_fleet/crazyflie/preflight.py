@@ -5,20 +5,13 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Iterator, Mapping
 from math import ceil
-from typing import TYPE_CHECKING
 
 from ..shared.domain.text import number, quoted
 from . import messages, parameters
-from .health import FULLEST
-from .state import SETTLED_FOR
+from .options import CrazyflieOptions
+from .session import CrazyflieSession
+from .state import FULLEST, SETTLED_FOR, BatteryGauge, State
 from .trajectory import DEFAULT_LIMIT, speed_limits_of
-
-if TYPE_CHECKING:
-    from .health import BatteryGauge
-    from .options import CrazyflieOptions
-    from .session import CrazyflieSession
-    from .state import State
-
 
 _DECK = "deck."
 _SETTLING = 1.5
@@ -36,7 +29,6 @@ _READ = 8.0
 async def problems(
     session: CrazyflieSession, battery: BatteryGauge, options: CrazyflieOptions, speed: float
 ) -> list[str]:
-    """Return all reasons."""
     version = session.cf.platform.get_protocol_version()
     if version < messages.PROTOCOL:
         release = messages.release(version)
@@ -166,7 +158,6 @@ async def _of_camera(where: tuple[str, int]) -> list[str]:
 
 
 def decks(session: CrazyflieSession) -> list[str]:
-    """Return its decks, as its firmware names them."""
     return [
         name.removeprefix(_DECK)
         for name, value in sorted(parameters.known(session).items())

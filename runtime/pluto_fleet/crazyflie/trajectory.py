@@ -12,17 +12,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import dist, inf, sqrt
-from typing import TYPE_CHECKING
 
+from ..shared.domain.model import Point
 from ..shared.domain.motion import CLIMB_SPEED, MOST, PEAK, PUSH, SHORTEST, SINKS
 from ..shared.domain.text import number
 from . import parameters
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-    from .session import CrazyflieSession
-    from .state import State
-
+from .session import CrazyflieSession
+from .state import State
 
 NEAR = 0.08
 """Metres from its target within which it has arrived: it sways, and must stay within ten centimetres."""

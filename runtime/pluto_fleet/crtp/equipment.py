@@ -63,7 +63,6 @@ async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) ->
 
 
 def port_of(server: asyncio.Server) -> int:
-    """Return the port of the stream."""
     return int(server.sockets[0].getsockname()[1])
 
 

@@ -45,11 +45,9 @@ class FlightLog:
         self.positions: list[PositionRecord] = []
 
     def command(self, command: CommandRecord) -> None:
-        """Log a command."""
         self.commands.append(command)
 
     def position(self, place: PositionRecord) -> None:
-        """Log a position."""
         self.positions.append(place)
 
 
@@ -62,13 +60,11 @@ class FileLog(FlightLog):
         self._size = self._trace.tell()
 
     def command(self, command: CommandRecord) -> None:
-        """Write a command at once."""
         with suppress(OSError):  # a full disk must not stop drones
             self._commands.write(json.dumps(command._asdict()) + "\n")
             self._commands.flush()
 
     def position(self, place: PositionRecord) -> None:
-        """Write a position soon."""
         if self._size > _LARGEST:
             return
         x, y, z = place.at
@@ -77,12 +73,10 @@ class FileLog(FlightLog):
             self._size += self._trace.write(written)
 
     def flush(self) -> None:
-        """Write what is buffered."""
         with suppress(OSError):
             self._trace.flush()
 
     def close(self) -> None:
-        """Write all, and no more."""
         with suppress(OSError):
             self._commands.close()
             self._trace.close()

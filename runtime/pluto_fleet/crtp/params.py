@@ -30,7 +30,6 @@ class Parameter:
     persistent: bool = False
 
     def packed(self) -> bytes:
-        """Return its value as it is sent."""
         value = self.value if self.letter == "f" else int(self.value)
         return struct.pack("<" + self.letter, value)
 
@@ -60,12 +59,10 @@ class Parameters:
         self._by_name[name].value = value
 
     def reset(self) -> None:
-        """Reset all, as after a restart."""
         for one, default in zip(self._all, self._defaults, strict=True):
             one.value = default
 
     def take(self, channel: int, data: bytes) -> bytes | None:
-        """Return the answer to a packet."""
         if channel == TABLE_CHANNEL:
             return self._table.answer(data)
         head, rest = (data[:3], data[1:3]) if channel == _MISC else (data[:2], data[:2])

@@ -46,12 +46,10 @@ class Supervisor:
 
     @property
     def can_fly(self) -> bool:
-        """Whether the motors may turn."""
         return self.armed and not (self.locked or self.crashed or self.tumbled)
 
     @property
     def can_arm(self) -> bool:
-        """Whether it can be armed."""
         blocked = self.locked or self.crashed or self.tumbled or self.faulty
         return not (self.armed or self._resets or blocked)
 
@@ -78,11 +76,9 @@ class Supervisor:
         return not self.crashed
 
     def lock(self) -> None:
-        """Lock it until a restart."""
         self.locked, self.armed = True, False
 
     def restart(self) -> None:
-        """Reset, as after a restart."""
         self.armed = self.locked = self.crashed = self.flying = False
         self.faulty = self._warned = self._resets = False
         self._turns_since = None
@@ -90,7 +86,6 @@ class Supervisor:
         self._thrust_at = self._armed_at = _NEVER
 
     def step(self, now: float, *, thrust: bool, tumbled: bool) -> None:
-        """Advance the time."""
         self._turns_since = (self._turns_since or now) if thrust else None
         if self._turns_since is not None and now - self._turns_since >= _NOTICES:
             self._thrust_at = now
@@ -122,7 +117,6 @@ class Supervisor:
             self.lock()
 
     def info(self, *, high_level: bool, finished: bool, planner_off: bool = False) -> int:
-        """Return the bits of `supervisor.info`."""
         bits = (
             self.can_arm,
             self.armed,

@@ -9,7 +9,7 @@ The rules for all commands:
 - They are coroutines on asyncio's event loop, and *return when it is done*: on arrival by the
   drone's telemetry (0.1 m), hovering, landed. A command that returns earlier lets an app do its action
   somewhere else.
-- They *raise one `NavigationError` per failure* (`errors.py`), as soon as it is known: a drone that is
+- They *raise one `NavigationError` per failure* (below), as soon as it is known: a drone that is
   silent for more than a second during a command is `LinkLost`, one that fell is `Crashed`, one that
   answers but does not arrive is `TargetTimeout`. None waits without a limit.
 - They *refuse what they cannot do before anything moves*, and never do something like it instead. A
@@ -21,6 +21,10 @@ The rules for all commands:
 - *Nothing may block the event loop* for more than 50 ms: all drones are flown by it. A library
   that blocks is called in a thread of the navigation's own, a daemon, with limits; what that thread
   receives comes back by `loop.call_soon_threadsafe`.
+
+What counts of an error is its attribute `failure`, and not its class: a navigation in another package need
+not import these, but only give its exceptions this attribute. Their text is a reason for a person, such as
+"cf1 stopped answering 1.2 s ago".
 """
 
 from __future__ import annotations
@@ -28,13 +32,88 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import ClassVar, Protocol, runtime_checkable
 
 from ..jobs.reports import SILENCE
+from ..shared.domain.actions import Plain
+from ..shared.domain.model import Item, Point
 
-if TYPE_CHECKING:
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
+
+class NavigationError(Exception):
+    """A drone could not carry out a command, for a reason outside the software.
+
+    Any other exception of a navigation is a bug in it: the flight fails with that reason, and the
+    traceback goes to the log.
+    """
+
+    failure: ClassVar[str] = "ACTION"
+    """LINK, CRASH, BATTERY, REFUSED or ACTION: the kind of failure for the app."""
+
+
+class LinkLost(NavigationError):
+    """It does not answer, or has sent nothing for more than a second.
+
+    Its position is unknown; it is reconnected, and flown home if it still hovers.
+    """
+
+    failure = "LINK"
+
+
+class Crashed(NavigationError):
+    """It fell, hit something or lies on its back: it needs a person."""
+
+    failure = "CRASH"
+
+
+class Locked(NavigationError):
+    """Its motors are locked until it is restarted."""
+
+    failure = "CRASH"
+
+
+class PositionLost(NavigationError):
+    """It has lost its position: it lands, and does no action there.
+
+    Also sent as an event, as a drone without a command must come down as well.
+    """
+
+    failure = "LINK"
+
+
+class BatteryLow(NavigationError):
+    """Its battery is too low for this."""
+
+    failure = "BATTERY"
+
+
+class Rejected(NavigationError):
+    """It answered, and refuses: a command at the wrong moment, or an unknown name."""
+
+    failure = "REFUSED"
+
+
+class NotReady(NavigationError):
+    """It is not in a state to fly; `preflight` says why."""
+
+    failure = "REFUSED"
+
+
+class OutsideArea(NavigationError):
+    """The target is not permitted: refused before it moves, and never adjusted."""
+
+    failure = "REFUSED"
+
+
+class TargetTimeout(NavigationError):
+    """It is healthy and answers, but has not arrived in ample time."""
+
+    failure = "ACTION"
+
+
+class ActionNotDone(NavigationError):
+    """An action failed; the drone is healthy."""
+
+    failure = "ACTION"
 
 
 LINK_LOST = "link lost"

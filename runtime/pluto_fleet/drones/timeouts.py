@@ -124,7 +124,6 @@ class NavigationCalls:
             self.say(what)
 
     def took(self, seconds: float) -> None:
-        """Called with the duration of a step."""
         if seconds > BLOCKED and self._is_news("blocked"):
             self.say(f"the navigation of {self.drone} blocked for {duration(seconds)}")
 

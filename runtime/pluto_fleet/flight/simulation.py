@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Future, Kernel
-    from ..simulation.body import SimulatedBody
+    from ..simulation.drones import SimulatedBody
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]

@@ -12,8 +12,8 @@ import pytest
 from pluto_fleet.crazyflie import driver, messages
 from pluto_fleet.crazyflie.driver import cache_folder
 from pluto_fleet.crazyflie.options import options_of
-from pluto_fleet.crazyflie.worker import Worker
-from pluto_fleet.drones.errors import LinkLost
+from pluto_fleet.crazyflie.session import Worker
+from pluto_fleet.drones.protocol import LinkLost
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.kit.command import python
 

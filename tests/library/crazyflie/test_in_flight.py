@@ -9,8 +9,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import Crashed, Locked, NotReady, Rejected
-from pluto_fleet.drones.protocol import CRASHED, LOCKED
+from pluto_fleet.drones.protocol import CRASHED, LOCKED, Crashed, Locked, NotReady, Rejected
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 

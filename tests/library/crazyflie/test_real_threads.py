@@ -10,8 +10,7 @@ import pytest
 
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import FlightLog
-from pluto_fleet.drones.errors import LinkLost
-from pluto_fleet.drones.protocol import LINK_LOST
+from pluto_fleet.drones.protocol import LINK_LOST, LinkLost
 from tests.kill.lives import eventually
 from tests.library.crazyflie.hangar import FAST, PATIENCE, hangar, navigation
 from tests.library.crtp.radio import Ether, plugged_in

@@ -10,8 +10,7 @@ import pytest
 from pluto_fleet.crazyflie import preflight
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import PositionLost
-from pluto_fleet.drones.protocol import POSITION_LOST
+from pluto_fleet.drones.protocol import POSITION_LOST, PositionLost
 from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 

@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import pytest
 
 from pluto_fleet.drones.localization import LocalizationFeed
-from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction
 from pluto_fleet.drones.team import Team
 from pluto_fleet.jobs.controls import FleetDrone, TakeOff
 from pluto_fleet.process.realtime import RealTime
@@ -89,10 +89,16 @@ class Flown(Asked):
             FIELD,
             folder=folder,
             say=self.log.append,
-            wanted=wanted,
+            real=RealFleet(
+                drones=tuple(
+                    RealDrone(id=id, navigation="", uri=None, options={}, parameters=parameters)
+                    for id in self.drones
+                    if parameters
+                ),
+                wanted=tuple(wanted),
+            ),
             feeding=feeding,
             clock=the_loop().time,
-            parameters=dict.fromkeys(self.drones, parameters or {}),
         )
 
     async def up(self, drone: str = "cf1") -> FakeDrone:
