@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .domain.app import SEAM, about, moving
@@ -30,14 +31,13 @@ from .flow.record import (
     Row,
     changed_rows,
     drone_standing,
-    mission_of,
     result_row,
     standing_of,
     whereabouts_of,
 )
 from .flow.transitions import Changes, Transitions
 from .time.hours import Hours
-from .time.kernel import FLEET, Future
+from .time.kernel import Future
 from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
 
 if TYPE_CHECKING:
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
     from .domain.app import App
     from .domain.trace import Event
     from .flow.mission import MissionState
-    from .time.kernel import Task
 
 __all__ = ["SEAM", "BadInput", "Brain", "about", "put_guard"]
 
@@ -106,22 +105,10 @@ class Brain:
         core.fleet.changed = changes.drone
         self._engine = engine = Engine(core, self._states)
         self._control = Control(engine)
-        self._whole: Task[float] | None = None
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._begin, missions)
-
-    def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
-        first = len(self._states)
-        self._engine.start(
-            [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
-        )
-        self._see_through()
-
-    def _see_through(self) -> None:
-        if self._whole is None or self._whole.is_set:
-            self._whole = self._kernel.spawn(self._engine.see_through(), FLEET, "the whole")
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._engine.start, missions)
 
     def restore(self, standing: Mapping[str, Any], now: float) -> None:
         """Have missions, drones and results as their rows say, after any end: as in `standing()`.
@@ -137,12 +124,7 @@ class Brain:
         Each may have the `report` of how its flight ended; without one, a flight that was not settled flies
         on. `drones` are the reports of those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
         """
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._go_on, (missions, drones))
-
-    def _go_on(self, given: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
-        missions, drones = given
-        self._engine.go_on(missions, drones)
-        self._see_through()
+        self._kernel.call(now, ONLY_WHAT_IS_READY, partial(self._engine.go_on, missions), drones)
 
     def command(self, request: Mapping[str, Any], now: float) -> None:
         """Do what a person wants, or what was found out; raise `BadInput` with the reason why it cannot be done.
@@ -240,8 +222,7 @@ class Brain:
     @property
     def over(self) -> float | None:
         """When the last mission ended, once all have and every drone has landed; None: not yet."""
-        whole = self._whole
-        return whole.result() if whole is not None and whole.is_set else None
+        return None if self._core.fleet.errands else self._engine.ended_at
 
     def whereabouts(self) -> Mapping[str, Any]:
         """Return where each mission that has not ended is in its graph.

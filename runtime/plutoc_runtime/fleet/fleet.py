@@ -129,11 +129,6 @@ class Fleet:
         """Take a drone back that was allocated and not launched."""
         self._send(drone, DroneStatus.BUSY, self._stay, "is not needed")
 
-    async def all_down(self) -> None:
-        """Wait until no drone is returning, landing or recovering."""
-        while under_way := [task for task in self.errands.values() if not task.is_set]:
-            await under_way[0].ended()
-
     def _send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)
         self._become(drone, status)

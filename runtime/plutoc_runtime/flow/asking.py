@@ -89,7 +89,7 @@ def take_over(state: MissionState, hook: Hook) -> None:
         if trip in changed:
             core.changes.trip(mission, trip)
     core.changes.mission(mission.name)
-    if core.trace.live and (changed or trips != before):
+    if changed or trips != before:
         _note_change(core, mission, changed)
     before[:] = trips
 

@@ -13,14 +13,14 @@ from ..domain.status import FAILED, RUNNING, STANDBY, UNEXECUTED, Status
 from ..domain.text import said
 from ..fleet.orders import failure_of
 from ..hooks.plain_data import value_of
-from ..time.kernel import Future, Task
 from .mission import Core, MissionState
 from .promises import Promises
-from .record import Record, restore_drone, restore_results, restored
+from .record import Record, mission_of, restore_drone, restore_results, restored
 from .run import Run
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
+    from ..time.kernel import Task
     from .flight import Flight
 
 
@@ -34,35 +34,28 @@ class Engine:
         self._fields = {(kinds[field.on], field.name): field for field in core.app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
-        self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
+        self.ended_at: float | None = None
+        """When the last mission on its way ended, or was suspended; None: not yet."""
 
     @property
     def living(self) -> int:
         """How many missions are on their way through their graphs, and not waiting for others."""
         return self._begun - len(self.promises.waiting)
 
-    def start(self, missions: Sequence[Mission[Any]]) -> None:
-        """Start the missions, all at the same instant."""
-        states = [self.new_state(mission) for mission in missions]
-        for state in states:
+    def start(self, missions: Sequence[Record]) -> None:
+        """Start missions, given as data, all at the same instant."""
+        index = len(self.states)
+        new = [mission_of(self.core.app, data, index + i) for i, data in enumerate(missions)]
+        for state in [self.new_state(mission) for mission in new]:
             self.states[state.mission.name] = state
             if state.mission.promises:
                 self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
 
-    async def see_through(self) -> float:
-        """Wait until every mission has ended and every drone has landed; return when the last one ended."""
-        while True:
-            await self.done
-            ended = self.core.kernel.now
-            await self.core.fleet.all_down()
-            if self.done.is_set:  # no mission has been resumed meanwhile
-                return ended
-
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
         self.keep(mission, trips_of(mission))
-        return MissionState(self.core, mission, self._doomed)
+        return MissionState(self.core, mission, self._call_off)
 
     def keep(self, mission: Mission[Any], trips: Iterable[Trip]) -> None:
         """Have a mission kept, with trips that it has: from now on hooks may write what they may."""
@@ -72,8 +65,7 @@ class Engine:
 
     def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
-        if self.done.is_set:
-            self.done = Future()
+        self.ended_at = None
         mission = state.mission
         run = Run(mission, state, state.key)
         run.at = state.at
@@ -84,9 +76,6 @@ class Engine:
         run.task = state.task = state.spawn(flow, mission.name)
         run.task.over = partial(self._ended, state)
         self._begun += 1
-
-    def _doomed(self, state: MissionState) -> None:
-        state.spawn(self._call_off(state), f"{state.mission.name} is doomed")
 
     async def _call_off(self, state: MissionState) -> None:
         """Cancel a mission once the coroutine that found out that it must end has had its turn.
@@ -268,9 +257,9 @@ class Engine:
         self.core.log(detail + block, state.mission.name)
 
     def look_for_the_end(self) -> None:
-        """Set `done` if every mission has ended, or was suspended, or waits for others that were."""
-        if not self.living:
-            self.done.set(None)
+        """Note when every mission has ended, or was suspended, or waits for others that were."""
+        if not self.living and self.ended_at is None:
+            self.ended_at = self.core.kernel.now
 
     def _end(
         self, state: MissionState, status: Status, reason: str, *, was_out: bool = False

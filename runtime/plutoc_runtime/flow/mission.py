@@ -49,8 +49,7 @@ class Core:
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""
-        if self.trace.live:
-            self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
+        self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
 
 
 T = TypeVar("T")
@@ -64,8 +63,8 @@ class MissionState:
 
     core: Core
     mission: Mission[Any]
-    doomed: Callable[[MissionState], object]
-    """Called when it must end, even if its graph would continue."""
+    call_off: Callable[[MissionState], Coroutine[Any, Any, None]]
+    """Ends it, even if its graph would continue."""
     task: Task[Status] | None = None  # the coroutine that runs its flow
     at: str | None = None  # the last block reached at which it can resume after an interruption
     block: str = ""
@@ -134,7 +133,7 @@ class MissionState:
         """End it as FAILED, wherever it is in its graph; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
-            self.doomed(self)
+            self.spawn(self.call_off(self), f"{self.mission.name} is doomed")
 
     @property
     def key(self) -> Key:
