@@ -8,10 +8,10 @@ from math import ceil
 
 from ..shared.domain.text import number, quoted
 from . import messages, parameters
+from .flying import DEFAULT_LIMIT, speed_limits_of
 from .options import CrazyflieOptions
 from .session import CrazyflieSession
 from .state import FULLEST, SETTLED_FOR, BatteryGauge, State
-from .trajectory import DEFAULT_LIMIT, speed_limits_of
 
 _DECK = "deck."
 _SETTLING = 1.5

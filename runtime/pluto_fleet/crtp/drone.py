@@ -14,12 +14,11 @@ from ..shared.domain.model import Category
 from ..shared.domain.motion import CRAZYFLIE
 from .battery import CHARGE, FLIGHT, CarriedBody
 from .body import NOISE, RATE, Body, Estimator
-from .commander import META, RELEASE, command, target_of
+from .commander import META, RELEASE, Supervisor, command, target_of
 from .flight_log import CommandRecord, FlightLog, Point, PositionRecord
 from .logs import Logs, quantities, variables
 from .packets import NULL, PROTOCOL, Port, packed, unpacked
 from .params import Parameters, parameters
-from .supervisor import Supervisor
 
 _UNSURE = 0.5
 """The variance of its position while it is unsure, in square metres."""

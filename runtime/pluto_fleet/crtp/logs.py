@@ -12,8 +12,8 @@ from functools import partial
 from ..shared.alone.world import World
 from .battery import CarriedBody
 from .body import Body
+from .commander import Supervisor
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
-from .supervisor import Supervisor
 
 _TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
 _LETTERS = {kind: letter for letter, kind in _TYPES.items()}

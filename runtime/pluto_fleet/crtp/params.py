@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from .battery import EMPTY, LOW
+from .commander import LANDED
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
-from .supervisor import LANDED
 
 _TYPES = {"b": 0x00, "h": 0x01, "i": 0x02, "f": 0x06, "B": 0x08, "H": 0x09, "L": 0x0A}
 _EXTENDED, _READ_ONLY = 0x10, 0x40
