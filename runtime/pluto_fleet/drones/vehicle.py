@@ -173,7 +173,7 @@ class Vehicle:
         """`parameters`: what it is set to when it is connected to."""
         self.drone, self.id, self.navigation = drone, drone.id, navigation
         self.parameters = parameters or {}
-        self.position_problem: Callable[[], str | None] = _seeing
+        self.position_problem: Callable[[], str | None] = lambda: None
         """Returns why it has no position from its localization, if it needs one."""
         self.missing_actions: Callable[[], tuple[str, ...]] = tuple
         """Returns the actions that the plan needs, and its hardware cannot do."""
@@ -183,7 +183,7 @@ class Vehicle:
         )
         self.commands = CommandQueue(self.hover)
         self.linked = False
-        self.on_lost: Callable[[], object] = _nothing
+        self.on_lost: Callable[[], object] = lambda: None
         """Called when its link is lost."""
         self.out_of_reach = f"{drone.id} has not been reached yet"
         """Why it is not linked, if it is not."""
@@ -371,11 +371,3 @@ class Vehicle:
                 await self.calls.call("hover", HOLD, self.navigation.hold)
             except FlightFailed as error:
                 self.calls.say(f"{self.id} was to hover: {error}")
-
-
-def _nothing() -> None:
-    """Ignore a lost link."""
-
-
-def _seeing() -> None:
-    """Return None: it localizes itself."""

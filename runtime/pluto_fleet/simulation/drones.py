@@ -54,7 +54,7 @@ class SimulatedBody(Body):
     """A drone by a kernel's clock."""
 
     def __init__(self, drone: FleetDrone, world: World, time: Callable[[], float]) -> None:
-        self.on_change: Callable[[], object] = _nothing
+        self.on_change: Callable[[], object] = lambda: None
         """Called when its state has changed other than by time."""
         clock = cast("Clock", _Clock(time))
         super().__init__(drone.id, drone.home, drone.category, world, clock)
@@ -207,10 +207,6 @@ class Told:
     @property
     def landed(self) -> bool:
         return self._body.landed
-
-
-def _nothing() -> None:
-    """Do nothing: no callback is set."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
