@@ -32,6 +32,7 @@ from ..report.sentences import line_of
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
+from ..station.sight import noting
 from .interrupts import Interrupts
 from .plans import load
 from .preflight import check_flight, check_real
@@ -157,7 +158,8 @@ async def _heard(
 ) -> FlightResult:
     """Run a flight with its interrupt handlers."""
     interrupts.loop = asyncio.get_running_loop()
-    return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
+    observer = FlightObserver(tell=tell, say=output.tell, born=noting(flight, stops))
+    return await run_flight(flight, store, stops, known, observer)
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:

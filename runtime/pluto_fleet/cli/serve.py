@@ -136,7 +136,6 @@ async def _serve(
             station.leave()
             await leaves
             await server
-        await station.recorded()
 
 
 def _guard(options: Options, config: StationConfig, port: int) -> Guard:

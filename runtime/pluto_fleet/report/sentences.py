@@ -138,6 +138,7 @@ _SENTENCES: Mapping[str, Say] = {
     "drone.lost": _lost,
     "clock.moved": _clock_moved,
     "log": lambda event: str(event["text"]),
+    "said": lambda event: str(event["text"]),
 }
 
 
@@ -225,4 +226,5 @@ _JOURNAL_SENTENCES: Mapping[str, Say] = {
     "drone.charging": "{drone} charges",
     "drone.offline": "{drone} does not answer",
     FLEW: lambda _: None,
+    "shown": lambda _: None,
 }

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..journal.facts import DRAINED
+from ..journal.facts import DRAINED, SAID
 from ..report.sentences import line_of, sentence_of
 from .results.meaning import Meanings
 from .results.rows import NameOf, ResultRows, nowhere
@@ -195,6 +195,9 @@ def kind_of(event: Event) -> LineKind:
     kind = event["event"]
     if kind == "log":
         return "hook"
+    if kind == SAID:
+        said: LineKind = event["kind"]
+        return said
     if kind in _BAD or event.get("status") == "FAILED":
         return "bad"
     return "good" if kind == "mission.ended" and event["status"] == "COMPLETED" else "info"

@@ -62,9 +62,6 @@ ANSWERS_KEPT = 1_000
 GATEWAY_ANSWERS_WITHIN = 5.0
 """The time-out of a gateway without a brain, in seconds."""
 
-RECORDED_WITHIN = 5.0
-"""Seconds that its end waits for a recording to be written."""
-
 LOOK_EVERY = 0.1
 """The polling interval of its end, in seconds."""
 
@@ -326,7 +323,7 @@ class Station:
         return "going on where it was"
 
     def _fly(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
-        """Let a flight begin, or go on, and be recorded."""
+        """Let a flight begin, or go on, and be watched."""
         session.begin(store, known)
         self._watching = asyncio.ensure_future(self._updates.watch(session))
 
@@ -439,16 +436,11 @@ class Station:
         self._lock_what_flies()
         if self.session is not None and self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
-        if self._leaving:
-            self.leaves.set()
-        if self.session is not None:  # at last, so that an error of the display keeps nothing back
-            self._updates.close(self.session)
-
-    async def recorded(self) -> None:
-        """Wait until what was shown of the last flight is recorded, but not for a disk that hangs."""
-        recorder = self.session.recorder if self.session is not None else None
-        if recorder is not None:
-            await asyncio.to_thread(recorder.wait, RECORDED_WITHIN)
+        try:
+            self._updates.close()
+        finally:  # an error of the display keeps nothing back
+            if self._leaving:
+                self.leaves.set()
 
     # What pages show
 

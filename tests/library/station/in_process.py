@@ -202,7 +202,6 @@ class Flown(Asked):
         async def leave() -> None:
             self.life.leave()
             await self.life.leaves.wait()
-            await self.life.recorded()
 
         self.world.run(leave())
 

@@ -15,8 +15,7 @@ from ...process.untrusted import fits, parsed
 from ..wire import FlightSummary
 from .airborne import Work
 from .digest import Digest, digest_of
-from .folder import journals_in, recording_of
-from .reading import JournalText
+from .reading import JournalText, journals_in
 
 if TYPE_CHECKING:
     from ...app import App
@@ -70,11 +69,10 @@ class KeptDigests:
         return stamp, digest_of(id, JournalText(path), self._app)
 
     def _present(self, digest: Digest, path: Path) -> Digest:
-        """Add what the journal itself does not tell: whether it flies now, and was recorded."""
+        """Add what the journal itself does not tell: whether it flies now."""
         summary = digest.summary.copy()
         if summary["end"] != "unknown" and holder(path) is not None:
             summary["end"], summary["ended_at"] = "flying", None
-        summary["recorded"] = recording_of(path).exists()
         return Digest(summary=summary, work=digest.work)
 
     def _read(self) -> dict[str, tuple[Stamp, Digest]]:

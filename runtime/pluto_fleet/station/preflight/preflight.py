@@ -19,8 +19,7 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.status import TripStatus
 from ...shared.domain.text import duration
 from ...trials.case import fresh
-from ..history.folder import rehearsals_in
-from ..history.recording import SUFFIX
+from ..history.reading import REHEARSAL, rehearsals_in
 from ..plan.problems import broken, promised
 from ..words import words
 from .forecast import forecast, without_runs
@@ -94,7 +93,7 @@ class Preflight:
         self, question: Question, keys: Sequence[str], problems: list[Words]
     ) -> Forecast:
         id = f"rehearsal-{secrets.token_hex(8)}"
-        path = self._folder / f"{id}{SUFFIX}"
+        path = self._folder / f"{id}{REHEARSAL}"
         rehearsed = None
         try:
             flown = await self._flown(question, path)
@@ -137,7 +136,7 @@ class Preflight:
 
     def _tidy(self) -> None:
         """Delete all rehearsals but the newest."""
-        there = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: path.stat().st_mtime)
+        there = sorted(self._folder.glob(f"*{REHEARSAL}"), key=lambda path: path.stat().st_mtime)
         for path in there[:-KEPT]:
             path.unlink(missing_ok=True)
 
