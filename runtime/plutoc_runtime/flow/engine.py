@@ -98,13 +98,8 @@ class Engine:
         flight = state.in_flight
         if flight is not None:
             state.break_off(flight)
-            if flight.trip.item is not None:
-                state.holds = flight.flier
-            holds = state.carrier or state.holds
-            if holds is None:
+            if state.keep_item(flight) is None:
                 self.core.fleet.recover(flight.flier)
-            else:
-                state.keep_carrier(holds)
         if state.allocated is not None and state.allocated is not state.carrier:
             self.core.fleet.never_flew(state.allocated)
         state.allocated = None
@@ -166,23 +161,13 @@ class Engine:
                 continue
             if name in missions:
                 self._resume(state, missions[name].get("report"), engaged)
-            elif drones:
-                self._keep_out(state, engaged)
+            elif drones and (drone := state.keep_item(state.unsettled)) is not None:
+                engaged.add(drone)
         for id, report in drones.items():
-            drone = fleet.named(id)
-            if drone is not None and drone not in engaged and drone not in fleet.errands:
-                fleet.take_up(drone, report)
+            free = fleet.named(id)
+            if free is not None and free not in engaged and free not in fleet.errands:
+                fleet.take_up(free, report)
         self.look_for_the_end()
-
-    def _keep_out(self, state: MissionState, engaged: set[Drone]) -> None:
-        """Keep the drone that has, or may have, a mission's item."""
-        flight = state.unsettled
-        if flight is not None and flight.trip.item is not None:
-            state.holds = flight.flier
-        drone = state.carrier or state.holds
-        if drone is not None:
-            engaged.add(drone)
-            state.keep_carrier(drone)
 
     def _resume(self, state: MissionState, report: Record | None, engaged: set[Drone]) -> None:
         """Let a mission go on; add the drones that it needs."""

@@ -236,6 +236,15 @@ class MissionState:
         self.flight = self.question = self.answer = None
         self.core.transitions.interrupt(self.mission, flight.trip)
 
+    def keep_item(self, flight: Flight | None) -> Drone | None:
+        """Reserve the drone that has its item aboard, or may after a flight that was broken off; return it."""
+        if flight is not None and flight.trip.item is not None:
+            self.holds = flight.flier
+        drone = self.carrier or self.holds
+        if drone is not None:
+            self.keep_carrier(drone)
+        return drone
+
     def keep_carrier(self, drone: Drone) -> None:
         """Reserve the drone that has the item aboard; if it is lost, so is the item."""
         self.core.fleet.keep(drone, self._lose)
