@@ -8,7 +8,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
@@ -22,7 +22,7 @@ from .toml import line_of, line_of_long_key, places
 from .toml_advice import advice
 
 if TYPE_CHECKING:
-    from ..shared.domain.values import KeyPath, Problem
+    from ..shared.domain.values import KeyPath, Problem, Read
     from .toml import TomlLines
 
 LARGEST = 1 << 20
@@ -131,6 +131,10 @@ class PlanTable(Table):
         self.document.is_made = True
         return named[value]
 
+    def value(self, key: str, read: Read) -> Any:
+        """Return what stands under a key; for a wrong word the nearest one is told."""
+        return super().value(key, partial(_advised, read))
+
     def unknown(self, key: str, keys: Keys) -> None:
         """Note a key that is none of these, with the nearest of them."""
         hint = near(key, keys)
@@ -139,6 +143,13 @@ class PlanTable(Table):
             hint = ": this app's graph has no block that needs it"
         end = " " if hint.endswith("?") else "; "
         self.problem(f"unknown key {quoted(key)}{hint}{end}there may be: {listed(keys)}", key)
+
+
+def _advised(read: Read, value: object) -> object:
+    try:
+        return read(value)
+    except values.NoneOf as error:
+        raise ValueError(f"{error}{near(f'{value}', error.names)}") from None
 
 
 def near(word: str, words: Iterable[str]) -> str:

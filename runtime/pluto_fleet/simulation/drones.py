@@ -33,11 +33,12 @@ from ..shared.domain.trace import Clock
 from ..shared.fleet.telemetry import Charge, Leg
 from ..shared.hooks.plain_data import item_data, item_of, point_of
 from ..shared.time.kernel import FLEET, EventKind, Future, Kernel, Key
+from ..shared.time.told import VirtualTime
 
 
 @dataclass(frozen=True, slots=True)
 class _Clock:
-    """A kernel's time, which goes on between its events."""
+    """The time of a real-time kernel, which goes on between its events."""
 
     time: Callable[[], float]
 
@@ -56,7 +57,8 @@ class SimulatedBody(Body):
     def __init__(self, drone: FleetDrone, world: World, time: Callable[[], float]) -> None:
         self.on_change: Callable[[], object] = lambda: None
         """Called when its state has changed other than by time."""
-        clock = cast("Clock", _Clock(time))
+        is_virtual = isinstance(kernel, VirtualTime)  # time stands still between its events
+        clock = kernel if is_virtual else cast("Clock", _Clock(kernel.time))
         super().__init__(drone.id, drone.home, drone.category, world, clock)
         self.above = 0.0
         """How much higher than it is it says that it is."""
@@ -253,7 +255,7 @@ class SimulatedNavigation:
 
     def join(self, drone: FleetDrone, _: object = None) -> None:
         """Have one more drone, in its dock."""
-        body = SimulatedBody(drone, self._world, self._kernel.time)
+        body = SimulatedBody(drone, self._world, self._kernel)
         self.bodies[drone.id] = body
         self.telemetry[drone.id] = Told(body)
 
