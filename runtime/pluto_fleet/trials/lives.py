@@ -6,26 +6,38 @@ import gc
 import json
 from collections import deque
 from functools import partial
+from random import Random
 from typing import TYPE_CHECKING
 
 from ..flight.recorded_flight import RecordedFlight
+from ..gateway.gateway import Gateway
+from ..gateway.ledger import Ledger
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
+from ..shared.alone.faults import FAULTS, Faults
+from ..shared.alone.world import World
 from ..shared.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
+from ..shared.time.kernel import FLEET
+from ..shared.time.kernel import EventKind as When
+from ..shared.time.told import VirtualTime
+from ..simulation.body import simulated
+from ..simulation.drones import SimulatedNavigation, WorldAction
+from ..simulation.radio import Radio
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
 from .invariants import ENDS
-from .record import MissionMemory, TrialResult, forgotten, memory_of
+from .record import MissionMemory, TrialRecord, TrialResult, forgotten, memory_of
 from .unreliable import UnreliableHooks, UnreliableLink, UnreliableTime
-from .world import TrialWorld
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from ..app import App
+    from ..jobs.controls import Controls
     from ..journal.standing import Record, Standing
     from ..journal.store import Entry
     from ..shared.domain.trace import Event
     from .case import Case
+
 
 HEARTBEAT_WITHIN = 3.0
 """Seconds without a heartbeat after which the gateway lands everything."""
@@ -320,7 +332,7 @@ class TrialLife:
         self.kernel.close()
 
 
-class TrialRun(TrialWorld):
+class TrialRun:
     """A trial: a world, and the app's runs in it.
 
     World and brain have a virtual clock each; what is due first is processed first, and at one instant
@@ -328,7 +340,33 @@ class TrialRun(TrialWorld):
     """
 
     def __init__(self, app: App, case: Case) -> None:
-        super().__init__(app, case)
+        self.app, self.case = app, case
+        self.record = TrialRecord(app, case)
+        self.fired, self.found = self.record.fired, self.record.found
+        self.chance = Random(f"{case.seed}/trial")
+        self.world = world = VirtualTime()
+        self.drones = simulated(app, case.fleet)
+        airspace = case.fleet.airspace
+        self.navigation = SimulatedNavigation(
+            world,
+            self.drones,
+            World(case.seed, airspace, case.fleet.world),
+            Faults(**{name: getattr(case.weather, name) for name in FAULTS}),
+            case.seed,
+            self.seen,
+        )
+        self.ledger = Ledger()
+        self.loses_report = False
+        """Whether the next report is lost, and the connection with it."""
+        self.gateway = self.new_gateway()
+        self.lives = 0
+        self.skew = 0.0
+        """How many seconds the brain's clock is ahead of the world's."""
+        self.strikes: dict[int, list[Strike]] = {}
+        """The strikes by row."""
+        for strike in case.strikes:
+            self.strikes.setdefault(strike.row, []).append(strike)
+        self.over = False
         self.brain: TrialLife | None = None
         self.brains: list[TrialLife] = []
         """All brains, also stale ones that go on."""
@@ -460,6 +498,54 @@ class TrialRun(TrialWorld):
         self.over = True
         if waits:
             self.found.append(f"{self.world.now:g} s: it ended, and {', '.join(waits)} had not")
+
+    def blame(self, error: BaseException) -> None:
+        """Report an uncaught error as a finding."""
+        where = "".join(f", {note}" for note in getattr(error, "__notes__", ()))
+        what = f"the app ended with an internal error: {type(error).__name__}: {error}{where}"
+        self.found.append(f"{self.world.now:g} s: {what}")
+        self.over = True
+
+    def raise_from(self, kernel: VirtualTime) -> None:
+        """End the trial with an uncaught error, which is a bug of Pluto."""
+        if kernel.crashed is not None:
+            error, kernel.crashed = kernel.crashed, None
+            self.blame(error)
+
+    def later(self, seconds: float, call: Callable[[], object]) -> None:
+        """Schedule a call after seconds of the world's time."""
+        self.world.at(self.world.now + seconds, When.FLIGHT, FLEET, call)
+
+    def seen(self, done: WorldAction) -> None:
+        """Called with an action of a drone on the world."""
+        if done.job is not None:
+            self.record.did(done.job, done.action, self.world.now)
+
+    def new_gateway(self) -> Gateway:
+        """Return a new gateway over the same drones and ledger."""
+        fleet, radio = self.case.fleet, self.case.weather.radio
+        controls: Controls = self.navigation
+        if radio:
+            controls = Radio(self.world, self.navigation, self.radio_delay)
+        return Gateway(
+            self.world,
+            controls,
+            self.drones,
+            fleet.airspace,
+            ledger=self.ledger,
+            apart=fleet.apart,
+            max_airborne=fleet.max_airborne,
+        )
+
+    def radio_delay(self, _: str) -> float:
+        """Return the delay of a message to or from a drone."""
+        self.fired["slow radio"] += 1
+        return self.case.weather.radio
+
+    def report_is_lost(self) -> bool:
+        """Return whether a report is lost, and the connection with it."""
+        lost, self.loses_report = self.loses_report, False
+        return lost
 
 
 def tried(app: App, case: Case) -> TrialResult:

@@ -14,8 +14,7 @@ from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
 from .case import BrokenHook
-from .invariants import ENDS, Invariants, items_of
-from .rules import at
+from .invariants import ENDS, Invariants, at, items_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
