@@ -14,9 +14,7 @@ from typing import Any
 from .app import App, described
 from .cli.preflight import check_real
 from .files.fleet import FleetFile, default_fleet, load_fleet
-from .files.fleet_text import fleet_text
 from .files.missions import load_missions
-from .files.missions_text import missions_text
 from .files.plan_check import endless, problems, wrong_fields
 from .flight.config import End, FlightResult, FlightSetup, Stops
 from .flight.lives import FlightObserver, flight_of, reopen, run_flight

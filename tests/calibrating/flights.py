@@ -10,7 +10,7 @@ from random import Random
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.writing import fleet_text
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger

@@ -33,7 +33,7 @@ from ..shared.domain.text import number, printable, quoted
 
 if TYPE_CHECKING:
     from ..drones.protocol import DroneNavigation, DroneTelemetry
-    from ..files.options import Options
+    from ..files.fleet import Options
     from ..shared.domain.model import Point
 
 CONNECT_WITHIN, ANSWER_WITHIN, CLOSE_WITHIN, SCAN_WITHIN = 15.0, 12.0, 10.0, 90.0

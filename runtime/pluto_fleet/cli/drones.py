@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
-from ..files.drones import which
+from ..files.addresses import which
 from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
 from ..files.reading import near
 from ..journal.place import folder_of
@@ -24,8 +24,7 @@ from .written import refuse_if_there
 if TYPE_CHECKING:
     from ..app import App
     from ..drones.protocol import DroneTelemetry
-    from ..files.fleet import FleetFile
-    from ..files.options import Options
+    from ..files.fleet import FleetFile, Options
     from .drone_status import DroneAnswer
     from .options import Options as Command
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet_text import fleet_text
+from ..files.writing import fleet_text
 from ..process.workers import WorkerDied, cores
 from ..report.terminal import Progress, simulation_progress
 from ..shared import output

@@ -15,13 +15,14 @@ from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import duration, quoted
 from ..shared.domain.values import shown
 from ..shared.fleet.reach import Miss, chain_of, flight_seconds, miss_of, stops_of
+from ..shared.flow.promises import kept_from
 
 if TYPE_CHECKING:
     from ..app import App
     from ..shared.domain.airspace import Airspace
     from ..shared.domain.model import Category, Mission, Point, Trip
-    from .drones import DroneEntry
-    from .fleet import FleetFile
+    from ..shared.time.hours import Hours
+    from .fleet import DroneEntry, FleetFile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -222,3 +223,31 @@ _LETTERS = str.maketrans(
     + "".join(map(chr, (*range(0x180B, 0x1810), *range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0)))),
 )
 """Letters that look like Latin ones, and signs that look alike, or are invisible."""
+
+
+LONG = 10.0
+"""Seconds of a wait that is worth a line: in a flight it is told then, or at once if it is known to take longer."""
+
+
+def waits(missions: Sequence[Mission[Any]], hours: Hours) -> Iterator[str]:
+    """Yield a sentence for each mission that waits, by the hours from their start on."""
+    for mission in missions:
+        promises = kept_from(mission.promises, hours)
+        after = ", ".join(map(quoted, promises.get("after", ())))
+        opens = promises.get("opens", 0.0)
+        at = getattr(mission, "at", None)
+        delay = getattr(mission.trips[0], "delay", None)
+        begins = 0.0 if at is None else hours.next(at, 0.0)
+        why, seconds = max(
+            ("its window has not opened", opens),
+            ("its first trip is not to start before", begins),
+            ("its first trip has a delay", delay or 0.0),
+            key=lambda one: one[1],
+        )
+        who = f"mission {quoted(mission.name)}: waits"
+        if after:
+            yield f"{who} until {after} {'have' if ', ' in after else 'has'} completed"
+        if seconds > LONG:
+            start = hours.said(0.0)
+            end = hours.said(seconds)
+            yield f"{who} {duration(seconds)} if it is started at {start}, until {end}: {why}"

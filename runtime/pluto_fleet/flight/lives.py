@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..drones.real_fleet import real_fleet
-from ..files.crtp_fleet import fleet_from
-from ..files.fleet import not_real
+from ..files.fleet import fleet_from, not_real
 from ..files.missions import missions_of
 from ..files.reading import parsed
 from ..gateway.process import NOTE

@@ -13,12 +13,10 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from ..arguments import whole_number
-from ..files.drones import DroneEntry
-from ..files.fleet import FleetFile, default_fleet, load_fleet
-from ..files.fleet_text import fleet_text
+from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.missions import load_missions
-from ..files.missions_text import missions_text
 from ..files.plan_check import problems
+from ..files.writing import fleet_text, missions_text
 from ..process.text import in_shell
 from ..report.sentences import line_of
 from ..report.terminal import table, trial_progress
