@@ -4,29 +4,42 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator, Sequence
+from itertools import cycle
+from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
 from ..files.addresses import which
-from ..files.fleet import CRAZYFLIE, load_fleet, navigation_of, not_real, options_of
-from ..files.reading import near
+from ..files.fleet import (
+    APART,
+    CRAZYFLIE,
+    fleet_of,
+    load_fleet,
+    navigation_of,
+    not_real,
+    options_of,
+)
+from ..files.reading import near, parsed
+from ..files.toml import toml_value
 from ..journal.place import folder_of
 from ..report.terminal import table
 from ..shared import output
+from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import counted, percent, place, quoted
+from ..shared.domain.text import counted, number, percent, place, printable, quoted
 from ..shared.domain.trace import dumped
-from .drone_file import write_fleet
 from .drone_status import DroneQuery, answers, found, heard, identified
-from .written import refuse_if_there
+from .written import refuse_if_there, write_new
 
 if TYPE_CHECKING:
     from ..app import App
     from ..drones.protocol import DroneTelemetry
     from ..files.fleet import FleetFile, Options
+    from ..shared.domain.airspace import Corner
     from .drone_status import DroneAnswer
     from .options import Options as Command
+
 
 NOT_READY = 1
 """The exit code if a drone does not answer, or may not fly."""
@@ -232,3 +245,67 @@ def _state(telemetry: DroneTelemetry | None) -> tuple[str, str]:
     battery = f"{telemetry.voltage:.2f} V, {level}" if telemetry.voltage else level
     x, y, z = telemetry.position
     return battery, place((round(x, 2), round(y, 2), z))
+
+
+_ORIGIN = 0.05
+"""Metres from (0, 0): a drone that reports to be so near has just been switched on, and has no fix."""
+
+
+def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:
+    """Write a fleet file of the drones that have answered; never overwrites a file."""
+    there = [answer for answer in told if heard(answer) is not None]
+    if not there:
+        raise BadInput(f"{path}: not written, for no drone has answered")
+    content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
+    fleet_of(parsed(str(path), content), app)  # check that it is valid
+    write_new(path, content, "the fleet")
+    output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
+
+
+def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -> Iterator[str]:
+    airspace = Airspace()
+    yield f"# Written by: {app.name} drones --save {printable(str(path))}"
+    yield "# Say below how large the room is, and see whether each drone has its home and category."
+    yield ""
+    yield "[map]"
+    yield f"size = {toml_value([*airspace.size])}  # metres, from the place where positions are (0, 0)"
+    yield f"ceiling = {number(airspace.ceiling)}  # nothing flies higher"
+    if navigation != CRAZYFLIE:
+        yield ""
+        yield "[fleet]"
+        yield f"navigation = {toml_value(navigation)}"
+    categories = cycle(category.name for category in app.categories)
+    taken: list[Corner] = []
+    for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
+        yield ""
+        yield "[[drone]]"
+        yield f'id = "cf{index}"'
+        yield f"category = {toml_value(category)}{_choice(app)}"
+        yield _home(answer, airspace, taken)
+        if answer.asked.uri is not None:
+            yield f"uri = {toml_value(answer.asked.uri)}"
+
+
+def _choice(app: App) -> str:
+    names = [category.name for category in app.categories]
+    return f"  # one of: {', '.join(names)}" if len(names) > 1 else ""
+
+
+def _home(answer: DroneAnswer, airspace: Airspace, taken: list[Corner]) -> str:
+    """Return the line of a drone's home: its reported position, or the next free place of a row."""
+
+    def is_free(spot: Corner) -> bool:
+        apart = all(dist(spot, other) >= APART for other in taken)
+        return apart and airspace.problem((*spot, 0.0)) is None
+
+    telemetry = heard(answer)
+    x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
+    said = round(x, 2) + 0.0, round(y, 2) + 0.0
+    if dist(said, (0.0, 0.0)) > _ORIGIN and is_free(said):
+        taken.append(said)
+        return f"home = {toml_value([*said])}  # where it stood"
+    width, depth = airspace.size
+    row = ((float(x), y + 0.5) for y in range(int(depth)) for x in range(1, int(width)))
+    free = next(filter(is_free, row))
+    taken.append(free)
+    return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"

@@ -28,7 +28,7 @@ from ..shared.domain.text import (
 )
 from ..shared.domain.trace import dumped
 from ..trials.invariants import ENDS, Invariants, items_of
-from .picture import drawing, kind_of, write
+from .written import drawing, kind_of, write
 
 if TYPE_CHECKING:
     from ..app import App

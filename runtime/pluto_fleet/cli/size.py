@@ -23,7 +23,7 @@ from ..sizing.report import data, report
 from ..sizing.tries import Rule, usual_runs
 from .picture import drawing, kind_of, write
 from .plans import load
-from .written import refuse_if_there, write_new
+from .written import drawing, kind_of, refuse_if_there, write, write_new
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
