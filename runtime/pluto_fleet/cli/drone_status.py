@@ -9,7 +9,7 @@ import asyncio
 import inspect
 from collections.abc import AsyncIterator, Coroutine, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
@@ -54,18 +54,11 @@ class Tells(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DroneQuery:
-    """A drone to query."""
+class DroneQuery(RealDrone):
+    """A drone to query; one that is not in the fleet file has its uri as its name."""
 
-    id: str
-    """Its name in the fleet file; where it has none, its uri."""
-    uri: str | None
-    navigation: str
     home: Point = (0.0, 0.0, 0.0)
     speed: float = 0.5
-    options: Mapping[str, object] = field(default_factory=dict)
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    """What the fleet file sets it to."""
     known: bool = True
     """Whether it is in the fleet file."""
 
@@ -143,14 +136,8 @@ async def identified(asked: DroneQuery, folder: Path) -> None:
 
 
 def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
-    how = RealDrone(
-        id=asked.id if asked.known else "it",  # for messages about it
-        navigation=asked.navigation,
-        uri=asked.uri,
-        options=asked.options,
-        parameters=asked.parameters,
-    )
-    return make_one(how, asked.home, asked.speed, folder)
+    called = asked if asked.known else replace(asked, id="it")  # in messages about it
+    return make_one(called, asked.home, asked.speed, folder)
 
 
 def no_answer(seconds: float) -> str:

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from itertools import cycle
 from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
+from ..drones.real_fleet import real_fleet
 from ..files.addresses import which
 from ..files.fleet import (
     APART,
     CRAZYFLIE,
     fleet_of,
     load_fleet,
-    navigation_of,
     not_real,
-    options_of,
 )
 from ..files.reading import near, parsed
 from ..files.toml import toml_value
@@ -126,18 +126,11 @@ class _Team:
 
 def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
     """Return the drones of a fleet file."""
-    categories = {category.name: category for category in app.categories}
+    speeds = {category.name: category.speed for category in app.categories}
+    real = real_fleet(fleet, ()).drones
     return [
-        DroneQuery(
-            id=drone.id,
-            uri=drone.uri,
-            navigation=navigation_of(fleet, drone),
-            home=drone.home,
-            speed=categories[drone.category].speed,
-            options=options_of(fleet, drone),
-            parameters=drone.parameters,
-        )
-        for drone in fleet.drones
+        DroneQuery(**asdict(how), home=drone.home, speed=speeds[drone.category])
+        for how, drone in zip(real, fleet.drones, strict=True)
     ]
 
 

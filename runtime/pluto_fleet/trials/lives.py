@@ -25,7 +25,7 @@ from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
 from .case import BY_HAND, DEATHS, STOPS, Strike, StrikeKind, fresh
 from .invariants import ENDS
-from .record import MissionMemory, TrialRecord, TrialResult, forgotten, memory_of
+from .record import Memory, TrialRecord, TrialResult, forgotten, memory_of
 from .unreliable import UnreliableHooks, UnreliableLink, UnreliableTime
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class TrialLife:
         """The missions with events that are not durable."""
         self.full = False
         planned = () if records.missions else tuple(map(fresh, case.missions))
-        self.before: dict[str, MissionMemory] = {} if planned else dict(run.record.known)
+        self.before: dict[str, Memory] = {} if planned else dict(run.record.known)
         self.life = RecordedFlight(
             run.app,
             case.fleet,
