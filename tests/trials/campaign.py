@@ -32,12 +32,14 @@ from pluto_fleet.trials.explore import (
     Tally,
     everywhere,
     explored,
+    first_the_same,
     random_case,
+    shows_the_same,
+    shrunk,
     small_case,
 )
 from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.record import TrialResult
-from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.kit.apps import NAMES
 from tests.kit.campaign import Campaign
 from tests.trials.examples import example, fleet_of, missions_of

@@ -40,9 +40,19 @@ from .case import (
     weather_of,
     weather_text,
 )
-from .explore import Finding, Tally, everywhere, explored, random_case, small_case
+from .explore import (
+    Finding,
+    MistakeKinds,
+    Tally,
+    everywhere,
+    explored,
+    first_the_same,
+    random_case,
+    shows_the_same,
+    shrunk,
+    small_case,
+)
 from .lives import tried
-from .shrink import MistakeKinds, first_the_same, shows_the_same, shrunk
 
 if TYPE_CHECKING:
     from ..app import App

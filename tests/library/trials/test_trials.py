@@ -27,10 +27,9 @@ from pluto_fleet.trials.case import (
     weather_of,
     weather_text,
 )
-from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions
+from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions, shrunk
 from pluto_fleet.trials.lives import TrialRun, tried
 from pluto_fleet.trials.record import TrialResult
-from pluto_fleet.trials.shrink import shrunk
 from tests.trials.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
