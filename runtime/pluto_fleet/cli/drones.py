@@ -13,13 +13,7 @@ from typing import TYPE_CHECKING
 from ..crazyflie.driver import require
 from ..drones.real_fleet import real_fleet
 from ..files.addresses import which
-from ..files.fleet import (
-    APART,
-    CRAZYFLIE,
-    fleet_of,
-    load_fleet,
-    not_real,
-)
+from ..files.fleet import APART, CRAZYFLIE, fleet_of, load_fleet, not_real
 from ..files.reading import near, parsed
 from ..files.toml import toml_value
 from ..journal.place import folder_of

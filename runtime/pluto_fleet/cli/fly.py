@@ -150,11 +150,7 @@ def reported(app: App, journal: Path, records: Standing, drones: Sequence[Drone]
 
 
 async def _heard(
-    flight: FlightSetup,
-    store: Store,
-    stops: Stops,
-    interrupts: Interrupts,
-    known: Recovered | None,
+    flight: FlightSetup, store: Store, stops: Stops, interrupts: Interrupts, known: Recovered | None
 ) -> FlightResult:
     """Run a flight with its interrupt handlers."""
     interrupts.loop = asyncio.get_running_loop()

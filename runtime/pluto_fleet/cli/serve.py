@@ -98,11 +98,7 @@ def _web_server(app: str) -> Web:
 
 
 async def _serve(
-    web: Web,
-    options: Options,
-    config: StationConfig,
-    station: Station,
-    interrupts: Interrupts,
+    web: Web, options: Options, config: StationConfig, station: Station, interrupts: Interrupts
 ) -> None:
     interrupts.loop = asyncio.get_running_loop()
     with listening(options.host, _port(options, config)) as listener:

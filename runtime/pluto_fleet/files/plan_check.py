@@ -101,10 +101,7 @@ def unflyable(
 
 
 def _misses(
-    app: App,
-    airspace: Airspace,
-    drones: Sequence[tuple[Category, Point]],
-    chain: Sequence[Trip],
+    app: App, airspace: Airspace, drones: Sequence[tuple[Category, Point]], chain: Sequence[Trip]
 ) -> Sequence[Miss]:
     """Return each category's nearest miss, in the fleet's order; nothing if a drone lacks nothing."""
     best: dict[str, Miss | None] = dict.fromkeys(category.name for category, _ in drones)

@@ -285,12 +285,7 @@ _VANISHED = (
 
 
 def report(
-    app: App,
-    options: Options,
-    tally: Tally,
-    smallest: Finding | None,
-    *,
-    interrupted: bool = False,
+    app: App, options: Options, tally: Tally, smallest: Finding | None, *, interrupted: bool = False
 ) -> Iterator[str]:
     """Yield the lines for a person."""
     struck = [what for what in WORDS if tally.fired[what]]

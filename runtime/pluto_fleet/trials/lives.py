@@ -80,14 +80,7 @@ class TrialLife:
         planned = () if records.missions else tuple(map(fresh, case.missions))
         self.before: dict[str, Memory] = {} if planned else dict(run.record.known)
         self.life = RecordedFlight(
-            run.app,
-            case.fleet,
-            self.kernel,
-            self.wire,
-            self,
-            records,
-            epoch=run.lives,
-            hooks=hooks,
+            run.app, case.fleet, self.kernel, self.wire, self, records, epoch=run.lives, hooks=hooks
         )
         hooks.ended = self.life.hook_ended
         self.life.control.stopped.watch(self.stopped)

@@ -32,13 +32,7 @@ _HOOK_BLOCKS_FOR = 30.0
 class UnreliableTime(VirtualTime):
     """Virtual time for one brain, with late wake-ups."""
 
-    def __init__(
-        self,
-        now: float,
-        weather: Weather,
-        chance: Random,
-        fired: Counter[str],
-    ) -> None:
+    def __init__(self, now: float, weather: Weather, chance: Random, fired: Counter[str]) -> None:
         super().__init__()
         self.now = now
         self.dead = False
