@@ -10,8 +10,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from ...files.missions import moment, read_missions
-from ...files.plan_check import unflyable
-from ...files.promise_check import impossible
+from ...files.plan_check import impossible, unflyable
 from ...files.reading import Document
 from ...shared.domain.values import shown
 from ...shared.time.hours import Hours

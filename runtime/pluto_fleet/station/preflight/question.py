@@ -17,8 +17,7 @@ from ..words import words
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...files.drones import DroneEntry
-    from ...files.fleet import FleetFile
+    from ...files.fleet import DroneEntry, FleetFile
     from ...flight.driver import Stands
     from ...gateway.sightings import Sighting
     from ...journal.standing import Standing
