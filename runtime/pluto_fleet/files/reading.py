@@ -16,10 +16,9 @@ from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, cut_off, number, percent, printable, quoted
 from ..shared.domain.values import Keys, Table, shortened
-from .foreign import foreign
+from .advice import advice, foreign
 from .landmarks import NO_LANDMARKS
 from .toml import line_of, line_of_long_key, places
-from .toml_advice import advice
 
 if TYPE_CHECKING:
     from ..shared.domain.values import KeyPath, Problem, Read

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
-from ...files.landmarks_text import landmark_tables, with_landmarks
 from ...files.reading import Document, PlanTable, parsed, text_of
+from ...files.writing import landmark_tables, with_landmarks
 from ...process.whole_file import write_whole
 from ...shared.alone.files import read_map
 from ...shared.domain.airspace import EPSILON, distance, inside
