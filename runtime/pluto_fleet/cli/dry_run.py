@@ -19,7 +19,16 @@ from ..drones.real_fleet import RequiredAction, real_fleet
 from ..drones.vehicle import CLIMB_LIMIT
 from ..files.toml import toml_value
 from ..flight.simulate import simulate
-from ..jobs.controls import Act, ForwardingControls, GoTo, Hold, Land, Read, TakeOff, Write
+from ..jobs.controls import (
+    Act,
+    ForwardingControls,
+    GoTo,
+    Hold,
+    Land,
+    Read,
+    TakeOff,
+    Write,
+)
 from ..report.report import exit_code, report
 from ..report.sentences import line_of
 from ..report.terminal import table

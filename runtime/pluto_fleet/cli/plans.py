@@ -17,7 +17,14 @@ from ..files.fleet import (
     too_fast,
 )
 from ..files.missions import missions_of
-from ..files.plan_check import endless, impossible, look_alikes, problems, uncharged, waits
+from ..files.plan_check import (
+    endless,
+    impossible,
+    look_alikes,
+    problems,
+    uncharged,
+    waits,
+)
 from ..files.reading import parsed, read, text_of
 from ..files.writing import missions_text
 from ..shared import output
