@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, quoted
-from ..shared.domain.values import MOST_TOLD
-from .reading import PlanTable, listed, near, text_of
+from ..shared.domain.values import MOST_TOLD, Table
+from .reading import PlanTable, advised, listed, near, text_of
 
 if TYPE_CHECKING:
     from ..shared.domain.values import KeyPath, Read
@@ -64,7 +64,7 @@ class RowTable(PlanTable):
 
     def value(self, key: str, read: Read) -> Any:
         """Return what stands under a key, where the values of a row may be numbers, too."""
-        return super().value(key, partial(_as_wanted, read))
+        return Table.value(self, key, partial(_as_wanted, partial(advised, read)))
 
     def where(self, key: str) -> str:
         """Say of which row it is, as a message continues."""

@@ -132,7 +132,7 @@ class PlanTable(Table):
 
     def value(self, key: str, read: Read) -> Any:
         """Return what stands under a key; for a wrong word the nearest one is told."""
-        return super().value(key, partial(_advised, read))
+        return super().value(key, partial(advised, read))
 
     def unknown(self, key: str, keys: Keys) -> None:
         """Note a key that is none of these, with the nearest of them."""
@@ -144,11 +144,15 @@ class PlanTable(Table):
         self.problem(f"unknown key {quoted(key)}{hint}{end}there may be: {listed(keys)}", key)
 
 
-def _advised(read: Read, value: object) -> object:
+def advised(read: Read, value: object) -> object:
+    """Read a value; of a wrong word say which one is near."""
     try:
         return read(value)
-    except values.NoneOf as error:
-        raise ValueError(f"{error}{near(f'{value}', error.names)}") from None
+    except ValueError as error:
+        hint = ""
+        if isinstance(read, partial) and read.func is values.one_of:
+            hint = near(f"{value}", read.args[0])
+        raise ValueError(f"{error}{hint}") from None
 
 
 def near(word: str, words: Iterable[str]) -> str:

@@ -36,8 +36,7 @@ LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[area
 MISSIONS = ("mission",)
 FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "world")
 """What stands in the two files."""
-REAL: Keys = dict.fromkeys(("apart", "silence", "navigation", "localization"))
-"""Keys of `[fleet]` for real flights."""
+REAL: Keys = dict.fromkeys(("apart", "silence", "navigation", "localization"))  # of [fleet]
 T = TypeVar("T", bound=Table)
 HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 

@@ -60,18 +60,10 @@ def _such(holds: Callable[[Any], object], said: str, value: object) -> object:
     return value
 
 
-class NoneOf(ValueError):
-    """A word is none of those that there are."""
-
-    def __init__(self, names: Collection[str]) -> None:
-        super().__init__(f"is none of: {', '.join(names) or 'there are none'}")
-        self.names = names
-
-
 def one_of(names: Collection[str], value: object) -> str:
     """Read one of these words."""
     if not isinstance(value, str) or value not in names:
-        raise NoneOf(names)
+        raise ValueError(f"is none of: {', '.join(names) or 'there are none'}")
     return value
 
 
