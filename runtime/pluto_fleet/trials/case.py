@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields, replace
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
-from ..shared.alone.faults import FAULTS, Faults
+from ..shared.alone.world import FAULTS, Faults
 from ..shared.domain.text import number
 
 if TYPE_CHECKING:

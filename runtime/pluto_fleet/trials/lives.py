@@ -17,8 +17,7 @@ from ..gateway.ledger import Ledger
 from ..jobs.link import Link
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
-from ..shared.alone.faults import FAULTS, Faults
-from ..shared.alone.world import World
+from ..shared.alone.world import FAULTS, Faults, World
 from ..shared.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 from ..shared.domain.guard import guarded
 from ..shared.fleet.orders import failure_of

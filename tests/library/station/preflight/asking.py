@@ -10,8 +10,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile, default_fleet
+from pluto_fleet.files.fleet import DroneEntry, FleetFile, default_fleet
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.station.preflight import preflight
