@@ -17,8 +17,7 @@ from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.real_fleet import real_fleet
 from pluto_fleet.drones.team import Team, make_one
-from pluto_fleet.files.crtp_fleet import as_crtp_fleet
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import FleetFile, as_crtp_fleet
 from pluto_fleet.flight.driver import Driver, begun
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.controls import fleet_drones

@@ -17,10 +17,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
 from ..crazyflie.driver import require
-from ..drones.errors import NavigationError
 from ..drones.loading import load_navigation, make_localization
 from ..drones.localization import LocalizationFeed
-from ..drones.protocol import Identifiable, Locatable, Readable, Scannable
+from ..drones.protocol import (
+    Identifiable,
+    Locatable,
+    NavigationError,
+    Readable,
+    Scannable,
+)
 from ..drones.real_fleet import RealDrone, real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which

@@ -21,7 +21,6 @@ from ..sizing.fleets import Stock
 from ..sizing.question import Question, swapping
 from ..sizing.report import data, report
 from ..sizing.tries import Rule, usual_runs
-from .picture import drawing, kind_of, write
 from .plans import load
 from .written import drawing, kind_of, refuse_if_there, write, write_new
 

@@ -8,8 +8,7 @@ from functools import cached_property
 from math import dist, floor, inf
 from typing import Any
 
-from ..files.drones import DroneEntry
-from ..files.fleet import FleetFile
+from ..files.fleet import DroneEntry, FleetFile
 from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.model import Mission, Point

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from ..files.drones import DroneEntry
+from ..files.fleet import DroneEntry
 from ..report.terminal import table
 from ..shared.domain.text import counted, number, printable
 from .answer import Answer, percent_of, when

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from ..flight.recorded_flight import RecordedFlight
 from ..gateway.gateway import Gateway
 from ..gateway.ledger import Ledger
+from ..jobs.controls import fleet_drones
 from ..jobs.link import Link
 from ..jobs.reports import Down
 from ..process.signal_guard import by_a_person
@@ -24,7 +25,6 @@ from ..shared.fleet.orders import failure_of
 from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
 from ..shared.time.kernel import EventKind as When
 from ..shared.time.told import VirtualTime
-from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
 from .case import BY_HAND, DEATHS, STOPS, BrokenHook, Strike, StrikeKind, fresh
@@ -345,7 +345,7 @@ class TrialRun:
         self.fired, self.found = self.record.fired, self.record.found
         self.chance = Random(f"{case.seed}/trial")
         self.world = world = VirtualTime()
-        self.drones = simulated(app, case.fleet)
+        self.drones = fleet_drones(app, case.fleet)
         airspace = case.fleet.airspace
         self.navigation = SimulatedNavigation(
             world,
