@@ -16,6 +16,7 @@ from .cli.preflight import check_real
 from .files.fleet import FleetFile, default_fleet, load_fleet
 from .files.missions import load_missions
 from .files.plan_check import endless, problems, wrong_fields
+from .files.writing import fleet_text, missions_text
 from .flight.config import End, FlightResult, FlightSetup, Stops
 from .flight.lives import FlightObserver, flight_of, reopen, run_flight
 from .flight.outcome import SimulationResult

@@ -54,7 +54,7 @@ HEIGHTS = 0.025
 class SimulatedBody(Body):
     """A drone by a kernel's clock."""
 
-    def __init__(self, drone: FleetDrone, world: World, time: Callable[[], float]) -> None:
+    def __init__(self, drone: FleetDrone, world: World, kernel: Kernel) -> None:
         self.on_change: Callable[[], object] = lambda: None
         """Called when its state has changed other than by time."""
         is_virtual = isinstance(kernel, VirtualTime)  # time stands still between its events
