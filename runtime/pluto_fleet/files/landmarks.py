@@ -6,15 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..shared.domain import values
-from ..shared.domain.airspace import EPSILON, Airspace, distance, tidy
+from ..shared.domain.airspace import EPSILON, Airspace, Corner, Polygon, distance, tidy
 from ..shared.domain.text import place
-
-if TYPE_CHECKING:
-    from ..shared.domain.airspace import Corner, Polygon
-    from ..shared.domain.values import Keys, Table
+from ..shared.domain.values import Keys, Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,17 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from io import StringIO
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, quoted
-from ..shared.domain.values import MOST_TOLD, Table
+from ..shared.domain.values import MOST_TOLD, KeyPath, Read, Table
 from .reading import PlanTable, advised, listed, near, text_of
-
-if TYPE_CHECKING:
-    from ..shared.domain.values import KeyPath, Read
-
 
 MOST = {"missions": 10_000, "values": 1_000_000, "characters": 10_000_000}
 """What all lists of a file make at most; it is counted before it is made."""

@@ -6,24 +6,20 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from datetime import date, time
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..shared.alone.files import MISSIONS, read_mission
+from ..shared.domain.airspace import Airspace
 from ..shared.domain.fields import time_of_day
+from ..shared.domain.model import Mission
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import quoted
-from ..shared.domain.values import LARGEST, Quantity, Table
+from ..shared.domain.values import LARGEST, Quantity, Read, Table
 from .areas import trips_of_areas
 from .landmarks import NO_LANDMARKS, Landmarks
 from .lists import RowTable, each_row
 from .reading import Document, near, read, top
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Mission
-    from ..shared.domain.values import Read
-
 
 MOST_OF_LISTS = 1_000
 """After so many problems no further row of a list is read."""

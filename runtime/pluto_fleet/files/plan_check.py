@@ -7,24 +7,20 @@ from dataclasses import dataclass, replace
 from functools import partial
 from graphlib import TopologicalSorter
 from math import dist, inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unicodedata import normalize
 
+from ..app import App
+from ..shared.domain.airspace import Airspace
 from ..shared.domain.fields import Entity, FieldType, put_plain, time_of_day
-from ..shared.domain.model import AfterTrip
+from ..shared.domain.model import AfterTrip, Category, Mission, Point, Trip
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.domain.values import shown
 from ..shared.fleet.reach import Miss, chain_of, flight_seconds, miss_of, stops_of
 from ..shared.flow.promises import kept_from
-from ..shared.time.hours import DAY
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Category, Mission, Point, Trip
-    from ..shared.time.hours import Hours
-    from .fleet import DroneEntry, FleetFile
+from ..shared.time.hours import DAY, Hours
+from .fleet import DroneEntry, FleetFile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

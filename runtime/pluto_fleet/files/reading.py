@@ -10,19 +10,15 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, cut_off, number, percent, printable, quoted
-from ..shared.domain.values import Keys, Table, shortened
+from ..shared.domain.values import KeyPath, Keys, Problem, Read, Table, shortened
 from .advice import advice, foreign
 from .landmarks import NO_LANDMARKS
-from .toml import line_of, line_of_long_key, places
-
-if TYPE_CHECKING:
-    from ..shared.domain.values import KeyPath, Problem, Read
-    from .toml import TomlLines
+from .toml import TomlLines, line_of, line_of_long_key, places
 
 LARGEST = 1 << 20
 """In bytes: a plan is written by people, and anything larger is another file."""

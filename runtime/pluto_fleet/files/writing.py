@@ -9,26 +9,20 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import dropwhile
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..jobs.reports import SILENCE
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.fleet_data import WorldData
+from ..shared.domain.model import Mission, Trip
 from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
-from ..shared.domain.motion import motion_of
-from ..shared.domain.values import MOTION
-from .fleet import CRAZYFLIE, OWN
-from .landmarks import Picture
+from ..shared.domain.motion import Motion, motion_of
+from ..shared.domain.values import MOTION, KeyPath
+from .fleet import CRAZYFLIE, OWN, DroneEntry, FleetFile
+from .landmarks import Landmarks, Picture
 from .toml import headers, places, toml_text, toml_value
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.fleet_data import WorldData
-    from ..shared.domain.model import Mission, Trip
-    from ..shared.domain.motion import Motion
-    from ..shared.domain.values import KeyPath
-    from .fleet import DroneEntry, FleetFile
-    from .landmarks import Landmarks
 
 
 def fleet_text(fleet: FleetFile) -> str:

@@ -7,14 +7,12 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields, replace
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..files.fleet import FleetFile
 from ..shared.alone.world import FAULTS, Faults
+from ..shared.domain.model import Mission
 from ..shared.domain.text import number
-
-if TYPE_CHECKING:
-    from ..files.fleet import FleetFile
-    from ..shared.domain.model import Mission
 
 
 class StrikeKind(Enum):

@@ -10,8 +10,9 @@ from math import inf
 from operator import attrgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..arguments import whole_number
 from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.missions import load_missions
@@ -23,6 +24,7 @@ from ..report.terminal import table, trial_progress
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
+from ..shared.domain.model import Mission
 from ..shared.domain.quantities import typed
 from ..shared.domain.text import counted, printable
 from ..shared.domain.trace import dumped
@@ -53,11 +55,7 @@ from .explore import (
     small_case,
 )
 from .lives import tried
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.model import Mission
-    from .record import TrialResult
+from .record import TrialResult
 
 FOUND, BAD_INPUT = 1, 2
 

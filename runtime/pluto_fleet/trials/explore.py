@@ -11,22 +11,18 @@ from copy import deepcopy
 from dataclasses import dataclass, field, fields, replace
 from itertools import product
 from random import Random
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+from ..app import App
+from ..files.fleet import FleetFile
 from ..files.plan_check import problems
 from ..shared.domain.actions import PICK, RELEASE, Plain
 from ..shared.domain.fields import Entity, Field, FieldType
-from ..shared.domain.model import Item
+from ..shared.domain.model import Item, Mission, Point, Trip
 from ..shared.domain.quantities import Type
 from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
 from .lives import tried
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..files.fleet import FleetFile
-    from ..shared.domain.model import Mission, Point, Trip
-    from .record import TrialResult
-
+from .record import TrialResult
 
 TRIES = 50
 """How often a mission is drawn until the fleet can fly it."""

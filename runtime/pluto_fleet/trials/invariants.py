@@ -12,14 +12,11 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import Any, Protocol
 
 from ..shared.domain.actions import PICK, RELEASE
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Mission
-    from ..shared.domain.trace import Event
-
+from ..shared.domain.model import Mission
+from ..shared.domain.trace import Event
 
 Say = Callable[[str], object]
 """Called with the sentence of a violation."""

@@ -5,46 +5,46 @@ from __future__ import annotations
 import gc
 import json
 from collections import Counter, deque
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Mapping
 from functools import partial
 from inspect import iscoroutine
 from random import Random
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import Any, NoReturn, TypeVar
 
+from ..app import App
 from ..flight.recorded_flight import RecordedFlight
-from ..gateway.gateway import Gateway
+from ..gateway.gateway import Gateway, Line
 from ..gateway.ledger import Ledger
-from ..jobs.controls import fleet_drones
-from ..jobs.link import Link
+from ..jobs.controls import Controls, fleet_drones
+from ..jobs.link import Link, Message, Order
 from ..jobs.reports import Down
+from ..jobs.telemetry import Telemetry
+from ..journal.standing import Record, Standing
+from ..journal.store import Entry
 from ..process.signal_guard import by_a_person
 from ..shared.alone.world import FAULTS, Faults, World
 from ..shared.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 from ..shared.domain.guard import guarded
+from ..shared.domain.trace import Event
 from ..shared.fleet.orders import failure_of
-from ..shared.time.kernel import FLEET, EventKind, Key, Task, Timer
+from ..shared.time.kernel import FLEET, EventKind, Kernel, Key, Task, Timer
 from ..shared.time.kernel import EventKind as When
 from ..shared.time.told import VirtualTime
 from ..simulation.drones import SimulatedNavigation, WorldAction
 from ..simulation.radio import Radio
-from .case import BY_HAND, DEATHS, STOPS, BrokenHook, Strike, StrikeKind, fresh
+from .case import (
+    BY_HAND,
+    DEATHS,
+    STOPS,
+    BrokenHook,
+    Case,
+    Strike,
+    StrikeKind,
+    Weather,
+    fresh,
+)
 from .invariants import ENDS
 from .record import Memory, TrialRecord, TrialResult, forgotten, memory_of
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..app import App
-    from ..gateway.gateway import Line
-    from ..jobs.controls import Controls
-    from ..jobs.link import Message, Order
-    from ..jobs.telemetry import Telemetry
-    from ..journal.standing import Record, Standing
-    from ..journal.store import Entry
-    from ..shared.domain.trace import Event
-    from ..shared.time.kernel import Kernel
-    from .case import Case, Weather
-
 
 HEARTBEAT_WITHIN = 3.0
 """Seconds without a heartbeat after which the gateway lands everything."""

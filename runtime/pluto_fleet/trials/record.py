@@ -7,19 +7,16 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..flight.offline import decided
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
-from .case import BrokenHook
+from ..shared.domain.trace import Event
+from .case import BrokenHook, Case
 from .invariants import ENDS, Invariants, at, items_of
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.trace import Event
-    from .case import Case
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
