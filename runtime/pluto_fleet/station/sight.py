@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 KEEP_EVERY = 2.0
 """Seconds after which what was noted is given to the disk, though no event has taken it along."""
 
-LOOK_EVERY = 0.25
-"""Seconds between two looks at a flight of which no station shows anything."""
+LOOK_NO_SOONER = 0.25
+"""Seconds between two looks at a flight of which no station shows anything, which is looked at once in a second of its time."""
 
 SHARE = 50
 """A look is followed by a pause of as many times its length, so that large plans cost no more."""
@@ -144,6 +144,6 @@ def noting(flight: FlightSetup, stops: Stops) -> Callable[[LiveFlight], None]:
             now = round(life.kernel.time(), 3)
             sight.note(life, now, state, missions=sight.missions(life), drones=sight.drones(life))
         ended = time.monotonic()
-        due = ended + max(LOOK_EVERY, SHARE * (ended - begun))
+        due = ended + max(LOOK_NO_SOONER, 1.0 / flight.speed, SHARE * (ended - begun))
 
     return lambda one: one.on_telemetry(lambda: look(one))
