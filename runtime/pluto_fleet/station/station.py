@@ -101,7 +101,9 @@ class Station:
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
-        self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
+        self._forecasts = StartForecasts(
+            app, config, plan, self.history, lambda: self.fleet, self._may_start
+        )
         self.files = files
         self.exports = Exports(config, files, self._flight_now)
         self._before: Path | None = None

@@ -28,6 +28,7 @@ from .runs import MOST, Flown, found
 
 if TYPE_CHECKING:
     from ...app import App
+    from ...files.fleet import FleetFile
     from ...shared.domain.model import Mission
     from ..between_flights import FleetHistory
     from ..config import StationConfig
@@ -163,9 +164,13 @@ class StartForecasts:
         config: StationConfig,
         plan: MissionPlan,
         history: FleetHistory,
+        fleet_now: Callable[[], FleetFile],
         refuse: Callable[[], object],
     ) -> None:
-        """`refuse` raises `BadInput` if a Start of any plan would be refused."""
+        """`fleet_now` returns the fleet with the drones that have joined it; `refuse` raises `BadInput` if a
+        Start of any plan would be refused.
+        """
+        self._fleet_now = fleet_now
         self._app = moving(app, config.fleet.motion, charges=config.fleet.charges_at_home)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)
@@ -191,12 +196,8 @@ class StartForecasts:
                 words("preflight.refused", text, why=text) for text in str(error).split("\n")
             ]
             return without_runs(asked.revision, problems)
-        fleet = replace(
-            self._config.fleet,
-            airspace=replace(self._config.fleet.airspace),
-            began=time.time(),
-            zone="",
-        )
+        fleet = self._fleet_now()
+        fleet = replace(fleet, airspace=replace(fleet.airspace), began=time.time(), zone="")
         beside = list(_left_of(session))
         names = {mission.name for mission in (*beside, *missions)}
         for index, mission in enumerate([*beside, *missions]):
@@ -223,7 +224,7 @@ class StartForecasts:
 
     def _present(self, session: FlightSession | None) -> Iterator[Present]:
         """Yield the drones as a Start would find them now."""
-        fleet, config = self._config.fleet, self._config
+        fleet, config = self._fleet_now(), self._config
         life = session.life if session is not None else None
         if life is not None and life.is_set_out:
             entries = {entry.id: entry for entry in fleet.drones}
