@@ -43,7 +43,6 @@ class StationConfig:
     fleet: FleetFile
     fleet_text: str | None = None
     fleet_path: Path | None = None
-    """The fleet file, if there is one."""
     sim: bool = True
     crtp_sim: int | None = None
     """The number of simulated Crazyflies that are flown as real ones, or None."""
@@ -52,7 +51,6 @@ class StationConfig:
     speed: float | None = None
     """The speed of time; None: real time, or as before."""
     title: str | None = None
-    """What the station is called instead of its app."""
     logo: Logo | None = None
 
     @property

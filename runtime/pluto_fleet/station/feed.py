@@ -112,7 +112,6 @@ class Feed:
         self.drained: deque[tuple[int, Event]] = deque(maxlen=ALERTED)
         """The newest events of broken reserves, numbered from 1."""
         self._reserves = 0
-        """How many reserves were broken."""
         self._fresh: list[str] = []
         """Results of which more is known than pages were told."""
         self._amended: deque[tuple[int, str]] = deque(maxlen=AMENDED_KEPT)

@@ -31,7 +31,6 @@ JSON = "application/json"
 SMALL_BODY = 1024 * 1024
 """The most bytes of a body, where an address does not say that it takes more."""
 LARGE_BODY = 20 * 1024 * 1024
-"""The most bytes of a picture."""
 LARGEST = 2**53
 """The largest whole number that is exact in a browser."""
 _DEPTH = 8

@@ -60,7 +60,6 @@ class Phase(Enum):
     INTERRUPTED = "interrupted"
     """It has ended unexpectedly: it can be resumed, or discarded."""
     OVER = "over"
-    """Every mission has ended."""
 
 
 def phase_of(session: FlightSession | None) -> Phase:
@@ -105,7 +104,6 @@ class FlightSession:
         self.drones: VersionedRows[DroneRow] = VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None
-        """The current run."""
         self.records: Standing | None = known
         """The journal's records when it was last read."""
         self.end: End | None = None

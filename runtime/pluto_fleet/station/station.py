@@ -88,11 +88,9 @@ class Station:
         """The fleet, with the drones that have joined it."""
         self.described = described(app, config, self.map, secrets.token_hex(8))
         self.session: FlightSession | None = None
-        """The current or last flight."""
         self.leaves = asyncio.Event()
         """Set when the station is to end and nothing flies any more."""
         self.attention = Attention(config.own_folder / ALERTS, time.time)
-        """What people must know of."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)

@@ -251,7 +251,6 @@ WITHOUT_A_FLEET_FILE = "map.toml"
 """The file of landmarks where there is no fleet file, in the station's own folder."""
 
 ADDRESS = "/map"
-"""The address of the floor plan."""
 
 
 class StaleMap(PlutoError):
@@ -271,9 +270,7 @@ class DrawnMap:
         self._airspace, self._file = airspace, MapFile(file)
         self.revision = round(now() * 1000)  # from the clock: after a restart it is another
         self.image: Path | None = None
-        """The floor plan."""
         self.changed: Callable[[], object] = _ignore
-        """Called after each change."""
         self._one_at_a_time = asyncio.Lock()
         self._file.read()
         self._find_image()

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from ..wire import Swept, Ways
 
 MOST_WAYS = 500
-"""The most ways that are asked for at once."""
 
 _DIGITS = 3
 

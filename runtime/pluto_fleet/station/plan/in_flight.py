@@ -42,7 +42,6 @@ class DrawnChange:
     trips: list[Shape]
     """The mission's trips in the plan from now on, those that have flown first."""
     is_one: bool
-    """Whether it changes the flight."""
 
 
 def named(fixed: Shape, trips: Sequence[Shape]) -> list[Shape]:

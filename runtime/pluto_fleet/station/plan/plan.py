@@ -28,10 +28,8 @@ if TYPE_CHECKING:
 _NOTHING: Mapping[str, Sequence[Shape]] = {}
 
 MOST_SHOWN = 1_000
-"""The most problems that pages get."""
 
 MOST_SAID = 10
-"""The most problems in the answer to Start."""
 
 
 class Stale(PlutoError):

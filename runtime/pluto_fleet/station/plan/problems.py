@@ -249,7 +249,6 @@ class FlyabilityCache:
 
 
 MOST = 10
-"""The most sentences that are told at once."""
 
 
 def promised(missions: Sequence[Mission[Any]]) -> Sequence[Mission[Any]]:

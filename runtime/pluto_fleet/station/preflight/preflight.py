@@ -44,7 +44,6 @@ FIRST_WITHIN = 12.0
 """Seconds after which a forecast whose first run has not ended is made in a simpler world, or not at all."""
 
 KEPT = 4
-"""How many rehearsals are kept, the newest."""
 
 
 class Newer(BadInput):

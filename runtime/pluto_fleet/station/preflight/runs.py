@@ -52,7 +52,6 @@ class Run(NamedTuple):
     seed: int
     seconds: float
     ends: Mapping[str, End]
-    """By mission."""
     battery: float | None
     """The lowest level of a battery at a landing; None: no drone flew."""
     given_up: str

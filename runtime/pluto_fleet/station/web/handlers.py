@@ -287,7 +287,6 @@ def _download(content: bytes, name: str, kind: str) -> Response:
 
 
 OPERATIONS = operations_of(Interface)
-"""All that can be asked, by name."""
 
 HANDLERS: Mapping[str, Handler] = {
     **{name: command for name, one in OPERATIONS.items() if one.is_command},
