@@ -94,16 +94,13 @@ def picture_of(picture: Picture, address: str) -> PictureData:
     }
 
 
-def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspace) -> Landmarks:
+def landmarks_from(given: Mapping[str, Any], was: Landmarks, airspace: Airspace) -> Landmarks:
     """Return what a page has drawn; what it does not send stays. Raises `BadInput` with all that is wrong."""
-    for key in given:
-        if key not in ("places", "zones", "north", "image"):
-            raise BadInput(f"the map has no {key}: it has places, zones, north and image")
     data: dict[str, object] = {"north": was.north, **landmark_tables(was)}
-    if "places" in given:
-        data["places"] = [_place(one) for one in _list(given["places"], "places")]
-    if "zones" in given:
-        data["zones"] = [_rounded(one) for one in _list(given["zones"], "zones")]
+    if given.get("places") is not None:
+        data["places"] = [_place(one) for one in given["places"]]
+    if given.get("zones") is not None:
+        data["zones"] = _rounded(given["zones"])
     if "north" in given:
         data["north"] = _rounded(given["north"])
     if given.get("image") is not None:
@@ -114,34 +111,24 @@ def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspa
     return landmarks if "image" in given else replace(landmarks, picture=was.picture)
 
 
-def _place(given: object) -> object:
+def _place(given: Mapping[str, Any]) -> object:
     """Return a place as in a file."""
-    if not isinstance(given, dict):
-        return given
     at = [given[key] for key in ("x", "y") if key in given]
     at += [given["z"]] if given.get("z") is not None else []
     rest = {key: value for key, value in given.items() if key not in ("x", "y", "z")}
     return {**rest, "at": _rounded(at)}
 
 
-def _image(given: object, known: Picture | None) -> dict[str, object]:
+def _image(given: Mapping[str, Any], known: Picture | None) -> dict[str, object]:
     """Return the floor plan as in a file: a page says where it lies, and not which it is."""
     if known is None:
         raise BadInput("the map has no floor plan yet: send its picture first")
-    if not isinstance(given, dict):
-        raise BadInput("image must be null, or say where the floor plan lies")
     x, y, width, height = (given.get(key) for key in ("x", "y", "width", "height"))
     of_file = {"at": [x, y], "size": [width, height], "turn": given.get("turn", 0.0)}
     return {"file": known.file, **{key: _rounded(value) for key, value in of_file.items()}}
 
 
-def _list(given: object, name: str) -> list[Any]:
-    if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
-        raise BadInput(f"{name} must be a list of objects")
-    return given
-
-
-def _rounded(given: object) -> object:
+def _rounded(given: Any) -> Any:
     match given:
         case float():
             return round(given, _DIGITS) + 0.0
@@ -303,7 +290,7 @@ class DrawnMap:
         """Return what a point is called: by the nearest named place, or the zone that it is in."""
         return name_of(self.landmarks, point)
 
-    async def change(self, revision: object, given: Mapping[str, object]) -> None:
+    async def change(self, revision: int, given: Mapping[str, Any]) -> None:
         """Take what a page has drawn; what it does not send stays.
 
         Raises `StaleMap` if that was drawn on an old map, be it that the file was changed by hand
@@ -313,7 +300,7 @@ class DrawnMap:
             await self._check_current(revision)
             await self._keep(landmarks_from(given, self.landmarks, self._airspace))
 
-    async def take_picture(self, revision: object, name: str, content: bytes) -> None:
+    async def take_picture(self, revision: int, name: str, content: bytes) -> None:
         """Take a picture as the floor plan, as large as the map until it is laid where it belongs.
 
         It is kept beside the file, under a name of its own. Raises as `change` does.
@@ -337,7 +324,7 @@ class DrawnMap:
                 why = error.strerror or error
                 raise BadInput(f"the floor plan cannot be kept: {why}") from None
 
-    async def _check_current(self, revision: object) -> None:
+    async def _check_current(self, revision: int) -> None:
         if await asyncio.to_thread(self._file.read):
             self._announce()
         if revision != self.revision:

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from ...shared.domain.model import Point
     from ..wire import Swept, Ways
 
-MOST_WAYS = 500
-
 _DIGITS = 3
 
 
@@ -28,12 +26,12 @@ class DrawnWays:
         self._airspace = replace(airspace)  # its cache of routes must not be shared by threads
         self._one_at_a_time = asyncio.Lock()
 
-    async def ways(self, pairs: object) -> Ways:
+    async def ways(self, pairs: list[list[Any]]) -> Ways:
         """Return the shortest permitted ways: of each pair [from, to] of places [x, y] or [x, y, z].
 
         A place without z is at the cruise height. Raises `BadInput`.
         """
-        read = [self._pair(one, number) for number, one in enumerate(_pairs(pairs), 1)]
+        read = [self._pair(one, number) for number, one in enumerate(pairs, 1)]
         async with self._one_at_a_time:
             return await asyncio.to_thread(self._find, read)
 
@@ -53,8 +51,8 @@ class DrawnWays:
             found.append(None if route is None else [_rounded(one) for one in (start, *route)])
         return {"ways": found}
 
-    def _pair(self, given: object, number: int) -> tuple[Point, Point]:
-        if not isinstance(given, list) or len(given) != 2:
+    def _pair(self, given: list[Any], number: int) -> tuple[Point, Point]:
+        if len(given) != 2:
             raise BadInput(f"way {number} is no pair of places")
         return self._point(given[0], f"way {number}"), self._point(given[1], f"way {number}")
 
@@ -83,9 +81,3 @@ class DrawnWays:
 
 def _rounded(point: Point) -> list[float]:
     return [round(number, _DIGITS) for number in point]
-
-
-def _pairs(given: object) -> list[Any]:
-    if not isinstance(given, list) or len(given) > MOST_WAYS:
-        raise BadInput(f"ways must be a list of at most {MOST_WAYS} pairs of places")
-    return given
