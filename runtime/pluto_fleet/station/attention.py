@@ -19,9 +19,8 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, cut_off, duration, percent, quoted
 from .feed import VersionedRows
-from .rows import waits_for_a_drone
+from .rows import waits_for_a_drone, words
 from .wire import Alert
-from .words import words
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event

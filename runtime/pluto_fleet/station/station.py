@@ -31,10 +31,9 @@ from .attention import FILE as ALERTS
 from .attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .config import described
-from .flight_changes import FlightChanges
-from .map.drawn import DrawnMap
-from .map.ways import DrawnWays
+from .map.drawn import DrawnMap, DrawnWays
 from .plan.kept import PlanLibrary
+from .plan.plan import FlightChanges
 from .plan.problems import broken, promised
 from .preflight.preflight import StartForecasts
 from .results.exports import CurrentFlight, Exports

@@ -14,7 +14,7 @@ from ..shared.domain.text import percent
 from ..shared.fleet.reach import LOW, Reach, chain_of, docked, miss_of
 from ..shared.fleet.reach import docked as stands_in_its_dock
 from ..shared.hooks.plain_data import trip_of
-from .words import words
+from .rows import words
 
 if TYPE_CHECKING:
     from ..journal.standing import Record

@@ -21,7 +21,7 @@ from ...shared.domain.text import duration
 from ...trials.case import fresh
 from ..history.reading import REHEARSAL, rehearsals_in
 from ..plan.problems import broken, promised
-from ..words import words
+from ..rows import words
 from .forecast import forecast, without_runs
 from .question import Present, Question, at_rest, in_flight
 from .runs import MOST, Flown, found

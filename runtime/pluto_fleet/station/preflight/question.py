@@ -12,8 +12,8 @@ from ...flight.simulate import has_traffic
 from ...shared.domain.text import duration, percent
 from ...shared.fleet.reach import docked
 from ..between_flights import BACK, FRESH_FOR, HOVERED, NEVER
+from ..rows import words
 from ..wait_reasons import level_after, ready_in
-from ..words import words
 
 if TYPE_CHECKING:
     from ...app import App

@@ -8,12 +8,12 @@ import shutil
 import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 from ...shared.domain.errors import BadInput
-from ..json_text import json_text
 from . import pictures
 from .tables import cells, csv_text, geojson, picture_name
 
@@ -22,6 +22,25 @@ if TYPE_CHECKING:
     from .flights import FlightResults, ResultsOfFlights
 
 INDEX, MISSING = "results.csv", "missing.txt"
+
+
+def json_text(data: object) -> str:
+    """Return data as JSON in ASCII; numbers that JSON lacks become texts."""
+    try:
+        return json.dumps(data, separators=(",", ":"), allow_nan=False)
+    except ValueError:  # a hook returned NaN or infinity
+        return json.dumps(_finite(data), separators=(",", ":"), allow_nan=False)
+
+
+def _finite(data: object) -> object:
+    if isinstance(data, float) and not isfinite(data):
+        return str(data)
+    if isinstance(data, Mapping):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return data
+
 
 AT_ONCE = 2
 """The pictures that are read or made small at once, each in a thread."""

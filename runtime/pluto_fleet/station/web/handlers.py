@@ -22,10 +22,9 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..flight_files import FlightFiles
 from ..interface import Interface
-from ..json_text import json_text
 from ..operation import JSON, Operation, operations_of
 from ..preflight.preflight import PlannedStart
-from ..results.exports import Exports
+from ..results.exports import Exports, json_text
 from ..wire import MapData, Role, SavedPlans
 from ..wire_app import PlanData
 from .audit import who

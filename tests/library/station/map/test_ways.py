@@ -12,8 +12,7 @@ from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Zone
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.map.drawn import name_of
-from pluto_fleet.station.map.ways import DrawnWays
+from pluto_fleet.station.map.drawn import DrawnWays, name_of
 from tests.library.files.an_app import APP
 
 LIFT = ((4.0, 0.0), (6.0, 0.0), (6.0, 6.0), (4.0, 6.0))
