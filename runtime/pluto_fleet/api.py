@@ -18,7 +18,8 @@ from .files.missions import load_missions
 from .files.plan_check import endless, problems, wrong_fields
 from .files.writing import fleet_text, missions_text
 from .flight.config import End, FlightResult, FlightSetup, Stops
-from .flight.lives import FlightObserver, flight_of, reopen, run_flight
+from .flight.live_flight import FlightObserver
+from .flight.lives import flight_of, reopen, run_flight
 from .flight.outcome import SimulationResult
 from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
@@ -156,7 +157,7 @@ async def resume(
     flight = taken.flight(speed)
     stops = stops or Stops()
     observer = _observer(flight, stops, on_event)
-    return await run_flight(flight, taken.store, stops, taken.known, observer)
+    return await run_flight(flight, taken.store, stops, taken.records, observer)
 
 
 def _observer(flight: FlightSetup, stops: Stops, on_event: Listener | None) -> FlightObserver:

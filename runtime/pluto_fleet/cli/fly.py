@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..flight.config import End, FlightResult, FlightSetup, Stops, how_to_go_on
+from ..flight.live_flight import FlightObserver
 from ..flight.lives import (
-    FlightObserver,
     Resumable,
     aloft,
     flight_of,
@@ -41,7 +41,6 @@ from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..flight.fly import Recovered
     from ..journal.standing import Standing
     from ..shared.domain.model import Drone
     from ..shared.domain.trace import Event
@@ -95,7 +94,7 @@ def resume(app: App, options: Options) -> int:
         store.close()
         output.line("nothing to go on with: every mission has ended")
         output.line()
-        return reported(app, journal, taken.known.records)
+        return reported(app, journal, taken.records)
     if not options.supervised:
         output.tell(f"journal: {printable(str(journal))}")
         clear_stop(store.path)
@@ -104,7 +103,7 @@ def resume(app: App, options: Options) -> int:
     if options.supervise:
         store.close()
         return supervised(app, options, journal, None)
-    return see_through(taken.flight(options.speed), store, taken.known)
+    return see_through(taken.flight(options.speed), store, taken.records)
 
 
 def _check(options: Options, taken: Resumable) -> None:
@@ -124,15 +123,15 @@ STOPPED = 130
 """The exit code after `tell J stop`, as after Ctrl-C."""
 
 
-def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
+def see_through(flight: FlightSetup, store: Store, records: Standing | None = None) -> int:
     """Fly until all have ended or it is stopped; report the outcome, and return the exit code.
 
-    `known` is the journal's content, if it has been read already.
+    `records`: where all stands by the journal, if that has been read already.
     """
     stops = Stops()
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
-        lived = run_until_complete(_heard(flight, store, stops, interrupts, known))
+        lived = run_until_complete(_heard(flight, store, stops, interrupts, records))
     if lived.end is End.STOPPED:
         who = "all other drones" if aloft(flight, lived.drones) else "all drones"
         output.tell(f"{who} are down; {flight.how_to_go_on}")
@@ -150,12 +149,16 @@ def reported(app: App, journal: Path, records: Standing, drones: Sequence[Drone]
 
 
 async def _heard(
-    flight: FlightSetup, store: Store, stops: Stops, interrupts: Interrupts, known: Recovered | None
+    flight: FlightSetup,
+    store: Store,
+    stops: Stops,
+    interrupts: Interrupts,
+    records: Standing | None,
 ) -> FlightResult:
     """Run a flight with its interrupt handlers."""
     interrupts.loop = asyncio.get_running_loop()
     observer = FlightObserver(tell=tell, say=output.tell, born=noting(flight, stops))
-    return await run_flight(flight, store, stops, known, observer)
+    return await run_flight(flight, store, stops, records, observer)
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:

@@ -38,7 +38,7 @@ from .wire import MAX_COMMAND
 
 if TYPE_CHECKING:
     from ..drones.real_fleet import RealDrone
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Controls, FleetDrone
     from .settings import Settings
 
 

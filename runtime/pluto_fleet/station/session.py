@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..flight.config import End, FlightSetup, Stops
-from ..flight.lives import FlightObserver, run_flight
+from ..flight.live_flight import FlightObserver
+from ..flight.lives import run_flight
 from ..flight.mission_status import records_in
 from ..journal.errors import JournalError
 from ..journal.lock import holder
@@ -40,7 +41,6 @@ from .results.rows import NameOf, nowhere
 from .sight import Sight
 
 if TYPE_CHECKING:
-    from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
@@ -164,23 +164,23 @@ class FlightSession:
         known = self.known.missions if self.known is not None else {}
         return {name: settled(record) for name, record in known.items()}
 
-    def read(self, known: Recovered) -> None:
+    def read(self, records: Standing) -> None:
         """Show the journal of a run that has ended."""
-        self.records = known.records
+        self.records = records
         with closing(Reader(self.flight.journal)) as reader, suppress(JournalError):
             for _, event in reader.events():
                 self.feed.take(event)
 
-    def begin(self, store: Store, known: Recovered | None) -> None:
+    def begin(self, store: Store, records: Standing | None) -> None:
         """Run it, from its beginning or from its records."""
         self.end, self.trouble, self.stops = None, "", Stops()
-        self.task = asyncio.create_task(self._live(store, known))
+        self.task = asyncio.create_task(self._live(store, records))
         self.task.add_done_callback(lambda _: self._ended())
 
-    async def _live(self, store: Store, known: Recovered | None) -> None:
+    async def _live(self, store: Store, records: Standing | None) -> None:
         observer = FlightObserver(tell=self._hear, say=self.say, born=self._born, patient=True)
         try:
-            lived = await run_flight(self.flight, store, self.stops, known, observer)
+            lived = await run_flight(self.flight, store, self.stops, records, observer)
         except BadInput as error:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):

@@ -44,7 +44,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
-    from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
     from ..process.apart import Answers
     from ..shared.domain.model import Mission
@@ -130,7 +129,7 @@ class Station:
                 self.plan.unlock()
             return
         self.session = self._session_of(taken.flight(self._config.speed))
-        self.session.read(taken.known)
+        self.session.read(taken.records)
         if taken.is_over:
             self.session.end = End.OVER
         taken.store.close()
@@ -318,12 +317,12 @@ class Station:
         taken = reopen(self._app, journal)
         clear_stop(taken.store.path)
         self.session.flight = taken.flight(self._config.speed)
-        self._fly(self.session, taken.store, taken.known)
+        self._fly(self.session, taken.store, taken.records)
         return "going on where it was"
 
-    def _fly(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
+    def _fly(self, session: FlightSession, store: Store, records: Standing | None) -> None:
         """Let a flight begin, or go on, and be watched."""
-        session.begin(store, known)
+        session.begin(store, records)
         self._watching = asyncio.ensure_future(self._updates.watch(session))
 
     async def _discard(self) -> str:
