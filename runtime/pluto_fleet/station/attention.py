@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import msgspec
 
-from ..flight.control import ANSWERS
+from ..flight.mission_status import ANSWERS
 from ..process.whole_file import write_whole
 from ..report.sentences import sentence_of
 from ..shared.domain.errors import BadInput

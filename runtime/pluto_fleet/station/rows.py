@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..flight.control import ANSWERS, PRIORITY
-from ..flight.mission_status import aside
+from ..flight.control import PRIORITY
+from ..flight.mission_status import ANSWERS, aside
 from ..flight.reconcile import trip_of
 from ..shared.domain.status import Status, TripStatus
 from ..shared.domain.text import cut_off
