@@ -86,7 +86,8 @@ class Brain:
         drones = list[Drone]()
         for one in fleet["drones"]:
             drones.append(orders.drone_of(app, one, status, len(drones)))
-        queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
+        homes = [drone.home for drone in drones]
+        queue = Queue(kernel, Reach(app, space, homes), drones, fleet.get("max_airborne"))
         after_trip = AfterTrip(fleet.get("after_trip", "next"))
         self._core = core = Core(
             app=app,

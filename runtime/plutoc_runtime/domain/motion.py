@@ -71,6 +71,11 @@ class Motion:
         followed = PEAK * metres / min(speed, self.limit)
         return self.pace * max(SHORTEST, followed, sqrt(PUSH * abs(metres) / MOST))
 
+    def shortness(self, speed: float) -> float:
+        """Return how many seconds a short leg can take more than its share of a long one."""
+        most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
+        return self.pace * max(SHORTEST, most) if self.smooth else 0.0
+
     def climb(self, metres: float, speed: float) -> float:
         """Return the seconds straight up."""
         return self.leg(metres, min(speed, 2 * CLIMB_SPEED) if self.smooth else CLIMB_SPEED)

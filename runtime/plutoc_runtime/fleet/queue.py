@@ -61,11 +61,15 @@ class Request(Future["Drone"]):
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         telemetry = drone.telemetry
-        return telemetry.battery_level >= self.level(drone, telemetry.location)
+        level = telemetry.battery_level
+        here = telemetry.location
+        if here == drone.home and level >= self.takes(drone.category)[2]:
+            return True
+        return level >= self.level(drone, here)
 
     def ever(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip from its home with a full battery."""
-        return self.level(drone, drone.home) < inf
+        return self.takes(drone.category)[2] <= 1.0 or self.level(drone, drone.home) < inf
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with all that its battery will have; None: it can."""
@@ -92,7 +96,7 @@ class Request(Future["Drone"]):
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
-        upright, a_metre = self._bounds.get(drone.category) or self.takes(drone.category)
+        upright, a_metre, _ = self._bounds.get(drone.category) or self.takes(drone.category)
         x, y, _ = self.goal
         from_x, from_y, height = here
         home_x, home_y, _ = drone.home
