@@ -104,12 +104,14 @@ class Fleet:
 
     def dismiss(self, drone: Drone) -> None:
         """Take a drone back whose trip has ended well."""
-        may_stay = self._after_trip is AfterTrip.STAY or self._is_docked(drone)
-        has_enough = drone.battery_level > drone.category.reserve
         if drone in self.retired:
             if not self._settle_here(drone):
                 self.send_home(drone)
-        elif drone.telemetry.landed and may_stay and has_enough:
+        elif (
+            drone.telemetry.landed
+            and drone.battery_level > drone.category.reserve
+            and (self._after_trip is AfterTrip.STAY or docked(drone.location, drone.home))
+        ):
             self._become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
