@@ -25,10 +25,9 @@ from typing import IO
 from measuring.options import at_least_one
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
-from pluto_fleet.drones.errors import NavigationError
-from pluto_fleet.drones.protocol import DroneSetup
+from pluto_fleet.drones.protocol import DroneSetup, NavigationError
 
 TICK = 0.002
 LIMIT = 0.050
@@ -43,7 +42,7 @@ def homes(drones: int) -> dict[str, tuple[float, float, float]]:
 async def simulate(drones: int) -> None:
     """Be the other process: simulated drones, and a line `ID FAULT ON` for what goes wrong."""
     builds = [Build(id=id, home=home) for id, home in homes(drones).items()]
-    server = Server(builds, MemoryLog())
+    server = Server(builds, FlightLog())
     await server.start()
     print(json.dumps(server.uris), flush=True)
     loop = asyncio.get_running_loop()

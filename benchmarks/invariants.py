@@ -23,8 +23,7 @@ sys.path[:0] = [str(Path(__file__).parents[1])]
 
 import tests  # noqa: F401  # first: all that follows shares one brain
 from pluto_fleet.app import App
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.journal.event_line import line
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import WorldData

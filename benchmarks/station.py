@@ -3,7 +3,7 @@
 `python benchmarks/station.py` serves a compiled app in real time with simulated drones: 50 drones fly,
 200 missions want them, and three browsers look at the Monitor. It prints how much of a core the
 server takes without and with three browsers, how much of its main thread each browser, how old
-what they show is, how large recordings become, what a client costs that asks and never reads, and how long one waits for the
+what they show is, how large journals become, what a client costs that asks and never reads, and how long one waits for the
 first paint and for the first drone after Start, of a library that is installed as users have it. Needs Chromium, and what the extra `test` installs. Linux only: it reads /proc.
 """
 
@@ -127,17 +127,17 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
             airborne(server, given.drones)
             time.sleep(min(SETTLE, given.seconds))
             gateway = server.gateway()
-            before = server.recorded
+            before = server.kept
             tell({"server, no browser, %": share(lambda: server.used, given.seconds)})
-            hourly = (server.recorded - before) / given.seconds * 3600
-            tell({"recording, no browser, MB an hour": hourly})
+            hourly = (server.kept - before) / given.seconds * 3600
+            tell({"journal, no browser, MB an hour": hourly})
             if gateway is not None:
                 tell({"gateway, %": share(lambda: seconds_of(gateway), given.seconds)})
             with browser() as found:
-                before, begun = server.recorded, time.perf_counter()
+                before, begun = server.kept, time.perf_counter()
                 tell(watched(server, found, given.tabs, given.seconds))
-                hourly = (server.recorded - before) / (time.perf_counter() - begun) * 3600
-                tell({"recording, watched, MB an hour": hourly})
+                hourly = (server.kept - before) / (time.perf_counter() - begun) * 3600
+                tell({"journal, watched, MB an hour": hourly})
             tell(neglected(server, given.seconds))
         finally:
             server.end()

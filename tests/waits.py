@@ -25,7 +25,7 @@ from random import Random
 from tempfile import mkdtemp
 from typing import Any
 
-from pluto_fleet.files.plan_waits import LONG
+from pluto_fleet.files.plan_check import LONG
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.report.sentences import line_of

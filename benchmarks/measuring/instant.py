@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from pluto_fleet.app import described
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.jobs.link import Link, Message, Order
 from pluto_fleet.jobs.reports import DroneReport, FleetReport, fleet_report_data
 from pluto_fleet.process.realtime import RealTime

@@ -49,9 +49,9 @@ class Server:
         return int(found[1]) / 1000 if found else 0.0
 
     @property
-    def recorded(self) -> float:
-        """Megabytes of the recordings of its flights."""
-        return sum(file.stat().st_size for file in self.folder.glob("*.recording")) / 1e6
+    def kept(self) -> float:
+        """Megabytes of the journals of its flights."""
+        return sum(file.stat().st_size for file in self.folder.glob("*.journal*")) / 1e6
 
     def gateway(self) -> int | None:
         """Return the process that the drones are behind."""

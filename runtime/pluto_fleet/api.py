@@ -14,12 +14,12 @@ from typing import Any
 from .app import App, described
 from .cli.preflight import check_real
 from .files.fleet import FleetFile, default_fleet, load_fleet
-from .files.fleet_text import fleet_text
 from .files.missions import load_missions
-from .files.missions_text import missions_text
 from .files.plan_check import endless, problems, wrong_fields
-from .flight.config import End, FlightResult, Stops
-from .flight.lives import FlightObserver, flight_of, reopen, run_flight
+from .files.writing import fleet_text, missions_text
+from .flight.config import End, FlightResult, FlightSetup, Stops
+from .flight.live_flight import FlightObserver
+from .flight.lives import flight_of, reopen, run_flight
 from .flight.outcome import SimulationResult
 from .flight.simulate import simulate as _simulate
 from .jobs.reports import Down
@@ -35,6 +35,7 @@ from .shared.domain.status import Status, TripStatus
 from .shared.domain.trace import Event
 from .shared.domain.values import shortened
 from .shared.hooks.loading import loaded
+from .station.sight import noting
 
 __all__ = [
     "Airspace",
@@ -133,7 +134,8 @@ async def fly(
     )
     store = Store.create(journal, begun)
     flight = flight_of(flown, store, missions, on, speed)
-    return await run_flight(flight, store, stops or Stops(), None, _observer(on_event))
+    stops = stops or Stops()
+    return await run_flight(flight, store, stops, None, _observer(flight, stops, on_event))
 
 
 async def resume(
@@ -152,16 +154,17 @@ async def resume(
     except BadInput:
         taken.store.close()  # it holds the journal's lock
         raise
-    observer = _observer(on_event)
     flight = taken.flight(speed)
-    return await run_flight(flight, taken.store, stops or Stops(), taken.known, observer)
+    stops = stops or Stops()
+    observer = _observer(flight, stops, on_event)
+    return await run_flight(flight, taken.store, stops, taken.records, observer)
 
 
-def _observer(on_event: Listener | None) -> FlightObserver:
+def _observer(flight: FlightSetup, stops: Stops, on_event: Listener | None) -> FlightObserver:
     def ignore(_: object) -> None:
         """What is not an event is in the journal, too."""
 
-    return FlightObserver(tell=on_event or ignore, say=ignore)
+    return FlightObserver(tell=on_event or ignore, say=ignore, born=noting(flight, stops))
 
 
 def _refuse(

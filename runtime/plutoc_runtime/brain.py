@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from .domain.app import SEAM, about, moving
@@ -30,7 +31,6 @@ from .flow.record import (
     Row,
     changed_rows,
     drone_standing,
-    mission_of,
     result_row,
     standing_of,
     whereabouts_of,
@@ -86,7 +86,8 @@ class Brain:
         drones = list[Drone]()
         for one in fleet["drones"]:
             drones.append(orders.drone_of(app, one, status, len(drones)))
-        queue = Queue(kernel, Reach(app, space), drones, fleet.get("max_airborne"))
+        homes = [drone.home for drone in drones]
+        queue = Queue(kernel, Reach(app, space, homes), drones, fleet.get("max_airborne"))
         after_trip = AfterTrip(fleet.get("after_trip", "next"))
         self._core = core = Core(
             app=app,
@@ -110,13 +111,7 @@ class Brain:
 
     def begin(self, missions: Sequence[Mapping[str, Any]], now: float) -> None:
         """Begin missions: each has `trips`, and perhaps `name`, `index` and `fields`."""
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._begin, missions)
-
-    def _begin(self, missions: Sequence[Mapping[str, Any]]) -> None:
-        first = len(self._states)
-        self._engine.start(
-            [mission_of(self._app, one, first + i) for i, one in enumerate(missions)]
-        )
+        self._kernel.call(now, ONLY_WHAT_IS_READY, self._engine.start, missions)
 
     def restore(self, standing: Mapping[str, Any], now: float) -> None:
         """Have missions, drones and results as their rows say, after any end: as in `standing()`.
@@ -137,14 +132,12 @@ class Brain:
         Each may have the `report` of how its flight ended; without one, a flight that was not settled flies
         on. `drones` are the reports of those that no mission may need: `reached`, `landed`, `carrying`, `problems`.
         """
-        self._kernel.call(now, ONLY_WHAT_IS_READY, self._go_on, (missions, drones))
+        self._kernel.call(now, ONLY_WHAT_IS_READY, partial(self._go_on, missions), drones)
 
-    def _go_on(self, given: tuple[Mapping[str, Any], Mapping[str, Any]]) -> None:
-        missions, drones = given
+    def _go_on(self, missions: Mapping[str, Any], drones: Mapping[str, Any]) -> None:
         self._engine.go_on(missions, drones)
         for part in self._parts:
             part.go_on()
-        self._engine.look_after_the_end()
 
     def command(self, request: Mapping[str, Any], now: float) -> None:
         """Do what a person wants, or what was found out; raise `BadInput` with the reason why it cannot be done.
@@ -255,8 +248,7 @@ class Brain:
     @property
     def over(self) -> float | None:
         """When the last mission ended, once all have and every drone has landed; None: not yet."""
-        whole = self._engine.whole
-        return whole.result() if whole is not None and whole.is_set else None
+        return None if self._core.fleet.errands else self._engine.ended_at
 
     def whereabouts(self) -> Mapping[str, Any]:
         """Return where each mission that has not ended is in its graph.

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from io import TextIOWrapper
 
 
@@ -27,21 +28,22 @@ def prepare() -> None:
 
 def line(text: str = "") -> None:
     """Write a line on standard output."""
-    try:
+    with _told():
         print(text)
-    except BrokenPipeError as error:
-        raise ClosedPipe from error
-    except OSError as error:
-        raise CannotWrite(error.strerror or str(error)) from error
-    except ValueError as error:  # something in this process has closed it
-        raise CannotWrite(str(error)) from error
 
 
 def flush() -> None:
     """Send on what was written; only now does a full disk or a closed pipe show."""
-    try:
+    with _told():
         if sys.stdout is not None:
             sys.stdout.flush()
+
+
+@contextmanager
+def _told() -> Iterator[None]:
+    """Raise what goes wrong with the output as one of the two errors here."""
+    try:
+        yield
     except BrokenPipeError as error:
         raise ClosedPipe from error
     except OSError as error:

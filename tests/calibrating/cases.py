@@ -9,8 +9,8 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 from pluto_fleet.calibration.commands import read_flights
+from pluto_fleet.calibration.estimates import Calibration
 from pluto_fleet.calibration.fit import calibrated
-from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STRAIGHT, Motion, varied
 from tests.calibrating.flights import surveyed

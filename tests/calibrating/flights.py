@@ -10,11 +10,11 @@ from random import Random
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.writing import fleet_text
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
-from pluto_fleet.jobs.controls import Controls
+from pluto_fleet.jobs.controls import Controls, fleet_drones
 from pluto_fleet.journal.header import header
 from pluto_fleet.journal.standing import Standing
 from pluto_fleet.journal.store import Entry, Store
@@ -24,7 +24,6 @@ from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.motion import Motion
 from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.shared.time.told import VirtualTime
-from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
 
@@ -61,7 +60,7 @@ def flown(
     planned, app = app, moving(app, motion or fleet.motion)
     kernel = VirtualTime()
     disk = _Disk()
-    drones = simulated(app, fleet)
+    drones = fleet_drones(app, fleet)
     world = World(seed, fleet.airspace, fleet.world)
     controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed)
     if around is not None:

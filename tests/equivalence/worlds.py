@@ -12,8 +12,7 @@ from random import Random
 from typing import Any
 
 from pluto_fleet.app import App
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point, Trip

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pluto_fleet.crtp.battery import LOW
-from pluto_fleet.crtp.faults import Value
+from pluto_fleet.crtp.server import Value
 from tests.flights_crazyflie.flight import Flight
 from tests.kill.trial import gateway_of
 

@@ -1,4 +1,4 @@
-"""Gives everything that reads journals and recordings files that were written to do harm.
+"""Gives everything that reads journals files that were written to do harm.
 
     python -m tests.forged --files 2000
 
@@ -7,7 +7,6 @@ Each must be read as far as it can be, or refused in a sentence. `--only N` make
 
 from __future__ import annotations
 
-import gzip
 import json
 import sqlite3
 import sys
@@ -17,18 +16,14 @@ from functools import cache
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
-from typing import Any
 
 from pluto_fleet.journal.facts import row_of
 from pluto_fleet.journal.standing import Row, Standing
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.time.told import Stuck
-from pluto_fleet.station.history.folder import recording_of
-from pluto_fleet.station.history.recording import Recording
 from tests.forged.files import (
     TABLES,
     changed,
-    forged_lines,
     forged_texts,
     write_events,
     write_rows,
@@ -37,9 +32,7 @@ from tests.forged.readers import FLIGHT, faults_of
 from tests.kit import apps
 from tests.kit.campaign import Campaign
 from tests.kit.living import Living, enterable
-from tests.library.station.history.test_past import ROWS, frames_of, kept, past_of
-
-OF_A_RECORDING = ("replay", "mcap", "console", "report")
+from tests.library.station.history.test_past import ROWS, kept
 
 
 def main() -> int:
@@ -56,7 +49,7 @@ def main() -> int:
 def one(number: int) -> list[str]:
     """Make a file, have it read, and return what must not be."""
     random = Random(number)
-    try_it = (_journal, _journal, _rows, _recording, _life, _tables)[number % 6]
+    try_it = (_journal, _journal, _rows, _journal, _life, _tables)[number % 6]
     with TemporaryDirectory() as folder:
         return list(try_it(random, Path(folder)))
 
@@ -70,11 +63,6 @@ def _rows(random: Random, folder: Path) -> list[str]:
     """Rows of missions, trips and drones, with parts that are others."""
     write_rows(kept(folder, FLIGHT), random)
     return list(faults_of(folder, only=("resume", "flights", "report")))
-
-
-def _recording(random: Random, folder: Path) -> list[str]:
-    recording_of(kept(folder, FLIGHT)).write_bytes(forged_lines(random, _lines()))
-    return list(faults_of(folder, only=OF_A_RECORDING))
 
 
 def _tables(random: Random, folder: Path) -> list[str]:
@@ -118,25 +106,6 @@ def _go_on(random: Random, living: Living) -> None:
 def _texts() -> Sequence[str]:
     (_, header), *rows = map(json.loads, ROWS.read_text("utf-8").splitlines())
     return [json.dumps([header]), *(json.dumps(events) for _, *events in rows)]
-
-
-@cache
-def _lines() -> Sequence[bytes]:
-    """The lines of a recording of that flight."""
-    with TemporaryDirectory() as folder:
-        path = Path(folder)
-        kept(path, FLIGHT)
-        recording = Recording(path / "it", begun_at=1_700_000_000_000)
-        frames = frames_of(past_of(path), FLIGHT)[:100]
-        missions: dict[str, Any] = {}
-        drones: dict[str, Any] = {}
-        for frame in frames:
-            missions |= {row["name"]: row for row in frame["missions"]}
-            drones |= {row["id"]: row for row in frame["drones"]}
-            recording.write(frame["t"], frame["state"], missions.values(), drones.values())
-        recording.tell({"time": 1.0, "text": "hello", "kind": "info"}, after=2)
-        recording.finish()
-        return gzip.decompress((path / "it").read_bytes()).splitlines()
 
 
 if __name__ == "__main__":

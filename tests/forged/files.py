@@ -1,8 +1,7 @@
-"""Journals and recordings that somebody has written to do harm: nothing in them is as it should be."""
+"""Journals that somebody has written to do harm: nothing in them is as it should be."""
 
 from __future__ import annotations
 
-import gzip
 import json
 import sqlite3
 from collections.abc import Sequence
@@ -115,14 +114,3 @@ TABLES = (
     "DELETE FROM app; DELETE FROM event",
 )
 """What makes other tables of a journal's."""
-
-
-def forged_lines(random: Random, lines: Sequence[bytes]) -> bytes:
-    """Return a recording of these lines, some of which are others."""
-    found = [json.loads(line) for line in lines]
-    texts: list[str] = []
-    for one in found:
-        if random.random() < 0.2:
-            one = changed(random, one)
-        texts.append(json.dumps(one) if random.random() < 0.98 else random.choice(RAW))
-    return gzip.compress("\n".join([*texts, ""]).encode(), 1)

@@ -1,4 +1,4 @@
-"""Everything that reads journals and recordings: what it raises beside a sentence for people is a fault."""
+"""Everything that reads journals: what it raises beside a sentence for people is a fault."""
 
 from __future__ import annotations
 

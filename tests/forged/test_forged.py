@@ -1,23 +1,20 @@
-"""Journals and recordings of a stranger are read as far as they can be, or refused in a sentence."""
+"""Journals of a stranger are read as far as they can be, or refused in a sentence."""
 
 from __future__ import annotations
 
-import gzip
 import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from pluto_fleet.station.history.folder import recording_of
-from tests.forged.__main__ import one
-from tests.forged.files import DEEP, write_events
+from tests.forged.__main__ import _texts, one
+from tests.forged.files import write_events
 from tests.forged.floods import MOST_MEMORY, flooded
 from tests.forged.readers import FLIGHT, faults_of
 from tests.library.station.history.test_past import ROWS, frames_of, kept, past_of
 
-KEY: dict[str, Any] = {"t": 0.0, "key": True, "state": {"phase": "flying"}, "drones": [{"id": "d"}]}
-MOVED: dict[str, Any] = {"t": 2.0, "drones": {"d": {"x": 1.0}}}
+SHOWN = {"t": 300.0, "event": "shown", "drones": {"d": {"id": "d", "status": "FREE"}}}
 
 
 @pytest.mark.parametrize("number", range(18))
@@ -27,43 +24,29 @@ def test_what_was_written_to_do_harm_does_none(number: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "line",
+    "facts",
     [
-        '{"log": 1}',
-        '{"log": {"time": "x"}, "after": 0}',
-        '{"t": 1, "drones": [1]}',
-        '{"t": 1, "key": true, "drones": [{"x": 1}]}',
-        '{"t": 1, "drones": {"d": {"x": "far"}}}',
-        '{"t": 1, "drones": {"d": {"-": 3}}}',
-        '{"t": 1, "state": {"phase": 3}}',
-        '{"t": 1, "missions": {"m": {"wait": "x"}}}',
-        '{"t": 1e999}',
-        '{"t": -1}',
-        '{"t": null}',
-        '{"result": {}}',
-        "[]",
-        DEEP,
+        {"drones": [1]},
+        {"drones": {"d": 1}},
+        {"drones": {"d": {"x": "far"}}},
+        {"drones": {"d": {"-": 3}}},
+        {"state": {"phase": 3}},
+        {"missions": {"m": {"wait": "x"}}},
+        {"missions": {"m": {"trips": {"0": {"name": "A"}}}}},
+        {"missions": {"m": {"trips": []}}, "drones": {"d": {"trips": "x"}}},
+        {"alerts": {"a": {"urgent": "very"}}},
     ],
 )
-def test_a_line_of_a_recording_that_says_nothing_is_left_out_and_counted(
-    tmp_path: Path, line: str
+def test_what_was_not_shown_is_told_and_what_stands_before_it_is_shown(
+    tmp_path: Path, facts: dict[str, Any]
 ) -> None:
-    lines = [json.dumps({"recording": 1, "begun_at": 7}), json.dumps(KEY), line, json.dumps(MOVED)]
-    text = "\n".join([*lines, ""]).encode()
-    recording_of(kept(tmp_path, FLIGHT)).write_bytes(gzip.compress(text))
+    rows = [json.loads(row) for row in _texts()]
+    rows += [[SHOWN], [{"t": 301.0, "event": "shown", **facts}], [{**SHOWN, "t": 302.0}]]
+    write_events(kept(tmp_path, FLIGHT), [json.dumps(row) for row in rows])
     assert list(faults_of(tmp_path)) == []
     past = past_of(tmp_path)
-    assert "1 line of the recording say" in past.replay(FLIGHT, 0.0)["said"]
-    [first, moved] = frames_of(past, FLIGHT)
-    assert (first["drones"], moved["drones"]) == ([{"id": "d"}], [{"id": "d", "x": 1.0}])
-
-
-def test_a_recording_that_says_nothing_at_all_is_told_as_such(tmp_path: Path) -> None:
-    """What its journal tells is shown all the same."""
-    recording_of(kept(tmp_path, FLIGHT)).write_bytes(gzip.compress(b'{"log": 1}\n' * 20_000))
-    past = past_of(tmp_path)
-    assert "10000 of its lines say nothing" in past.replay(FLIGHT, 0.0)["said"]
-    assert frames_of(past, FLIGHT)
+    assert "entry" in past.replay(FLIGHT, 0.0)["said"]
+    assert any(row["id"] == "d" for frame in frames_of(past, FLIGHT) for row in frame["drones"])
 
 
 def test_a_flight_of_years_is_replayed_in_time(tmp_path: Path) -> None:

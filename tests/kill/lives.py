@@ -12,7 +12,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pluto_fleet.drones.recovery import RECONNECT_LIMIT
+from pluto_fleet.drones.connection import RECONNECT_LIMIT
 from pluto_fleet.journal.place import commands_note
 from tests.kit.command import Ran, environment, python
 

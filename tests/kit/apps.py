@@ -23,8 +23,7 @@ from types import ModuleType
 from typing import Any
 
 from pluto_fleet.app import App, described
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile, load_fleet
+from pluto_fleet.files.fleet import DroneEntry, FleetFile, load_fleet
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.flight.simulate import simulate

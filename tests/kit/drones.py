@@ -12,8 +12,15 @@ from collections.abc import AsyncIterator, Callable, Coroutine, Mapping, Sequenc
 from math import dist, inf, isfinite
 from typing import Any, TypeVar
 
-from pluto_fleet.drones.errors import Crashed, LinkLost, OutsideArea, Rejected
-from pluto_fleet.drones.protocol import CRASHED, DroneEvent, DroneTelemetry
+from pluto_fleet.drones.protocol import (
+    CRASHED,
+    Crashed,
+    DroneEvent,
+    DroneTelemetry,
+    LinkLost,
+    OutsideArea,
+    Rejected,
+)
 from pluto_fleet.shared.domain.actions import Plain
 from pluto_fleet.shared.domain.model import Item, Point
 

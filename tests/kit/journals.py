@@ -8,7 +8,7 @@ from typing import Any
 
 from pluto_fleet.journal.standing import Row
 from pluto_fleet.journal.store import Entry
-from pluto_fleet.station.history.told import Told
+from tests.kit.told import Told
 
 NO_MISSION: Mapping[str, Any] = {
     "index": 0,

@@ -11,6 +11,7 @@ from pluto_fleet.flight.offline import decided
 from pluto_fleet.flight.recorded_flight import RecordedFlight
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.store import Entry
 from pluto_fleet.shared.alone.world import Faults, World
@@ -18,7 +19,6 @@ from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Future, Kernel, Key, Task, Timer
 from pluto_fleet.shared.time.told import VirtualTime
-from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
 from tests.kit import apps
 from tests.library.journal.memory import Memory
@@ -129,7 +129,7 @@ class Living:
             mission.index = index
         self.app, self.fleet, self.planned = app, on or apps.fleet(), missions
         self.kernel, self.memory = VirtualTime(), Memory({"event": "journal.begun"})
-        drones = simulated(app, self.fleet)
+        drones = fleet_drones(app, self.fleet)
         space = self.fleet.airspace
         world = World(seed, space, self.fleet.world)
         self.done_by_drones: list[tuple[str, str]] = []

@@ -270,7 +270,7 @@ def one_thread() -> Iterator[None]:
     """Let cflib, and what flies Crazyflies with it, start no thread."""
     cflib, param = import_module("cflib.crazyflie"), import_module("cflib.crazyflie.param")
     statistics = import_module("cflib.crazyflie.link_statistics")
-    ours = [import_module(f"pluto_fleet.crazyflie.{name}") for name in ("session", "supervisor")]
+    ours = [import_module(f"pluto_fleet.crazyflie.{name}") for name in ("session", "commander")]
     driver = import_module("pluto_fleet.crazyflie.driver")
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(import_module("cflib.crtp"), "CLASSES", [AirDriver])

@@ -13,21 +13,19 @@ from typing import Any
 from pluto_fleet.app import App
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.real_fleet import real_fleet
 from pluto_fleet.drones.team import Team, make_one
-from pluto_fleet.drones.vehicle import TeamDrone
-from pluto_fleet.files.crtp_fleet import as_crtp_fleet
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import FleetFile, as_crtp_fleet
 from pluto_fleet.flight.driver import Driver, begun
 from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.flow.record import fleet_data
-from pluto_fleet.simulation.body import simulated
 from tests.kit.unthreaded import in_virtual_time, passes, the_air
 from tests.prediction.record import Flown
 
@@ -60,7 +58,7 @@ async def _flown(
 ) -> Flown:
     fleet = as_crtp_fleet(fleet, len(fleet.drones))
     app = moving(app, fleet.motion)
-    crafts = simulated(app, fleet)
+    crafts = fleet_drones(app, fleet)
     builds = [
         Build(
             id=one.id,
@@ -72,7 +70,7 @@ async def _flown(
         for one in crafts
     ]
     world = World(seed, fleet.airspace, fleet.world)
-    server = Server(builds, MemoryLog(), world)
+    server = Server(builds, FlightLog(), world)
     await server.start()
     for drone in server.drones.values():
         prepare(drone)
@@ -81,17 +79,12 @@ async def _flown(
     options = fitted({}, f"127.0.0.1:{port_of(streamer)}", world)
     real = replace(real, drones=tuple(replace(one, options=options) for one in real.drones))
     kernel = RealTime()
-    drones = [
-        TeamDrone(
-            id=one.id,
-            category=one.category,
-            home=one.home,
-            navigation=make_one(how, one.home, one.category.speed, folder),
-        )
+    navigations = {
+        one.id: make_one(how, one.home, one.category.speed, folder)
         for one, how in zip(crafts, real.drones, strict=True)
-    ]
+    }
     clock = the_air().time
-    team = Team(kernel, drones, fleet.airspace, folder=folder, say=say, clock=clock)
+    team = Team(kernel, crafts, navigations, fleet.airspace, folder=folder, say=say, clock=clock)
     slack = fleet.motion.slack
     gateway = Gateway(kernel, team, crafts, fleet.airspace, apart=fleet.apart, slack=slack)
     team.begin()

@@ -20,10 +20,11 @@ from typing import Any
 
 from pluto_fleet.crtp.drone import EMPTY_WORLD, Build
 from pluto_fleet.crtp.equipment import camera, fitted, port_of
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones import commands
-from pluto_fleet.drones.vehicle import Cargo, TeamDrone, Vehicle
+from pluto_fleet.drones.vehicle import Cargo, Vehicle
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.actions import BUILT_IN, PICK, RELEASE
 from pluto_fleet.shared.domain.model import Category, Item
 from tests.kit.campaign import Campaign
@@ -45,7 +46,7 @@ class Craft:
     """One drone with what flies it, and what each phase took besides its trajectory."""
 
     vehicle: Vehicle
-    log: MemoryLog
+    log: FlightLog
     home: tuple[float, float, float]
     beside: dict[str, list[float]] = field(default_factory=dict)
 
@@ -93,7 +94,7 @@ class Craft:
 
 async def measured(drones: int, times: int) -> dict[str, list[float]]:
     """Return the seconds of each phase besides what was planned."""
-    log, folder = MemoryLog(), Path(mkdtemp(prefix="phases-"))
+    log, folder = FlightLog(), Path(mkdtemp(prefix="phases-"))
     homes = [(1.0, 4.0 * place, 0.0) for place in range(drones)]
     builds = [
         Build(id=f"cf{place}", home=home, seed=place, flight=ENDURING)
@@ -122,13 +123,10 @@ async def measured(drones: int, times: int) -> dict[str, list[float]]:
 
 def _vehicle(build: Build, uri: str, options: dict[str, object], folder: Path) -> Vehicle:
     folder.mkdir(parents=True)
-    drone = TeamDrone(
-        id=build.id,
-        category=Category(name="measured", flight_time=ENDURING),
-        home=build.home,
-        navigation=navigation(build, uri, folder, options),
-    )
-    return Vehicle(drone, Cargo(folder, print), print, the_air().time)
+    category = Category(name="measured", flight_time=ENDURING)
+    drone = FleetDrone(id=build.id, category=category, home=build.home)
+    flown = navigation(build, uri, folder, options)
+    return Vehicle(drone, flown, Cargo(folder, print), print, the_air().time)
 
 
 async def _times(times: int, fly: Callable[[], Coroutine[Any, Any, None]]) -> None:

@@ -16,10 +16,9 @@ from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Item
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.sizing.answer import Answer, sized
-from pluto_fleet.sizing.bounds import Rule, usual_runs
 from pluto_fleet.sizing.fleets import Stock
 from pluto_fleet.sizing.question import Question
-from pluto_fleet.sizing.tries import flown
+from pluto_fleet.sizing.tries import Rule, flown, usual_runs
 from tests.kit.apps import Mission, Trip, app, fleet, flow, mission, pick, release, trip
 
 CONFIDENCE = 0.99

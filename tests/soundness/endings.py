@@ -15,8 +15,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from pluto_fleet.app import App, described
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace

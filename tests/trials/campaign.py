@@ -26,19 +26,20 @@ from pluto_fleet.files.fleet import FleetFile
 from pluto_fleet.report.terminal import table
 from pluto_fleet.shared.domain.model import AfterTrip, Mission
 from pluto_fleet.trials.case import WORDS, Case
+from pluto_fleet.trials.command import Options, smallest_case
 from pluto_fleet.trials.explore import (
     Finding,
     Tally,
     everywhere,
     explored,
+    first_the_same,
     random_case,
+    shows_the_same,
+    shrunk,
     small_case,
 )
 from pluto_fleet.trials.lives import tried
-from pluto_fleet.trials.options import Options
 from pluto_fleet.trials.record import TrialResult
-from pluto_fleet.trials.report import smallest_case
-from pluto_fleet.trials.shrink import first_the_same, shows_the_same, shrunk
 from tests.kit.apps import NAMES
 from tests.kit.campaign import Campaign
 from tests.trials.examples import example, fleet_of, missions_of

@@ -21,8 +21,7 @@ from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 from pluto_fleet.app import described
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import AfterTrip
 from pluto_fleet.shared.hooks.context import Verdict

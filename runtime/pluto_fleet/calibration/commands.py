@@ -1,4 +1,7 @@
-"""The measured commands of journals: what each drone flew, and how long that took."""
+"""What journals tell of how long things took: the measured commands of each drone, and the actions of an app's own.
+
+The latter run in the app, so no drone measures them: a journal says when each began, and when its trip was completed.
+"""
 
 from __future__ import annotations
 
@@ -7,23 +10,63 @@ from contextlib import closing
 from dataclasses import dataclass, field
 from math import dist
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+from msgspec import Struct, convert
 
 from ..jobs.flown import FLEW
 from ..journal import errors
 from ..journal.facts import BEGUN, check
 from ..journal.reader import Reader
 from ..shared.domain.errors import BadInput
+from ..shared.domain.model import Point
 from ..shared.domain.text import bounded, quoted
-from .acted import Acted, Acting
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Command:
-    """One command of one drone, which is over."""
+class Acted:
+    """One action of the app's own that was done."""
+
+    action: str
+    seconds: float
+    parameters: Mapping[str, Any]
+    """Those of its trip."""
+
+
+class Acting:
+    """What becomes of the own actions of one journal, event by event."""
+
+    def __init__(self, own: Mapping[str, object]) -> None:
+        self.acted: list[Acted] = []
+        """What was done, in order."""
+        self._own = own
+        self._begun: dict[str, float] = {}
+        """When the action of each mission began last."""
+
+    def hear(self, event: Mapping[str, Any]) -> None:
+        """Take an event; one of a trip that was completed has this trip as `did`."""
+        match event["event"]:
+            case "action.begun":
+                self._begun[event["mission"]] = event["t"]
+            case "trip.completed":
+                began = self._begun.pop(event["mission"], None)
+                trip = event["did"]
+                # when it was done is unknown where that was only found out afterwards
+                if began is None or event.get("found_out") or trip["action"] not in self._own:
+                    return
+                self.acted.append(
+                    Acted(
+                        action=trip["action"],
+                        seconds=event["t"] - began,
+                        parameters=trip.get("parameters", {}),
+                    )
+                )
+
+
+class Command(
+    Struct, frozen=True, kw_only=True, rename={"start": "from", "end": "to", "ended_at": "t"}
+):
+    """One command of one drone, which is over, as a journal has it."""
 
     drone: str
     category: str
@@ -32,7 +75,8 @@ class Command:
     end: Point
     speed: float
     """The category's, in metres per second."""
-    began: float
+    seconds: float
+    """How long it took."""
     ended_at: float
     """In seconds since the app first started."""
     battery: tuple[float, float]
@@ -45,13 +89,12 @@ class Command:
 
     @property
     def metres(self) -> float:
-        """How far it led."""
         return dist(self.start, self.end)
 
     @property
-    def seconds(self) -> float:
-        """How long it took."""
-        return self.ended_at - self.began
+    def began(self) -> float:
+        """In seconds since the app first started."""
+        return self.ended_at - self.seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,7 +116,6 @@ class Flights:
 
     @property
     def commands(self) -> Iterator[Command]:
-        """All commands."""
         for run in self.runs:
             yield from run
 
@@ -112,25 +154,9 @@ def read_flights(path: Path) -> Flights:
 def _command(path: Path, row: int, facts: Mapping[str, Any]) -> Command:
     try:
         check(facts)
-        ended_at, (before, after) = float(facts["t"]), facts["battery"]
-        (x, y, z), (to_x, to_y, to_z) = (map(float, facts[end]) for end in ("from", "to"))
-        return Command(
-            drone=str(facts["drone"]),
-            category=str(facts["category"]),
-            what=str(facts["what"]),
-            start=(x, y, z),
-            end=(to_x, to_y, to_z),
-            speed=float(facts["speed"]),
-            began=ended_at - float(facts["seconds"]),
-            ended_at=ended_at,
-            battery=(float(before), float(after)),
-            ended=str(facts["ended"]),
-            action=str(facts.get("action", "")),
-            flight_time=float(facts.get("flight_time", 0.0)),
-            charge_time=float(facts.get("charge_time", 0.0)),
-        )
-    except (KeyError, TypeError, ValueError) as error:
-        said = bounded(f"{type(error).__name__}: {error}", _LONGEST)
+        return convert(facts, Command)
+    except ValueError as error:
+        said = bounded(str(error), _LONGEST)
         raise BadInput(
             f"{path}: row {row} has a measurement that this pluto-fleet does not know ({said}): use a"
             " newer one"

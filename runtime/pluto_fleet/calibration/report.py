@@ -1,36 +1,34 @@
-"""What a calibration has found: for people, and for programs."""
+"""What a calibration has found: for people, for programs, and put into a fleet file."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from math import floor, log10
-from typing import TYPE_CHECKING, Any
+from pathlib import Path
+from typing import Any
 
+import tomlkit
+from tomlkit.exceptions import TOMLKitError
+
+from ..files.reading import PlanTable, parsed
+from ..process.whole_file import write_whole
 from ..report.terminal import table
+from ..shared.alone.files import read_motion
+from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number
-
-if TYPE_CHECKING:
-    from .commands import Flights
-    from .found import Calibration, Found
+from .commands import Flights
+from .estimates import Calibration, Found
 
 IN_SECONDS = ("settles", "take_off", "landing")
-NAMES = (
-    "pace",
-    "take_off",
-    "settles",
-    "landing",
-    "spread",
-    "action_spread",
-    "drain",
-    "charge",
-)
+NAMES = ("pace", "take_off", "settles", "landing", "spread", "action_spread", "drain", "charge")
 """What can be found, in the order in which it is shown: keys of `[motion]`, and `charge`."""
 
 _SAID_OF_CHARGE = 1.0
 
 
 def report(what: Calibration, journals: Sequence[Flights]) -> Iterator[str]:
-    """Yield the lines for people."""
     yield _counts(what, journals)
     yield ""
     found = [(name, what.found[name]) for name in NAMES if name in what.found]
@@ -129,17 +127,50 @@ def as_data(what: Calibration, journals: Sequence[Flights]) -> dict[str, Any]:
             if (found := what.found.get(name)) is not None
         },
         "untold": what.untold,
-        "own_actions": [
-            {
-                "app": own.app,
-                "name": own.name,
-                "seconds": own.seconds,
-                "interval": [own.low, own.high],
-                "count": own.count,
-                "planned": own.planned,
-                "parameter": own.parameter,
-            }
-            for own in what.own
-        ],
+        "own_actions": [asdict(own) for own in what.own],
         "notes": what.notes,
     }
+
+
+def write(what: Calibration, path: Path, text: str) -> Iterator[str]:
+    """Put the values into the `[motion]` of a fleet file with this text; yield what has changed.
+
+    Raises `BadInput` if a value may not stand there, or the file cannot be written; then it is as before.
+    """
+    values = {name: in_file(name, found) for name, found in what.found.items() if name != "charge"}
+    changed, after = _changed(path, text, values)
+    if after != text:
+        file = Path(os.path.realpath(path))
+        try:
+            write_whole(file, after, mode=file.stat().st_mode & 0o777)
+        except OSError as error:
+            raise BadInput(f"{path}: it cannot be written: {error.strerror or error}") from None
+    for name, before in changed.items():
+        was = "" if before is None else f" (was {before})"
+        yield f"{path}: [motion] {name} = {values[name]}{was}"
+    if not changed:
+        yield f"{path}: nothing has changed"
+
+
+def _changed(path: Path, text: str, values: dict[str, str]) -> tuple[dict[str, object | None], str]:
+    """Return the keys that change, with what they were, and the new text."""
+    try:
+        document: Any = tomlkit.parse(text)
+    except TOMLKitError as error:  # `tomllib` has read it
+        raise BadInput(f"{path}: it cannot be changed here: {error}") from None
+    if "motion" not in document:
+        document["motion"] = tomlkit.table()
+    motion = document["motion"]
+    changed: dict[str, object | None] = {}
+    for name, value in values.items():
+        before = motion.get(name)
+        if before != value:
+            changed[name] = None if before is None else before.unwrap()
+            motion[name] = value
+    after = tomlkit.dumps(document) if changed else text
+    if text.count("\n") == text.count("\r\n") > 0:  # new lines end as all others do
+        after = after.replace("\r\n", "\n").replace("\n", "\r\n")
+    read = parsed(f"{path}, with what was found", after)
+    read_motion(PlanTable(read, read.data))
+    read.refuse_if_bad()
+    return changed, after

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 from ..calibration.commands import read_all
 from ..calibration.fit import calibrated
-from ..calibration.report import as_data, report
-from ..calibration.write import write
+from ..calibration.report import as_data, report, write
 from ..files.reading import PlanTable, parsed, text_of
 from ..process.exit_code import BAD_INPUT
 from ..shared import output

@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from ..app import App
-    from ..files.drones import DroneEntry
+    from ..files.fleet import DroneEntry
     from ..flight.outcome import SimulationResult
     from ..jobs.controls import Command, Controls
     from ..shared.domain.model import Point

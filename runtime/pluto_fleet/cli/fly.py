@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..flight.config import End, FlightResult, FlightSetup, Stops, how_to_go_on
+from ..flight.live_flight import FlightObserver
 from ..flight.lives import (
-    FlightObserver,
     Resumable,
     aloft,
     flight_of,
@@ -32,6 +32,7 @@ from ..report.sentences import line_of
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import printable
+from ..station.sight import noting
 from .interrupts import Interrupts
 from .plans import load
 from .preflight import check_flight, check_real
@@ -40,7 +41,6 @@ from .supervise import STOPS, Supervised, supervise
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..flight.fly import Recovered
     from ..journal.standing import Standing
     from ..shared.domain.model import Drone
     from ..shared.domain.trace import Event
@@ -94,7 +94,7 @@ def resume(app: App, options: Options) -> int:
         store.close()
         output.line("nothing to go on with: every mission has ended")
         output.line()
-        return reported(app, journal, taken.known.records)
+        return reported(app, journal, taken.records)
     if not options.supervised:
         output.tell(f"journal: {printable(str(journal))}")
         clear_stop(store.path)
@@ -103,7 +103,7 @@ def resume(app: App, options: Options) -> int:
     if options.supervise:
         store.close()
         return supervised(app, options, journal, None)
-    return see_through(taken.flight(options.speed), store, taken.known)
+    return see_through(taken.flight(options.speed), store, taken.records)
 
 
 def _check(options: Options, taken: Resumable) -> None:
@@ -123,15 +123,15 @@ STOPPED = 130
 """The exit code after `tell J stop`, as after Ctrl-C."""
 
 
-def see_through(flight: FlightSetup, store: Store, known: Recovered | None = None) -> int:
+def see_through(flight: FlightSetup, store: Store, records: Standing | None = None) -> int:
     """Fly until all have ended or it is stopped; report the outcome, and return the exit code.
 
-    `known` is the journal's content, if it has been read already.
+    `records`: where all stands by the journal, if that has been read already.
     """
     stops = Stops()
     interrupts = Interrupts(stops, lambda: flight.journal, flight.how_to_go_on)
     with interrupts.listening():
-        lived = run_until_complete(_heard(flight, store, stops, interrupts, known))
+        lived = run_until_complete(_heard(flight, store, stops, interrupts, records))
     if lived.end is End.STOPPED:
         who = "all other drones" if aloft(flight, lived.drones) else "all drones"
         output.tell(f"{who} are down; {flight.how_to_go_on}")
@@ -153,11 +153,12 @@ async def _heard(
     store: Store,
     stops: Stops,
     interrupts: Interrupts,
-    known: Recovered | None,
+    records: Standing | None,
 ) -> FlightResult:
     """Run a flight with its interrupt handlers."""
     interrupts.loop = asyncio.get_running_loop()
-    return await run_flight(flight, store, stops, known, FlightObserver(tell=tell, say=output.tell))
+    observer = FlightObserver(tell=tell, say=output.tell, born=noting(flight, stops))
+    return await run_flight(flight, store, stops, records, observer)
 
 
 def supervised(app: App, options: Options, journal: Path, first: Sequence[str] | None) -> int:

@@ -33,23 +33,17 @@ def journal(app: App, options: Options) -> int:
     """Print the journal; with `--follow`, new events as well."""
     path = options.journal or place.newest(app.name)
     with closing(Reader(path, follows=options.follow)) as reader:
-        printer = _Printer(as_json if options.json else as_text)
-        printer.print(reader.instants())
-        if options.follow and reader.damaged is None:
-            _follow(reader, printer)
+        lines = as_json if options.json else as_text
+        _print(reader.instants(), lines)
+        with suppress(KeyboardInterrupt):
+            while options.follow and reader.damaged is None:
+                _wait(LOOK_EVERY)
+                _print(reader.instants(), lines)
         if reader.damaged is None:
             return 0
         output.flush()
         output.tell(str(errors.damaged(path, reader.damaged, newest_whole(path))))
         return DAMAGED
-
-
-def _follow(reader: Reader, printer: _Printer) -> None:
-    """Print new events until interrupted, or until the output is closed."""
-    with suppress(KeyboardInterrupt):
-        while reader.damaged is None:
-            _wait(LOOK_EVERY)
-            printer.print(reader.instants())
 
 
 def _wait(seconds: float) -> None:
@@ -64,24 +58,20 @@ def _wait(seconds: float) -> None:
         raise output.ClosedPipe
 
 
-class _Printer:
-    """Prints the events of instants."""
-
-    def __init__(self, lines: Callable[[dict[str, Any], float], Iterator[str]]) -> None:
-        self._lines = lines
-
-    def print(self, instants: Iterator[Instant]) -> None:
-        for instant in instants:
-            try:
-                events = instant.events
-            except ValueError as error:
-                output.flush()
-                output.tell(f"… {errors.unfit(instant.seq, error)} …")
-                continue
-            for event in events:
-                for line in self._lines(event, instant.wall):
-                    output.line(line)
-        output.flush()
+def _print(
+    instants: Iterator[Instant], lines: Callable[[dict[str, Any], float], Iterator[str]]
+) -> None:
+    for instant in instants:
+        try:
+            events = instant.events
+        except ValueError as error:
+            output.flush()
+            output.tell(f"… {errors.unfit(instant.seq, error)} …")
+            continue
+        for event in events:
+            for line in lines(event, instant.wall):
+                output.line(line)
+    output.flush()
 
 
 def as_json(event: dict[str, Any], wall: float) -> Iterator[str]:

@@ -8,14 +8,25 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.crtp_fleet import fleet_from, missing_categories
-from ..files.fleet import FleetFile, fleet_of, shared_by_air, too_fast
+from ..files.fleet import (
+    FleetFile,
+    fleet_from,
+    fleet_of,
+    missing_categories,
+    shared_by_air,
+    too_fast,
+)
 from ..files.missions import missions_of
-from ..files.missions_text import missions_text
-from ..files.plan_check import endless, look_alikes, problems, uncharged
-from ..files.plan_waits import waits
-from ..files.promise_check import impossible
+from ..files.plan_check import (
+    endless,
+    impossible,
+    look_alikes,
+    problems,
+    uncharged,
+    waits,
+)
 from ..files.reading import parsed, read, text_of
+from ..files.writing import missions_text
 from ..shared import output
 from ..shared.domain.app import moving
 from ..shared.domain.errors import BadInput

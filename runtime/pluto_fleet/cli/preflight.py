@@ -7,10 +7,16 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from ..crazyflie.driver import require
-from ..drones.loading import canonical_uri, deaf, hears, load_localization, load_navigation
+from ..drones.loading import (
+    canonical_uri,
+    deaf,
+    hears,
+    load_localization,
+    load_navigation,
+)
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
-from ..files.drones import which
+from ..files.addresses import which
 from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, shared_by_air
 from ..shared import output
 from ..shared.domain.errors import BadInput
@@ -19,8 +25,7 @@ from ..shared.domain.values import shortened
 if TYPE_CHECKING:
     from ..app import App
     from ..drones.protocol import DroneNavigation
-    from ..files.drones import DroneEntry
-    from ..files.fleet import FleetFile
+    from ..files.fleet import DroneEntry, FleetFile
     from .options import Options
 
 

@@ -19,16 +19,10 @@ from ..shared import output
 from ..shared.alone.simulate import trips_data
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import COMPLETED
-from ..shared.domain.text import (
-    counted,
-    duration,
-    number,
-    percent,
-    printable,
-)
+from ..shared.domain.text import counted, duration, number, percent, printable
 from ..shared.domain.trace import dumped
 from ..trials.invariants import ENDS, Invariants, items_of
-from .picture import drawing, kind_of, write
+from .written import drawing, kind_of, write
 
 if TYPE_CHECKING:
     from ..app import App

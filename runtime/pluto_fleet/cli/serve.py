@@ -98,11 +98,7 @@ def _web_server(app: str) -> Web:
 
 
 async def _serve(
-    web: Web,
-    options: Options,
-    config: StationConfig,
-    station: Station,
-    interrupts: Interrupts,
+    web: Web, options: Options, config: StationConfig, station: Station, interrupts: Interrupts
 ) -> None:
     interrupts.loop = asyncio.get_running_loop()
     with listening(options.host, _port(options, config)) as listener:
@@ -136,7 +132,6 @@ async def _serve(
             station.leave()
             await leaves
             await server
-        await station.recorded()
 
 
 def _guard(options: Options, config: StationConfig, port: int) -> Guard:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet_text import fleet_text
+from ..files.writing import fleet_text
 from ..process.workers import WorkerDied, cores
 from ..report.terminal import Progress, simulation_progress
 from ..shared import output
@@ -17,14 +17,12 @@ from ..shared.domain.text import counted, duration
 from ..shared.domain.trace import dumped
 from ..shared.flow.promises import kept_from
 from ..sizing.answer import Answer, sized
-from ..sizing.batteries import swapping
-from ..sizing.bounds import Rule, usual_runs
 from ..sizing.fleets import Stock
-from ..sizing.question import Question
+from ..sizing.question import Question, swapping
 from ..sizing.report import data, report
-from .picture import drawing, kind_of, write
+from ..sizing.tries import Rule, usual_runs
 from .plans import load
-from .written import refuse_if_there, write_new
+from .written import drawing, kind_of, refuse_if_there, write, write_new
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -14,20 +14,14 @@ from itertools import count
 from math import radians, tan
 from pathlib import Path
 from struct import Struct
-from typing import TYPE_CHECKING
 
-from ..drones.errors import ActionNotDone, PositionLost, Rejected
-from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE
+from ..drones.protocol import ActionNotDone, PositionLost, Rejected
+from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
 from ..shared.domain.model import Photo
 from ..shared.domain.text import quoted
 from . import logs, messages, parameters
-
-if TYPE_CHECKING:
-    from ..shared.domain.actions import Plain
-    from .options import CrazyflieOptions
-    from .session import CrazyflieSession
-    from .worker import Worker
-
+from .options import CrazyflieOptions
+from .session import CrazyflieSession, Worker
 
 _PACKET = Struct("<HBB")
 _WAY = 2
@@ -89,7 +83,6 @@ async def _next(reader: asyncio.StreamReader) -> Picture:
 
 
 async def _part(reader: asyncio.StreamReader) -> bytes:
-    """Return the data of one packet."""
     length, _, _ = _PACKET.unpack(await reader.readexactly(_PACKET.size))
     return await reader.readexactly(max(0, length - _WAY))
 
@@ -111,15 +104,27 @@ def why_not(
         quantity = _quantity(parameters_)
         name = options.variable_of(quantity)
         if name is None:
-            return messages.no_quantity(drone, quantity, tuple(options.measure))
+            has = f"it measures {', '.join(options.measure)}; " if options.measure else ""
+            return (
+                f"{drone} cannot measure {quoted(quantity)}: {has}name its log variable in the fleet"
+                f' file: measure = {{ {quantity} = "group.name" }}'
+            )
         if cf is not None and not logs.has(cf, name):
             return messages.no_variable(drone, name)
         return None
     if action == PHOTO:
-        return messages.no_camera(drone) if options.camera is None else None
+        if options.camera is not None:
+            return None
+        return (
+            f"{drone} has no camera: name its AI-deck's streamer in the fleet file:"
+            ' camera = "192.168.4.1:5000"'
+        )
     if action in (PICK, RELEASE):
         if options.grip is None:
-            return messages.no_grip(drone)
+            return (
+                f"{drone} cannot pick or release: name the parameter of its gripper in the fleet file:"
+                ' grip = { parameter = "gripper.closed", pick = 1, release = 0 }'
+            )
         name = options.grip.parameter
         if cf is not None and parameters.element_of(cf, name) is None:
             return messages.no_parameter(drone, name)

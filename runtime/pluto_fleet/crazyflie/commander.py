@@ -1,24 +1,30 @@
-"""Reliable commands: each is sent again until it is acknowledged.
+"""Reliable commands, each sent again until it is acknowledged, and requests to the firmware's supervisor.
 
-They are idempotent: a trajectory to a place stays the same, a landing goes on, and a take-off is refused by
-a drone that has begun one, which its state then shows.
+Commands are idempotent: a trajectory to a place stays the same, a landing goes on, and a take-off is refused
+by a drone that has begun one, which its state then shows.
+
+The firmware disarms some seconds after a landing, or after an unused arming, and can then not be armed for a
+tenth of a second. A take-off at that moment is refused, or accepted and then cancelled. So a drone is
+rearmed for each take-off, verified by its state after each command: a drone that has just been armed has
+all of that time left.
 """
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from math import ceil, inf
 from typing import TYPE_CHECKING
 
-from ..drones.errors import LinkLost, Rejected
+from ..drones.protocol import LinkLost, NotReady, Rejected
 from . import messages
-from .driver import HIGH_LEVEL
+from .driver import HIGH_LEVEL, LOCALIZATION, SUPERVISOR, packet
+from .session import CrazyflieSession, Worker
+from .state import State
 
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
 
-    from .session import CrazyflieSession
-    from .state import State
 
 _ACKNOWLEDGED = 0.25
 """The time-out of an answer in seconds; over the radio it comes within ten milliseconds."""
@@ -126,12 +132,7 @@ async def answered(
         look()
         if session.loop.time() >= until:
             return bytes(4)
-        hearing = session.acknowledged.expect(key)
-        try:
-            await session.call(send)
-            answer = await session.acknowledged.heard(hearing, _ACKNOWLEDGED)
-        finally:
-            session.acknowledged.drop(key, hearing)
+        answer = await session.answer(key, send, _ACKNOWLEDGED)
         if answer is not None:
             return answer.ljust(4, b"\0")
     raise LinkLost(f"{session.drone} did not acknowledge the command {name}")
@@ -150,3 +151,125 @@ def _check(session: CrazyflieSession, name: str, code: int) -> None:
     if code == _WRONG_STATE:
         raise Rejected(f"{session.drone} refuses the command {name}: not in this state")
     raise Rejected(f"{session.drone} refuses the command {name}: error {code}")
+
+
+_ARM = 1
+_READY = 7.0
+"""The time-out until it can be armed, in seconds."""
+_ARMED = 3.0
+"""The time-out until it is armed, in seconds: some spin up their motors for that."""
+_SHOWS = 0.25
+"""Seconds of its own clock after which a state is surely newer than its answer."""
+_GRANTED = 1
+
+
+async def rearm(session: CrazyflieSession) -> None:
+    """Rearm it on the ground, whether it is armed or not; raise `NotReady` if that fails.
+
+    It must not fly, as disarming would drop it: the caller has checked that.
+    """
+    state = session.well()
+    await enable_high_level(session)
+    if state.has_trajectory:
+        await drop_trajectory(session)
+    if state.armed:
+        await disarm(session)
+    if not await _armed(session):
+        raise NotReady(f"{session.drone} will not arm ({session.now().said})")
+
+
+async def disarm(session: CrazyflieSession) -> None:
+    """Disarm it; only on the ground, as in the air it would fall."""
+    await _ask(session, False)
+
+
+async def _armed(session: CrazyflieSession) -> bool:
+    """Arm it as soon as possible, unless it arms automatically, and verify that."""
+    at, end = session.well(), session.loop.time() + _READY
+
+    def ready(now: State) -> bool:
+        return _is_back(at, now) or (now.can_arm and not now.armed)
+
+    while (left := end - session.loop.time()) > 0.0:
+        state = await session.until(ready, left)
+        if state is None:
+            return False
+        if state.armed:
+            return True
+        if await _ask(session, True):
+            return await session.until(lambda now: now.armed and now.can_fly, _ARMED) is not None
+        await session.fresh()  # the state was outdated
+    return False
+
+
+def _is_back(at: State, now: State) -> bool:
+    """Whether it has armed itself since this state, as some builds do."""
+    return now.arms_itself and now.since(at) > _SHOWS and now.armed and now.can_fly
+
+
+async def _ask(session: CrazyflieSession, on: bool) -> bool:
+    key = (SUPERVISOR, _ARM)
+    answer = await answered(session, key, lambda cf: cf.supervisor.send_arming_request(on), "arm")
+    return answer[1] == _GRANTED
+
+
+_RECOVER = 2
+_RECOVERED = 3.0
+"""The time-out of a crash recovery, in seconds."""
+
+
+async def recover_from_crash(session: CrazyflieSession) -> None:
+    """Request a crash recovery; does nothing if it has not crashed. Starts no motor.
+
+    Raises `NotReady` if it is not upright.
+    """
+    state = session.now()
+    if not state.crashed:
+        return
+    if state.has_trajectory:  # one that arms itself would continue it
+        await drop_trajectory(session)
+    answer = await answered(
+        session,
+        (SUPERVISOR, _RECOVER),
+        lambda cf: cf.supervisor.send_crash_recovery_request(),
+        "recover",
+        well=False,
+    )
+    done = answer[1] == _GRANTED
+    if not done or await session.until(lambda now: not now.crashed, _RECOVERED, well=False) is None:
+        raise NotReady(
+            f"{session.drone} does not forget that it has crashed: set it upright,"
+            " or switch it off and on"
+        )
+
+
+_STOPS, _EACH = 5, 0.2
+"""How often it is sent, and the seconds to wait for its effect each time."""
+_OLD_CHANNEL, _OLD_STOP = 1, b"\3"
+
+
+async def stop_motors(session: CrazyflieSession) -> None:
+    """Send an emergency stop until it takes effect, in a thread of its own, ahead of all other commands."""
+    cf = session.cf
+    if cf.platform.get_protocol_version() >= messages.PROTOCOL:
+        send = cf.supervisor.send_emergency_stop
+    else:
+
+        def send() -> None:
+            cf.send_packet(packet(LOCALIZATION, _OLD_CHANNEL, _OLD_STOP))
+
+    def off(state: State) -> bool:
+        return not state.steered and (state.locked or state.crashed or not state.flies)
+
+    worker = Worker(f"the emergency stop of {session.drone}")
+    try:
+        for _ in range(_STOPS):
+            await worker.call(send, 2.5)
+            try:
+                if await session.until(off, _EACH, well=False) is not None:
+                    return
+            except LinkLost:  # it may receive even if nothing is received from it
+                await asyncio.sleep(_EACH)
+    finally:
+        worker.end()
+    raise LinkLost(f"{session.drone} did not confirm that its motors are off")

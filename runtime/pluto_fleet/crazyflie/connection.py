@@ -11,10 +11,11 @@ from collections.abc import Iterator
 from contextlib import suppress
 from math import hypot
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..drones.errors import LinkLost
+from ..drones.protocol import LinkLost
 from ..files.addresses import CHANNELS, USUAL, radio_bytes
+from ..shared.domain.model import Point
 from ..shared.domain.text import number
 from . import logs, messages, parameters
 from .driver import (
@@ -26,13 +27,8 @@ from .driver import (
     load,
     packet,
 )
-from .session import CrazyflieSession, SessionObserver
-from .worker import Worker
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-    from .options import CrazyflieOptions
-
+from .options import CrazyflieOptions
+from .session import CrazyflieSession, SessionObserver, Worker
 
 _IMPORT, _OPEN = 20.0, 5.0
 ANSWER, TELEMETRY = 5.0, 3.0

@@ -17,7 +17,7 @@ from threading import Lock, Thread, Timer
 from time import sleep
 from typing import TYPE_CHECKING, Any
 
-from ..drones.errors import NotReady
+from ..drones.protocol import NotReady
 from ..process.ipc import is_private
 from ..shared.domain.errors import BadInput
 from . import messages
@@ -120,11 +120,9 @@ class NullLink:
     needs_resending = False
 
     def send_packet(self, _: object) -> bool:
-        """Ignore a packet."""
         return True
 
     def receive_packet(self, _: float = 0.0) -> None:
-        """Wait a moment, and return None."""
         sleep(0.05)
 
     def close(self) -> None:

@@ -10,15 +10,14 @@ from collections.abc import Callable, Mapping
 from statistics import fmean
 from typing import TYPE_CHECKING
 
-from ..drones.errors import Rejected
+from ..drones.protocol import Rejected
 from . import messages
+from .session import CrazyflieSession
 from .state import STATE, VARIANCES, state_of
 
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
     from cflib.crazyflie.log import LogConfig
-
-    from .session import CrazyflieSession
 
 _STATE_MS, _VARIANCE_MS, _ONE_MS = 100, 250, 100
 
@@ -34,10 +33,7 @@ def begin(session: CrazyflieSession) -> None:
         told = tuple(values[name] for name in VARIANCES if name in values)
         session.tell(session.hear_variances, told, session.loop.time())
 
-    wanted = (
-        ("state", STATE, _STATE_MS, state),
-        ("variances", VARIANCES, _VARIANCE_MS, variances),
-    )
+    wanted = (("state", STATE, _STATE_MS, state), ("variances", VARIANCES, _VARIANCE_MS, variances))
     for name, variables, period, hear in wanted:
         there = [variable for variable in variables if has(cf, variable)]
         session.lacks += tuple(variable for variable in variables if variable not in there)
@@ -46,7 +42,6 @@ def begin(session: CrazyflieSession) -> None:
 
 
 def has(cf: Cf, name: str) -> bool:
-    """Return whether there is such a log variable."""
     group, _, variable = name.partition(".")
     toc = cf.log.toc
     return toc is not None and variable in toc.toc.get(group, {})

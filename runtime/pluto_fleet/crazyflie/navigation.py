@@ -6,34 +6,37 @@ import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import suppress
 from math import inf
-from typing import TYPE_CHECKING
 
-from ..drones.errors import LinkLost, NavigationError, NotReady, Rejected
-from ..drones.protocol import LINK_LOST, DroneEvent, DroneTelemetry
+from ..drones.protocol import (
+    LINK_LOST,
+    DroneEvent,
+    DroneSetup,
+    DroneTelemetry,
+    LinkLost,
+    NavigationError,
+    NotReady,
+    Rejected,
+)
 from ..files.addresses import address_of
+from ..shared.domain.actions import Plain
+from ..shared.domain.model import Item, Point
 from ..shared.domain.text import quoted
 from . import (
     actions,
+    commander,
     connection,
     flying,
     logs,
     messages,
     parameters,
     preflight,
-    supervisor,
 )
+from .commander import stop_motors
 from .connection import open_session, scan
-from .health import AlarmDetector, BatteryGauge
 from .options import options_of
 from .preflight import firmware_facts
-from .supervisor import stop_motors
-
-if TYPE_CHECKING:
-    from ..drones.protocol import DroneSetup
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
-    from .session import CrazyflieSession
-    from .state import State
+from .session import CrazyflieSession
+from .state import AlarmDetector, BatteryGauge, State
 
 _AWAY = 4.0
 """The time-out of closing links, in seconds."""
@@ -120,24 +123,20 @@ class Crazyflie:
             self._events.put_nowait(None)
 
     def told(self, state: State) -> None:
-        """Called with a new state."""
         self._state = state
         self._battery.hear(state)
         for event in self._alarms.hear(state):
             self._events.put_nowait(event)
 
     def doubted(self, variance: float) -> None:
-        """Called with the variance of its position."""
         adrift = self._session is not None and self._session.adrift
         for event in self._alarms.hear_of_its_place(adrift, variance):
             self._events.put_nowait(event)
 
     def gone(self, why: str) -> None:
-        """Called when the link is lost."""
         self._events.put_nowait(DroneEvent(kind=LINK_LOST, reason=why))
 
     def releasing(self, gone: asyncio.Future[None]) -> None:
-        """Called when a link is being closed."""
         self._leaving = {one for one in self._leaving if not one.done()} | {gone}
 
     async def _left(self) -> None:
@@ -147,7 +146,6 @@ class Crazyflie:
 
     @property
     def telemetry(self) -> DroneTelemetry:
-        """The latest state."""
         state = self._state
         return DroneTelemetry(
             time=-inf if state is None else state.time,
@@ -159,7 +157,6 @@ class Crazyflie:
         )
 
     async def events(self) -> AsyncIterator[DroneEvent]:
-        """Yield its events, until it is closed."""
         while (event := await self._events.get()) is not None:
             yield event
 
@@ -173,7 +170,6 @@ class Crazyflie:
     # Flying
 
     async def preflight(self) -> Sequence[str]:
-        """Return why it must not take off."""
         try:
             return await self._problems(self._linked())
         except LinkLost as error:
@@ -197,21 +193,17 @@ class Crazyflie:
         await flying.takeoff(session, height, speed)
 
     async def go_to(self, target: Point, speed: float) -> None:
-        """Fly straight to a place."""
         flying.check(self._id, target, speed)
         await flying.go_to(self._linked(), target, speed)
 
     async def hold(self) -> None:
-        """Stop and hover."""
         await flying.hold(self._linked())
 
     async def land(self, speed: float) -> None:
-        """Land straight down; return when the motors are off."""
         flying.check_speed(self._id, speed)
         await flying.land(self._linked(), speed)
 
     async def emergency_stop(self) -> None:
-        """Switch the motors off: it falls."""
         if self._session is None:
             raise LinkLost(messages.not_connected(self._id))
         await stop_motors(self._session)
@@ -219,11 +211,9 @@ class Crazyflie:
     # Optional abilities
 
     def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        """Return why it cannot do an action, or None."""
         return actions.why_not(self._id, self._options, self._session, action, parameters)
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
-        """Do an action where it hovers."""
         session, folder = self._linked(), self._setup.folder
         return await actions.act(session, self._reader(), self._options, folder, action, parameters)
 
@@ -234,11 +224,16 @@ class Crazyflie:
             return await parameters.read(session, name)
         variable = name if logs.has(session.cf, name) else self._options.variable_of(name)
         if variable is None or not logs.has(session.cf, variable):
-            raise Rejected(messages.nothing_to_read(self._id, name))
+            said = f"{self._id} has neither a log variable nor a parameter {quoted(name)}"
+            if "." not in name:
+                said += (
+                    "; what a quantity is read from, the fleet file says:"
+                    f' measure = {{ {name} = "group.name" }}'
+                )
+            raise Rejected(said)
         return await self._reader().mean(variable, 0.0)
 
     async def write(self, name: str, value: float) -> None:
-        """Set a parameter, and verify it."""
         await parameters.write(self._linked(), name, value)
 
     def _reader(self) -> logs.LogReader:
@@ -252,25 +247,20 @@ class Crazyflie:
             await connection.send_external_position(self._session, position)
 
     async def looked_after(self) -> None:
-        """Reset a crash: it has been repaired."""
-        await supervisor.recover_from_crash(self._linked())
+        await commander.recover_from_crash(self._linked())
 
     async def identify(self) -> None:
-        """Blink."""
         await actions.blink(self._linked())
 
     async def facts(self) -> Mapping[str, str]:
-        """Return its firmware and its decks."""
         return await firmware_facts(self._linked())
 
     @staticmethod
     def canonical_uri(uri: str) -> str:
-        """Return a URI with all that it leaves out, as cflib reads it."""
         return address_of(uri).uri
 
     @staticmethod
     async def scan(options: Mapping[str, object]) -> Sequence[str]:
-        """Return the URIs of all Crazyflies that answer."""
         return await scan(options_of(options))
 
 

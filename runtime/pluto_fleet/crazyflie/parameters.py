@@ -8,15 +8,14 @@ from contextlib import suppress
 from math import isclose, isfinite
 from typing import TYPE_CHECKING
 
-from ..drones.errors import LinkLost, Rejected
+from ..drones.protocol import LinkLost, Rejected
 from ..shared.domain.text import number, quoted
 from . import messages
+from .session import CrazyflieSession
 
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
     from cflib.crazyflie.param import ParamTocElement as Element
-
-    from .session import CrazyflieSession
 
 _ALL, _ONE = 12.0, 3.0
 """Time-outs in seconds: of reading all parameters after connecting, and of reading one."""
@@ -48,7 +47,6 @@ def known(session: CrazyflieSession) -> dict[str, float]:
 
 
 async def read(session: CrazyflieSession, name: str) -> float:
-    """Return a parameter's present value."""
     _element(session, name)
     return await _asked(session, name, lambda cf: cf.param.request_param_update(name))
 

@@ -5,19 +5,13 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Iterator, Mapping
 from math import ceil
-from typing import TYPE_CHECKING
 
+from ..shared.domain.text import number, quoted
 from . import messages, parameters
-from .health import FULLEST
-from .state import SETTLED_FOR
-from .trajectory import DEFAULT_LIMIT, speed_limits_of
-
-if TYPE_CHECKING:
-    from .health import BatteryGauge
-    from .options import CrazyflieOptions
-    from .session import CrazyflieSession
-    from .state import State
-
+from .flying import DEFAULT_LIMIT, speed_limits_of
+from .options import CrazyflieOptions
+from .session import CrazyflieSession
+from .state import FULLEST, SETTLED_FOR, BatteryGauge, State
 
 _DECK = "deck."
 _SETTLING = 1.5
@@ -35,10 +29,15 @@ _READ = 8.0
 async def problems(
     session: CrazyflieSession, battery: BatteryGauge, options: CrazyflieOptions, speed: float
 ) -> list[str]:
-    """Return all reasons."""
     version = session.cf.platform.get_protocol_version()
     if version < messages.PROTOCOL:
-        return [messages.old_firmware(version)]  # its other reports are unreliable
+        release = messages.release(version)
+        has = "too old to say which" if version < 0 else f"{version} (release {release})"
+        why = (
+            f"its firmware speaks protocol {has}, {messages.PROTOCOL} or later is needed:"
+            " flash the newest release with cfclient (Connect, Bootloader)"
+        )
+        return [why]  # its other reports are unreliable
     if session.lacks:
         return [
             f"its firmware has no log variable {', '.join(session.lacks)}: flash the newest release"
@@ -54,9 +53,11 @@ async def problems(
     patience = SETTLED_FOR + _SETTLING if found else _PATIENCE
     if not await _sure(session, options, began + patience):
         if options.starts_at_home:
-            found.append(messages.UNSETTLED)
+            found.append(
+                "its estimate of where it is has not settled: let it stand still on the ground"
+            )
         else:
-            found.append(messages.uncertain(session.confidence.variance, options.sure_within))
+            found.append(_uncertain(session.confidence.variance, options.sure_within))
     return found
 
 
@@ -67,11 +68,17 @@ def _is_settled(state: State) -> bool:
 
 def _of_state(state: State) -> Iterator[str]:
     if state.deck_failed:
-        yield messages.DECK_FAILED
+        yield "one of its decks reports a fault: see that all sit well, and switch it off and on"
     if state.locked:
         yield messages.IS_LOCKED
     elif state.crashed:
-        yield messages.LIES if state.lies else messages.HAS_CRASHED
+        yield (
+            messages.LIES
+            if state.lies
+            else (
+                "it has crashed: once it stands upright and is whole, bring it back, or switch it off and on"
+            )
+        )
     elif state.deck_failed:
         return  # that is why
     elif not (state.can_arm or state.can_fly):
@@ -82,9 +89,26 @@ def _of_battery(state: State, battery: BatteryGauge, options: CrazyflieOptions) 
     rest = battery.cell(state) if battery.rest is None else battery.rest
     if rest > FULLEST:
         volts = rest * options.cells
-        yield messages.more_cells(volts, options.cells, ceil(volts / FULLEST))
+        have = "one cell has" if options.cells == 1 else f"{options.cells} cells have"
+        yield (
+            f"its battery has {volts:.2f} V, more than {have}: say in the fleet file how many it has,"
+            f" such as cells = {ceil(volts / FULLEST)}"
+        )
     elif not state.flies and rest < options.least_voltage:
-        yield messages.little(rest, options.least_voltage, options.cells)
+        each = "" if options.cells == 1 else " in each cell"
+        least = options.least_voltage
+        yield f"its battery has {rest:.2f} V{each} at rest, {least:.2f} V are needed: charge it"
+
+
+def _uncertain(variance: float | None, within: float) -> str:
+    if variance is None:
+        return "it does not say how sure it is of its position"
+    if variance <= within**2:
+        return "it has not said for a second that it is sure where it is: let it stand still"
+    return (
+        f"it is not sure where it is: to {messages.deviation(variance)} (a variance of"
+        f" {variance:.4f} m²), and {number(within)} m for a second are needed, its option sure_within"
+    )
 
 
 async def _sure(session: CrazyflieSession, options: CrazyflieOptions, end: float) -> bool:
@@ -112,7 +136,8 @@ async def _of_parameters(
     if not await parameters.complete(session, _READ) and asks:
         return [messages.UNREAD]
     there = decks(session)
-    lacks = [messages.no_deck(deck, there) for deck in options.decks if deck not in there]
+    has = f"it has {', '.join(there) or 'none'}"
+    lacks = [f"it has no deck {quoted(deck)}: {has}" for deck in options.decks if deck not in there]
     return [*lacks, *speed_limits_of(session).too_slow_for(speed)]
 
 
@@ -122,13 +147,17 @@ async def _of_camera(where: tuple[str, int]) -> list[str]:
         async with asyncio.timeout(_CAMERA):
             _, writer = await asyncio.open_connection(*where)
     except OSError as error:  # a time-out is one, too
-        return [messages.no_pictures(where, error)]
+        why = error.strerror or "nothing came in time"
+        problem = (
+            f"its camera does not answer at {where[0]}:{where[1]} ({why}): is its AI-deck on, and this"
+            " computer in its WiFi? For a plan without photos, leave camera out of the fleet file"
+        )
+        return [problem]
     writer.transport.abort()
     return []
 
 
 def decks(session: CrazyflieSession) -> list[str]:
-    """Return its decks, as its firmware names them."""
     return [
         name.removeprefix(_DECK)
         for name, value in sorted(parameters.known(session).items())

@@ -3,6 +3,9 @@
 cflib calls back from threads of its own, from which everything is passed to the event loop; all else in this
 module runs in the loop, except for what `Worker` calls. Acknowledgements are a Crazyflie's answers to
 commands, which cflib itself ignores.
+
+A thread cannot be stopped from outside. One that hangs is abandoned: it is a daemon, so that the process can
+end, and the drone gets a new one when it is reconnected.
 """
 
 from __future__ import annotations
@@ -10,21 +13,79 @@ from __future__ import annotations
 import asyncio
 from collections import deque
 from collections.abc import Callable
+from concurrent.futures import Future
 from contextlib import suppress
+from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Protocol
+from queue import SimpleQueue
+from threading import Thread
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
-from ..drones.errors import Crashed, LinkLost, Locked, NavigationError
-from ..drones.lag import Lag
-from ..jobs.reports import SILENCE
+from ..drones.protocol import Crashed, LinkLost, Locked, NavigationError
+from ..drones.timeouts import Lag
+from ..shared.domain.errors import ANY_ERROR
 from . import messages
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
 from .state import PositionConfidence, State
-from .worker import Worker
 
 if TYPE_CHECKING:
     from cflib.crazyflie import Crazyflie as Cf
     from cflib.crtp.crtpstack import CRTPPacket
+
+
+T = TypeVar("T")
+
+
+class Worker:
+    """A daemon thread that runs one call after the other; made and used in an event loop."""
+
+    def __init__(self, drone: str) -> None:
+        self._drone = drone
+        self._jobs: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
+        self.stuck = False
+        """Whether a call has not returned in time: further ones are refused."""
+        self._thread = Thread(target=self._work, name=f"cflib for {drone}", daemon=True)
+        self._thread.start()
+
+    async def call(self, call: Callable[[], T], limit: float) -> T:
+        """Run a call, and return its result; raise `LinkLost` after the time-out."""
+        if self.stuck:
+            raise LinkLost(messages.stuck(self._drone, limit))
+        job: Future[T] = Future()
+        self._jobs.put(partial(_run, job, call))
+        answer = asyncio.wrap_future(job)
+        try:
+            await asyncio.wait({answer}, timeout=limit)
+            if answer.done():
+                return answer.result()
+        finally:  # cancelled, too: it need not begin
+            job.cancel()
+            answer.cancel()
+        self.stuck = True
+        raise LinkLost(messages.stuck(self._drone, limit))
+
+    def post(self, call: Callable[[], object]) -> None:
+        def run() -> None:
+            with suppress(Exception):
+                call()
+
+        self._jobs.put(run)
+
+    def end(self) -> None:
+        self._jobs.put(None)
+
+    def _work(self) -> None:
+        while (job := self._jobs.get()) is not None:
+            job()
+
+
+def _run(job: Future[T], call: Callable[[], T]) -> None:
+    """Call what its caller still waits for."""
+    if job.set_running_or_notify_cancel():
+        try:
+            job.set_result(call())
+        except ANY_ERROR as error:
+            job.set_exception(error)
 
 
 _ANSWER = 0x80
@@ -34,47 +95,6 @@ _COMMANDS = 1
 
 Key = tuple[int, int]
 """The port, and the number of the command."""
-
-
-class Acknowledgements:
-    """Waits for answers to commands."""
-
-    def __init__(self) -> None:
-        self._waiting: dict[Key, asyncio.Future[bytes]] = {}
-
-    def listen(self, cf: Cf, tell: Callable[..., None]) -> None:
-        """Register for all answers; called in the worker, as they come in a thread of cflib."""
-
-        def hear(packet: CRTPPacket) -> None:
-            tell(self._hear, packet.port, packet.channel, bytes(packet.data))
-
-        cf.add_port_callback(HIGH_LEVEL, hear)
-        cf.add_port_callback(SUPERVISOR, hear)
-
-    def expect(self, key: Key) -> asyncio.Future[bytes]:
-        """Expect the next answer to a command; called before the command is sent."""
-        answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
-        self._waiting[key] = answer
-        return answer
-
-    async def heard(self, answer: asyncio.Future[bytes], limit: float) -> bytes | None:
-        """Await the answer; return None after the time-out."""
-        await asyncio.wait({answer}, timeout=limit)
-        return answer.result() if answer.done() else None
-
-    def drop(self, key: Key, answer: asyncio.Future[bytes]) -> None:
-        """Stop expecting an answer."""
-        answer.cancel()
-        if self._waiting.get(key) is answer:
-            del self._waiting[key]
-
-    def _hear(self, port: int, channel: int, data: bytes) -> None:
-        if not data or (port == SUPERVISOR and channel != _COMMANDS):
-            return
-        number = data[0] & ~_ANSWER if port == SUPERVISOR else data[0]
-        answer = self._waiting.get((port, number))
-        if answer is not None and not answer.done():
-            answer.set_result(data)
 
 
 _LOOK = 0.1
@@ -89,27 +109,21 @@ class SessionObserver(Protocol):
 
     def told(self, state: State) -> None:
         """Called with a new state."""
-        ...
 
     def doubted(self, variance: float) -> None:
         """Called with the variance of its position, in square metres."""
-        ...
 
     def gone(self, why: str) -> None:
         """Called when the link is lost."""
-        ...
 
     def releasing(self, gone: asyncio.Future[None]) -> None:
         """Called when the link is being closed, with a future of its end."""
-        ...
 
 
 class CrazyflieSession:
     """The state of a connected drone, and the only way to call cflib for it."""
 
-    def __init__(
-        self, drone: str, uri: str, observer: SessionObserver, silence: float = SILENCE
-    ) -> None:
+    def __init__(self, drone: str, uri: str, observer: SessionObserver, silence: float) -> None:
         """`silence`: seconds without a state after which the link counts as lost."""
         self.drone = drone
         self.uri = uri
@@ -124,7 +138,8 @@ class CrazyflieSession:
         """Set when all parameters have been read."""
         self.asking = asyncio.Lock()
         """Held during the exchange for a parameter."""
-        self.acknowledged = Acknowledgements()
+        self._asked: dict[Key, asyncio.Future[bytes]] = {}
+        """The answers that are waited for, which cflib itself ignores."""
         self.confidence = PositionConfidence()
         self.lost_beyond = inf
         """The largest standard deviation of its position in the air, in metres."""
@@ -166,7 +181,19 @@ class CrazyflieSession:
         cf.connection_lost.add_callback(lambda _, why: self.tell(self.fail, why))
         cf.disconnected.add_callback(lambda _: self.tell(self._disconnected))
         cf.link_established.add_callback(lambda _: self._established(cf, resend=loses))
-        self.acknowledged.listen(cf, self.tell)
+        for port in (HIGH_LEVEL, SUPERVISOR):
+            cf.add_port_callback(port, self._acknowledged)
+
+    def _acknowledged(self, packet: CRTPPacket) -> None:
+        self.tell(self._answers, packet.port, packet.channel, bytes(packet.data))
+
+    def _answers(self, port: int, channel: int, data: bytes) -> None:
+        if not data or (port == SUPERVISOR and channel != _COMMANDS):
+            return
+        number = data[0] & ~_ANSWER if port == SUPERVISOR else data[0]
+        answer = self._asked.get((port, number))
+        if answer is not None and not answer.done():
+            answer.set_result(data)
 
     def _established(self, cf: Cf, *, resend: bool) -> None:
         """At the first packet, before any other is sent, make cflib repeat lost packets."""
@@ -190,7 +217,6 @@ class CrazyflieSession:
         self._wake()
 
     def hear(self, state: State) -> None:
-        """Process a new state."""
         if not self.lost:
             self.state, self._silent = state, False
             self.recent.append(state)
@@ -198,7 +224,6 @@ class CrazyflieSession:
             self._wake()
 
     def hear_variances(self, variances: tuple[float, ...], at: float) -> None:
-        """Process new variances."""
         if not self.lost and variances:
             self.confidence.hear(variances, at)
             self._observer.doubted(max(variances))
@@ -243,7 +268,6 @@ class CrazyflieSession:
 
     @property
     def before(self) -> State | None:
-        """The state before the latest."""
         return self.recent[-2] if len(self.recent) > 1 else None
 
     @property
@@ -269,7 +293,8 @@ class CrazyflieSession:
         """Return its state; raise if it cannot fly on."""
         state = self.now()
         if state.locked:
-            raise Locked(messages.locked(self.drone, state.deck_failed))
+            why = ", as one of its decks reports a fault" if state.deck_failed else ""
+            raise Locked(f"{self.drone} has locked its motors{why}: switch it off and on")
         if state.crashed:
             raise Crashed(f"{self.drone} has tumbled or crashed")
         return state
@@ -297,8 +322,20 @@ class CrazyflieSession:
             if cf.link is not None and not self.lost:
                 raise
             raise LinkLost(
-                messages.ended(self.drone, self.lost or messages.WHILE_SENDING)
+                messages.ended(self.drone, self.lost or "it was closed while something was sent")
             ) from error
+
+    async def answer(self, key: Key, send: Callable[[Cf], object], limit: float) -> bytes | None:
+        """Send a command, and return the next answer to it; None: it was not answered in time."""
+        answer = self._asked[key] = self.loop.create_future()
+        try:
+            await self.call(send)
+            await asyncio.wait({answer}, timeout=limit)
+            return answer.result() if answer.done() else None
+        finally:
+            answer.cancel()
+            if self._asked.get(key) is answer:
+                del self._asked[key]
 
     async def until(
         self, ready: Callable[[State], bool], limit: float, *, well: bool = True
@@ -317,7 +354,6 @@ class CrazyflieSession:
         return state
 
     async def until_told(self, limit: float) -> State | None:
-        """Return its first state, or None."""
         end = self.loop.time() + limit
         while self.state is None and not self.lost and self.loop.time() < end:
             await self.heard(0.2)

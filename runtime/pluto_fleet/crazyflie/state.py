@@ -2,19 +2,24 @@
 
 With beacons the variance of its estimate is small, and grows when they are lost. With only a flow deck, which
 measures relative movement, it is never small: then it counts that the variance is steady.
+
+Under load the voltage of a small battery drops by some tenths of a volt, which at rest would mean much less
+charge. The level follows from the voltage at rest; in the air the drop is added, which is measured anew at
+each take-off, as batteries age.
 """
 
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import dist, inf, isfinite, radians
-from typing import TYPE_CHECKING
+from statistics import fmean
 
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-
+from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
+from ..lithium import SAG, level_at
+from ..shared.domain.model import Point
+from . import messages
 
 # Together 23 of the 26 bytes of a block, so that position and status belong to one moment.
 X, Y, Z, YAW = "stateEstimate.x", "stateEstimate.y", "stateEstimate.z", "stateEstimate.yaw"
@@ -27,10 +32,15 @@ ROUND = (1 << 24) / 1000.0
 LOW_POWER = 3
 """The value of `pm.state` for a low battery; above it, it switches off."""
 
-_CAN_ARM, _ARMED, _AUTO, _CAN_FLY, _FLIES, _TUMBLED, _LOCKED, _CRASHED, _STEERED, _FINISHED = (
-    1 << place for place in range(10)
-)
-_DECK = 1 << 11
+
+class _Bit:
+    """A bit of the supervisor's state."""
+
+    def __init__(self, place: int) -> None:
+        self._mask = 1 << place
+
+    def __get__(self, state: State, _: object = None) -> bool:
+        return bool(state.bits & self._mask)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,45 +59,34 @@ class State:
     bits: int
     """The bits of its supervisor."""
 
-    @property
-    def armed(self) -> bool:
-        """Whether it is armed."""
-        return bool(self.bits & _ARMED)
+    armable = _Bit(0)
+    """Whether it is not armed, and can be."""
+    armed = _Bit(1)
+    arms_itself = _Bit(2)
+    """Whether its build arms automatically."""
+    can_fly = _Bit(3)
+    lies = _Bit(5)
+    """Whether it is not upright."""
+    locked = _Bit(6)
+    """Whether it must be restarted."""
+    has_trajectory = _Bit(8)
+    """Whether its high-level commander has a trajectory, whether or not its motors may turn."""
+    finished = _Bit(9)
+    """Whether that has ended."""
+    deck_failed = _Bit(11)
+    """Whether one of its decks reports a fault: then it does not arm, and locks in the air."""
+    _flying = _Bit(4)
+    _fell = _Bit(7)
 
     @property
     def can_arm(self) -> bool:
         """Whether it can be armed, or is armed."""
-        return bool(self.bits & (_CAN_ARM | _ARMED))
-
-    @property
-    def arms_itself(self) -> bool:
-        """Whether its build arms automatically."""
-        return bool(self.bits & _AUTO)
-
-    @property
-    def can_fly(self) -> bool:
-        """Whether it can take off."""
-        return bool(self.bits & _CAN_FLY)
+        return self.armable or self.armed
 
     @property
     def crashed(self) -> bool:
         """Whether it has fallen, or lies on its back."""
-        return bool(self.bits & (_TUMBLED | _CRASHED))
-
-    @property
-    def lies(self) -> bool:
-        """Whether it is not upright."""
-        return bool(self.bits & _TUMBLED)
-
-    @property
-    def deck_failed(self) -> bool:
-        """Whether one of its decks reports a fault: then it does not arm, and locks in the air."""
-        return bool(self.bits & _DECK)
-
-    @property
-    def locked(self) -> bool:
-        """Whether it must be restarted."""
-        return bool(self.bits & _LOCKED)
+        return self.lies or self._fell
 
     @property
     def steered(self) -> bool:
@@ -95,26 +94,15 @@ class State:
         return self.has_trajectory and self.armed
 
     @property
-    def has_trajectory(self) -> bool:
-        """Whether its high-level commander has a trajectory, whether or not its motors may turn."""
-        return bool(self.bits & _STEERED)
-
-    @property
-    def finished(self) -> bool:
-        """Whether its trajectory has ended."""
-        return bool(self.bits & _FINISHED)
-
-    @property
     def flies(self) -> bool:
         """Whether it is in the air, or was two seconds ago."""
-        return bool(self.bits & _FLIES) or self.steered
+        return self._flying or self.steered
 
     def since(self, before: State) -> float:
         """Return the seconds since another state, by the drone's clock, which wraps around every few hours."""
         return (self.sent - before.sent) % ROUND
 
     def distance(self, place: Point) -> float:
-        """Return the distance of a place, in metres."""
         return dist(self.position, place)
 
     @property
@@ -169,7 +157,6 @@ class PositionConfidence:
         return max(self._told[-1][1]) if self._told else None
 
     def hear(self, variances: Variances, time: float) -> None:
-        """Add new variances."""
         if self._told and time - self._told[-1][0] > _STALE:
             self._told.clear()
         self._told.append((time, tuple(v if isfinite(v) else inf for v in variances)))
@@ -205,3 +192,113 @@ class PositionConfidence:
 
     def _is_long(self) -> bool:
         return bool(self._told) and self._told[-1][0] - self._told[0][0] >= SETTLED_FOR
+
+
+_LEAST, _MOST = 0.05, 0.6
+"""The bounds of the voltage drop of hovering, which is the usual one until it is measured."""
+_SETTLED, _MEASURED = 1.0, 3.0
+"""Seconds after take-off, between which the drop is measured."""
+_SMOOTH = 1.0
+"""Seconds over which the voltage in the air is averaged."""
+LOW = 3.2
+"""Volts of a cell in the air at which it must come down. At 3.0 some builds switch off."""
+FULLEST = 4.5
+"""A voltage that no cell has: there must be more cells than assumed."""
+_LAST = 0.02
+"""The level at that voltage."""
+
+
+class BatteryGauge:
+    """The charge of one drone's battery."""
+
+    def __init__(self, cells: int = 1) -> None:
+        self.cells = cells
+        """The number of cells in series, whose total voltage is measured."""
+        self.level = 0.0
+        """From 0 to 1."""
+        self.rest: float | None = None
+        """The last voltage of a cell without load; None: not measured yet."""
+        self._sag, self._sags = SAG, list[float]()
+        self._smooth: float | None = None
+        self._time = self._since = 0.0
+        self._flew = False
+
+    def cell(self, state: State) -> float:
+        return state.volts / self.cells
+
+    def hear(self, state: State) -> None:
+        """Update by a new state."""
+        volts = self.cell(state)
+        if not volts > 0.0:
+            return
+        passed, self._time = state.time - self._time, state.time
+        if not state.flies:
+            self.rest, self._flew, self._smooth = volts, False, None
+            self.level = level_at(volts)
+            return
+        if not self._flew:
+            self._flew, self._since, self._sags = True, state.time, []
+        if self._smooth is None:
+            self._smooth = volts
+        share = min(1.0, passed / _SMOOTH)
+        self._smooth += (volts - self._smooth) * share
+        self._measure(state, volts)
+        if self.rest is None or state.time - self._since > _MEASURED:
+            self.level = level_at(self._smooth + self._sag)
+        if state.power == LOW_POWER or self._smooth < LOW:
+            self.level = min(self.level, _LAST)  # whatever the gauge says
+
+    def _measure(self, state: State, volts: float) -> None:
+        """Measure the voltage drop in the first seconds of a flight."""
+        if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
+            return
+        self._sags.append(self.rest - volts)
+        self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))
+
+
+LOW_FOR = 3.0
+"""Seconds that it must be low, as a burst of the motors lowers the voltage, too."""
+_WELL = 3.5
+"""The voltage of a cell at which a battery counts as replaced or charged."""
+
+
+class AlarmDetector:
+    """Detects alarms: each is reported once, when it begins."""
+
+    def __init__(self, cells: int = 1) -> None:
+        self._cells = cells
+        self._crashed = self._locked = self._low = self._adrift = False
+        self._low_since: float | None = None
+
+    def hear(self, state: State) -> Iterator[DroneEvent]:
+        """Yield the events since the last state."""
+        if state.crashed and not self._crashed:
+            yield DroneEvent(kind=CRASHED, reason=messages.LIES)
+        if state.locked and not self._locked:
+            why = messages.IS_LOCKED
+            if state.deck_failed:
+                why = f"one of its decks reports a fault, and {why}"
+            yield DroneEvent(kind=LOCKED, reason=why)
+        self._crashed, self._locked = state.crashed, state.locked
+        if self._battery_low(state):
+            yield DroneEvent(kind=BATTERY_LOW, reason=f"its battery is down to {state.volts:.2f} V")
+
+    def hear_of_its_place(self, adrift: bool, variance: float) -> Iterator[DroneEvent]:
+        """Yield the event that it has lost its position in the air."""
+        if adrift and not self._adrift:
+            yield DroneEvent(kind=POSITION_LOST, reason=messages.adrift(variance))
+        self._adrift = adrift
+
+    def _battery_low(self, state: State) -> bool:
+        """Return whether it has just become so low that it must land."""
+        volts = state.volts / self._cells
+        if state.power != LOW_POWER and not 0.0 < volts < LOW:
+            self._low_since = None
+            self._low = self._low and volts < _WELL
+            return False
+        if self._low_since is None:
+            self._low_since = state.time
+        if self._low or state.time - self._low_since < LOW_FOR:
+            return False
+        self._low = True
+        return True

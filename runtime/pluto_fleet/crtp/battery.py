@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from ..lithium import SAG, level_at, volts_at
 from ..shared.alone.drones import Body
-from ..shared.domain.model import Point
+from ..shared.alone.world import World
+from ..shared.domain.model import Category, Point
+from ..shared.domain.trace import Clock
 from ..shared.fleet.reach import docked
 from ..shared.fleet.telemetry import resting
 
@@ -24,7 +26,24 @@ ON_BATTERY, CHARGING, CHARGED, LOW_POWER = 0, 1, 2, 3
 
 
 class CarriedBody(Body):
-    """A simulated drone whose place a firmware's dynamics say."""
+    """A simulated drone whose place a firmware's dynamics say, with its battery as the firmware sees it."""
+
+    def __init__(
+        self,
+        id: str,
+        home: Point,
+        category: Category,
+        world: World,
+        clock: Clock,
+        *,
+        cells: int = 1,
+        shuts_down: bool = False,
+    ) -> None:
+        """`shuts_down`: whether its build switches it off before it is empty."""
+        super().__init__(id, home, category, world, clock)
+        self._cells, self._shuts_down = cells, shuts_down
+        self._low = False
+        self._below_low = self._below_empty = 0.0
 
     def carried(self, to: Point, *, motors: bool) -> None:
         """Be there now; the battery drains while the motors turn, and charges in the dock."""
@@ -40,61 +59,42 @@ class CarriedBody(Body):
         """Have so much in its battery now."""
         self._charge = replace(self._charge, level=level, since=self._clock.now)
 
+    def set_volts(self, volts: float) -> None:
+        """Set the charge so that this voltage is measured now."""
+        self.charge_to(level_at(volts / self._cells + self._sag))
+
     @property
     def charges(self) -> bool:
         """Whether its pad charges it."""
         return self._charge.rate > 0.0
 
-
-@dataclass(slots=True)
-class SimulatedBattery:
-    """A drone's battery, as its firmware sees it."""
-
-    body: CarriedBody
-    cells: int = 1
-    shuts_down: bool = False
-    """Whether its build switches it off before it is empty."""
-    low: bool = False
-    _below_low: float = 0.0
-    _below_empty: float = 0.0
-
-    @property
-    def level(self) -> float:
-        """Its charge, from 0 to 1."""
-        return self.body.battery_level
-
     @property
     def volts(self) -> float:
         """The present voltage."""
-        return self.cells * self._cell
+        return self._cells * self._cell
 
     @property
     def _cell(self) -> float:
-        """Volts of each cell."""
-        return volts_at(self.level) - self._sag
+        return volts_at(self.battery_level) - self._sag
 
     @property
     def _sag(self) -> float:
-        return 0.0 if self.body.landed else SAG
+        return 0.0 if self.landed else SAG
 
     @property
     def state(self) -> int:
         """The value of `pm.state`."""
-        if self.low:
+        if self._low:
             return LOW_POWER
-        if self.body.charges:
-            return CHARGED if self.level >= 1.0 else CHARGING
+        if self.charges:
+            return CHARGED if self.battery_level >= 1.0 else CHARGING
         return ON_BATTERY
 
-    def set_volts(self, volts: float) -> None:
-        """Set the charge so that this voltage is measured now."""
-        self.body.charge_to(level_at(volts / self.cells + self._sag))
-
-    def step(self, seconds: float) -> bool:
+    def switches_off(self, seconds: float) -> bool:
         """Advance the time; return whether it has switched off: by its build, or because it is empty."""
         volts = self._cell
         self._below_low = self._below_low + seconds if volts < LOW else 0.0
         self._below_empty = self._below_empty + seconds if volts < EMPTY else 0.0
-        self.low = self._below_low > _LONG
-        used_up = not self.body.landed and self.level <= 0.0
-        return used_up or (self.shuts_down and self._below_empty > _LONG)
+        self._low = self._below_low > _LONG
+        used_up = not self.landed and self.battery_level <= 0.0
+        return used_up or (self._shuts_down and self._below_empty > _LONG)

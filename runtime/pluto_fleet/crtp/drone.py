@@ -9,18 +9,16 @@ from random import Random
 
 from ..shared.alone.world import World
 from ..shared.domain.airspace import Airspace
-from ..shared.domain.fleet_data import DroneData, WorldData
+from ..shared.domain.fleet_data import WorldData
 from ..shared.domain.model import Category
 from ..shared.domain.motion import CRAZYFLIE
-from .battery import CHARGE, FLIGHT, CarriedBody, SimulatedBattery
-from .body import Body
-from .commander import META, RELEASE, command, target_of
-from .estimator import NOISE, RATE, Estimator
+from .battery import CHARGE, FLIGHT, CarriedBody
+from .body import NOISE, RATE, Body, Estimator
+from .commander import META, RELEASE, Supervisor, command, target_of
 from .flight_log import CommandRecord, FlightLog, Point, PositionRecord
 from .logs import Logs, quantities, variables
 from .packets import NULL, PROTOCOL, Port, packed, unpacked
 from .params import Parameters, parameters
-from .supervisor import Supervisor
 
 _UNSURE = 0.5
 """The variance of its position while it is unsure, in square metres."""
@@ -98,19 +96,22 @@ class SimulatedCrazyflie:
             charge_time=build.charge,
             motion=CRAZYFLIE.exact,
         )
-        entry = DroneData(id=build.id, category=kind.name, home=build.home)
-        self.carried = CarriedBody(entry, kind, world, self)
-        """The drone as all simulated ones are: its battery, and what it measures."""
-        self.battery = SimulatedBattery(
-            self.carried, cells=build.cells, shuts_down=build.shuts_down
+        self.carried = CarriedBody(
+            build.id,
+            build.home,
+            kind,
+            world,
+            self,
+            cells=build.cells,
+            shuts_down=build.shuts_down,
         )
+        """The drone as all simulated ones are: its battery, and what it measures."""
         self.supervisor = Supervisor(auto_arm=build.auto_arm)
         self.parameters = Parameters(parameters(build.cells), self._changed)
         self.variables = variables(
             self.body,
-            self.battery,
+            self.carried,
             self.supervisor,
-            self.carried.read,
             quantities(world),
             variance=lambda: self.variance,
             info=self.info,
@@ -123,7 +124,6 @@ class SimulatedCrazyflie:
 
     @property
     def answers(self) -> bool:
-        """Whether its radio is on."""
         return self.on and self.now >= self._boots_until
 
     @property
@@ -134,7 +134,6 @@ class SimulatedCrazyflie:
         return self.estimator.variance(self.now)
 
     def info(self) -> int:
-        """Return the bits of `supervisor.info`."""
         plan = self.body.plan
         return self.supervisor.info(
             high_level=plan is not None,
@@ -160,7 +159,7 @@ class SimulatedCrazyflie:
         if not self.supervisor.can_fly:
             self.body.cut()
         self.carried.carried(self.body.position, motors=thrust)
-        if self.on and self.battery.step(seconds):
+        if self.on and self.carried.switches_off(seconds):
             self.note("switched off")
             self.switch(False)
         if now - self._traced >= _TRACED and (was_flying or self.body.airborne):
@@ -187,12 +186,12 @@ class SimulatedCrazyflie:
         match port:
             case Port.LINK:
                 self._link(channel, data)
-            case Port.LOG:
-                answer = self._logs.take(channel, data, now)
+            case Port.LOG | Port.PARAMETERS:
+                if port == Port.LOG:
+                    answer = self._logs.take(channel, data, now)
+                else:
+                    answer = self.parameters.take(channel, data)
                 if answer is not None:
-                    self._send(answer)
-            case Port.PARAMETERS:
-                for answer in self.parameters.take(channel, data):
                     self._send(answer)
             case Port.HIGH_LEVEL if data:
                 told = command(data, self.body, self.supervisor, now, self.busy)
@@ -210,7 +209,6 @@ class SimulatedCrazyflie:
                 self._low_level(port, channel, data, now)
 
     def note(self, what: str, **values: float) -> None:
-        """Log something."""
         body = self.body
         flying = body.airborne
         self._log.command(
@@ -294,12 +292,10 @@ class SimulatedCrazyflie:
 
     @property
     def _limits(self) -> tuple[float, float, float]:
-        """The speed limits of its position controller."""
         x, y, z = (self.parameters[f"posCtlPid.{axis}VelMax"] for axis in "xyz")
         return x, y, z
 
     def restart(self) -> None:
-        """Restart it where it is; in the air it falls."""
         self.note("restart")
         self.switch(True)
         self._boots_until = self.now + _BOOTS

@@ -10,7 +10,7 @@ from contextlib import suppress
 from ..shared.alone.world import World
 from ..shared.domain.actions import BUILT_IN, PHOTO, PICK
 from .drone import Build, SimulatedCrazyflie
-from .flight_log import MemoryLog
+from .flight_log import FlightLog
 from .logs import quantities
 from .params import parameters
 from .server import HOST
@@ -63,7 +63,6 @@ async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) ->
 
 
 def port_of(server: asyncio.Server) -> int:
-    """Return the port of the stream."""
     return int(server.sockets[0].getsockname()[1])
 
 
@@ -105,7 +104,7 @@ def _grip(given: object) -> Mapping[str, object]:
 
 def _sensors(given: object, world: World) -> Mapping[str, str]:
     """Return the log variables of all quantities: of a file those that exist."""
-    there = SimulatedCrazyflie(_SAMPLE, MemoryLog(), lambda _: None).variables
+    there = SimulatedCrazyflie(_SAMPLE, FlightLog(), lambda _: None).variables
     named = given if isinstance(given, Mapping) else {}
     return {
         **quantities(world),

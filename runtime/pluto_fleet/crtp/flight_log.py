@@ -6,7 +6,7 @@ import json
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import NamedTuple, Protocol, TextIO
+from typing import NamedTuple, TextIO
 
 Point = tuple[float, float, float]
 
@@ -37,35 +37,21 @@ class PositionRecord(NamedTuple):
     at: Point
 
 
-class FlightLog(Protocol):
-    """Receives events; times are those of `time.monotonic`."""
-
-    def command(self, command: CommandRecord) -> None:
-        """Log a command."""
-        ...
-
-    def position(self, place: PositionRecord) -> None:
-        """Log the position of a drone in the air."""
-        ...
-
-
-class MemoryLog:
-    """A log in memory, for tests in this process."""
+class FlightLog:
+    """A log in memory; times are those of `time.monotonic`."""
 
     def __init__(self) -> None:
         self.commands: list[CommandRecord] = []
         self.positions: list[PositionRecord] = []
 
     def command(self, command: CommandRecord) -> None:
-        """Log a command."""
         self.commands.append(command)
 
     def position(self, place: PositionRecord) -> None:
-        """Log a position."""
         self.positions.append(place)
 
 
-class FileLog:
+class FileLog(FlightLog):
     """A log in two files of a folder, which are continued if they exist."""
 
     def __init__(self, folder: Path) -> None:
@@ -74,13 +60,11 @@ class FileLog:
         self._size = self._trace.tell()
 
     def command(self, command: CommandRecord) -> None:
-        """Write a command at once."""
         with suppress(OSError):  # a full disk must not stop drones
             self._commands.write(json.dumps(command._asdict()) + "\n")
             self._commands.flush()
 
     def position(self, place: PositionRecord) -> None:
-        """Write a position soon."""
         if self._size > _LARGEST:
             return
         x, y, z = place.at
@@ -89,12 +73,10 @@ class FileLog:
             self._size += self._trace.write(written)
 
     def flush(self) -> None:
-        """Write what is buffered."""
         with suppress(OSError):
             self._trace.flush()
 
     def close(self) -> None:
-        """Write all, and no more."""
         with suppress(OSError):
             self._commands.close()
             self._trace.close()

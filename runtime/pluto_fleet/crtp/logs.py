@@ -10,13 +10,13 @@ from enum import IntEnum
 from functools import partial
 
 from ..shared.alone.world import World
-from .battery import SimulatedBattery
+from .battery import CarriedBody
 from .body import Body
+from .commander import Supervisor
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
-from .supervisor import Supervisor
 
-LOG_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
-_LETTERS = {kind: letter for letter, kind in LOG_TYPES.items()}
+_TYPES = {"B": 1, "H": 2, "L": 3, "b": 4, "h": 5, "i": 6, "f": 7, "e": 8}
+_LETTERS = {kind: letter for letter, kind in _TYPES.items()}
 
 _CONTROL, _DATA = 1, 2
 
@@ -55,16 +55,14 @@ class Logs:
 
     def __init__(self, variables: Mapping[str, tuple[str, Reader]]) -> None:
         self._readers = [reader for _, reader in variables.values()]
-        kinds = [(name, LOG_TYPES[letter]) for name, (letter, _) in variables.items()]
+        kinds = [(name, _TYPES[letter]) for name, (letter, _) in variables.items()]
         self._table = TableOfContents(Port.LOG, kinds, bytes([MOST_BLOCKS, MOST_VARIABLES]))
         self._blocks: dict[int, _Block] = {}
 
     def reset(self) -> None:
-        """Forget all blocks."""
         self._blocks.clear()
 
     def take(self, channel: int, data: bytes, now: float) -> bytes | None:
-        """Return the answer to a packet."""
         if channel == TABLE_CHANNEL:
             return self._table.answer(data)
         if channel != _CONTROL or not data:
@@ -73,7 +71,6 @@ class Logs:
         return packed(Port.LOG, _CONTROL, bytes([data[0], number, self._do(data, number, now)]))
 
     def due(self, now: float) -> Iterator[bytes]:
-        """Yield the packets that are due."""
         for number, block in self._blocks.items():
             if block.period <= 0.0 or now < block.due:
                 continue
@@ -155,9 +152,8 @@ _FAR = 4.0
 
 def variables(
     body: Body,
-    battery: SimulatedBattery,
+    battery: CarriedBody,
     supervisor: Supervisor,
-    measure: Callable[[str], float],
     names: Mapping[str, str],
     *,
     variance: Reader,
@@ -165,7 +161,7 @@ def variables(
     holds: Reader,
 ) -> Mapping[str, tuple[str, Reader]]:
     """Return the log variables: the type of each, and its reader."""
-    measured = {name: ("f", partial(measure, quantity)) for quantity, name in names.items()}
+    measured = {name: ("f", partial(battery.read, quantity)) for quantity, name in names.items()}
     return {
         **measured,
         "stateEstimate.x": ("f", lambda: body.estimate[0]),
@@ -187,7 +183,7 @@ def variables(
         "pm.vbatMV": ("H", lambda: battery.volts * 1000.0),
         "pm.batteryLevel": ("B", lambda: min(100.0, max(0.0, (battery.volts - 3.0) / 1.2 * 100.0))),
         "pm.state": ("b", lambda: battery.state),
-        "pm.chargeCurrent": ("f", lambda: 0.4 if battery.body.charges else 0.0),
+        "pm.chargeCurrent": ("f", lambda: 0.4 if battery.charges else 0.0),
         "supervisor.info": ("H", info),
         "sys.canfly": ("B", lambda: supervisor.can_fly),
         "sys.isFlying": ("B", lambda: supervisor.flying),
@@ -203,7 +199,7 @@ def variables(
         "baro.temp": ("f", lambda: 24.0),
         "baro.pressure": ("f", lambda: 1013.25 - 0.12 * body.position[2]),
         "baro.asl": ("f", lambda: body.position[2]),
-        "bme.temp": ("f", partial(measure, "temperature")),
+        "bme.temp": ("f", partial(battery.read, "temperature")),
         "bme.humidity": ("f", lambda: 40.0),
         "range.front": ("H", lambda: _FAR * 1000.0),
         "range.back": ("H", lambda: _FAR * 1000.0),

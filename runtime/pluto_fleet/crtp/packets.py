@@ -58,12 +58,10 @@ class Packet(NamedTuple):
 
 
 def packed(port: int, channel: int, data: bytes) -> bytes:
-    """Pack a packet."""
     return bytes([port << 4 | 0x0C | channel]) + data
 
 
 def unpacked(raw: bytes) -> Packet:
-    """Parse a packet."""
     return Packet(raw[0] >> 4, raw[0] & 3, raw[1:])
 
 
@@ -80,7 +78,6 @@ class LossyChannel:
     """Whether all packets are lost."""
 
     def loses(self) -> bool:
-        """Whether the next packet is lost."""
         return self.silent or (self.loss > 0.0 and self.random.random() < self.loss)
 
 

@@ -5,33 +5,18 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from enum import IntEnum
 
 from .battery import EMPTY, LOW
+from .commander import LANDED
 from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
-from .supervisor import LANDED
 
-PARAM_TYPES = {"b": 0x00, "h": 0x01, "i": 0x02, "f": 0x06, "B": 0x08, "H": 0x09, "L": 0x0A}
-_LETTERS = {kind: letter for letter, kind in PARAM_TYPES.items()}
+_TYPES = {"b": 0x00, "h": 0x01, "i": 0x02, "f": 0x06, "B": 0x08, "H": 0x09, "L": 0x0A}
 _EXTENDED, _READ_ONLY = 0x10, 0x40
-
 _READ, _WRITE, _MISC = 1, 2, 3
+_EXTENDED_TYPE, _EXTENDED_TYPE_V2 = 2, 7
+"""The commands of the miscellaneous channel that cflib sends as it connects."""
 _PERSISTENT = 1
 """The only extended type."""
-
-
-class Misc(IntEnum):
-    """Commands of the miscellaneous channel."""
-
-    SET_BY_NAME = 0
-    CHANGED = 1
-    EXTENDED_TYPE = 2
-    STORE = 3
-    STORED_STATE = 4
-    CLEAR = 5
-    DEFAULT = 6
-    EXTENDED_TYPE_V2 = 7
-    DEFAULT_V2 = 8
 
 
 @dataclass(slots=True)
@@ -43,19 +28,16 @@ class Parameter:
     value: float
     read_only: bool = False
     persistent: bool = False
-    default: float | None = None
-    stored: float | None = None
 
-    def packed(self, value: float | None = None) -> bytes:
-        """Return a value, or its own, as it is sent."""
-        shown = self.value if value is None else value
-        return struct.pack("<" + self.letter, shown if self.letter == "f" else int(shown))
+    def packed(self) -> bytes:
+        value = self.value if self.letter == "f" else int(self.value)
+        return struct.pack("<" + self.letter, value)
 
     @property
     def kind(self) -> int:
         """How the table writes down its type."""
         flags = (_READ_ONLY if self.read_only else 0) | (_EXTENDED if self.persistent else 0)
-        return PARAM_TYPES[self.letter] | flags
+        return _TYPES[self.letter] | flags
 
 
 class Parameters:
@@ -65,8 +47,7 @@ class Parameters:
         self, parameters: Sequence[Parameter], changed: Callable[[str, float], None]
     ) -> None:
         self._all = parameters
-        for one in parameters:
-            one.default = one.value
+        self._defaults = [one.value for one in parameters]
         self._by_name = {one.name: one for one in parameters}
         self._changed = changed
         self._table = TableOfContents(Port.PARAMETERS, [(one.name, one.kind) for one in parameters])
@@ -74,95 +55,37 @@ class Parameters:
     def __getitem__(self, name: str) -> float:
         return self._by_name[name].value
 
+    def __setitem__(self, name: str, value: float) -> None:
+        self._by_name[name].value = value
+
     def reset(self) -> None:
-        """Reset all as after a restart, except for stored values."""
-        for one in self._all:
-            stored = one.stored if one.stored is not None else one.default
-            assert stored is not None
-            one.value = stored
+        for one, default in zip(self._all, self._defaults, strict=True):
+            one.value = default
 
-    def put(self, name: str, value: float) -> bytes:
-        """Change one from within; return the notification."""
-        number = next(place for place, one in enumerate(self._all) if one.name == name)
-        self._all[number].value = value
-        return self._told(number)
-
-    def take(self, channel: int, data: bytes) -> Sequence[bytes]:
-        """Return the answers to a packet."""
+    def take(self, channel: int, data: bytes) -> bytes | None:
         if channel == TABLE_CHANNEL:
-            answer = self._table.answer(data)
-            return [] if answer is None else [answer]
+            return self._table.answer(data)
+        head, rest = (data[:3], data[1:3]) if channel == _MISC else (data[:2], data[:2])
+        if len(rest) < 2:
+            return None
+        number = int.from_bytes(rest, "little")
+        one = self._all[number] if number < len(self._all) else None
+        if one is None or (channel == _MISC and data[0] not in (_EXTENDED_TYPE, _EXTENDED_TYPE_V2)):
+            return packed(Port.PARAMETERS, channel, head + bytes([Errno.ENOENT]))
         if channel == _MISC:
-            return [] if not data else self._misc(data)
-        if len(data) < 2:
-            return []
-        number = int.from_bytes(data[:2], "little")
-        if number >= len(self._all):
-            return [packed(Port.PARAMETERS, channel, data[:2] + bytes([Errno.ENOENT]))]
-        one, status = self._all[number], b"\0" if channel == _READ else b""
+            status = bytes([Errno.OK]) if data[0] == _EXTENDED_TYPE_V2 else b""
+            kind = bytes([_PERSISTENT if one.persistent else 0])
+            return packed(Port.PARAMETERS, channel, head + status + kind)
         if channel == _WRITE:
             self._set(one, data[2:])
-        return [packed(Port.PARAMETERS, channel, data[:2] + status + one.packed())]
+        status = b"\0" if channel == _READ else b""
+        return packed(Port.PARAMETERS, channel, head + status + one.packed())
 
-    def _set(self, one: Parameter, value: bytes) -> bool:
+    def _set(self, one: Parameter, value: bytes) -> None:
         form = "<" + one.letter
-        if one.read_only or len(value) != struct.calcsize(form):
-            return False
-        (one.value,) = struct.unpack(form, value)
-        self._changed(one.name, one.value)
-        return True
-
-    def _told(self, number: int) -> bytes:
-        head = struct.pack("<BH", Misc.CHANGED, number)
-        return packed(Port.PARAMETERS, _MISC, head + self._all[number].packed())
-
-    def _misc(self, data: bytes) -> Sequence[bytes]:
-        if data[0] == Misc.SET_BY_NAME:
-            return self._by_its_name(data)
-        if len(data) < 3:
-            return []
-        number = int.from_bytes(data[1:3], "little")
-        one = self._all[number] if number < len(self._all) else None
-        answer = bytes([Errno.ENOENT]) if one is None else _about(one, data[0])
-        return [packed(Port.PARAMETERS, _MISC, data[:3] + answer)]
-
-    def _by_its_name(self, data: bytes) -> Sequence[bytes]:
-        """Set a parameter by name."""
-        group, _, rest = data[1:].partition(b"\0")
-        name, _, value = rest.partition(b"\0")
-        one = self._by_name.get(b".".join((group, name)).decode("latin-1"))
-        asked = packed(Port.PARAMETERS, _MISC, data[: len(data) - len(value)])
-        if one is None or not value or _LETTERS.get(value[0]) != one.letter:
-            return [asked + bytes([Errno.ENOENT])]
-        done = self._set(one, value[1:])
-        return [
-            asked + bytes([Errno.OK if done else Errno.EINVAL]),
-            self._told(self._all.index(one)),
-        ]
-
-
-def _about(one: Parameter, command: int) -> bytes:
-    """Return a parameter's metadata."""
-    match command:
-        case Misc.EXTENDED_TYPE:
-            return bytes([_PERSISTENT if one.persistent else 0])
-        case Misc.EXTENDED_TYPE_V2:
-            return bytes([Errno.OK, _PERSISTENT if one.persistent else 0])
-        case Misc.DEFAULT:
-            return one.packed(one.default)
-        case Misc.DEFAULT_V2:
-            return bytes([Errno.OK]) + one.packed(one.default)
-        case Misc.STORE if one.persistent:
-            one.stored = one.value
-            return bytes([Errno.OK])
-        case Misc.CLEAR if one.persistent:
-            one.stored = None
-            return bytes([Errno.OK])
-        case Misc.STORED_STATE if one.persistent:
-            kept = b"" if one.stored is None else one.packed(one.stored)
-            return bytes([0 if one.stored is None else 1]) + one.packed(one.default) + kept
-        case _:
-            return bytes([Errno.ENOENT])
+        if not one.read_only and len(value) == struct.calcsize(form):
+            (one.value,) = struct.unpack(form, value)
+            self._changed(one.name, one.value)
 
 
 def parameters(cells: int = 1) -> list[Parameter]:

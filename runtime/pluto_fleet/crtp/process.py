@@ -199,7 +199,6 @@ class _Desk:
         self._camera: asyncio.Server | None = None
 
     async def answer(self, request: Mapping[str, object]) -> str:
-        """Carry out a request."""
         match request:
             case {"do": "uris"}:
                 return json.dumps(self._server.uris)
@@ -228,7 +227,6 @@ class _Desk:
         raise BadInput("that cannot be asked of simulated drones")
 
     async def close(self) -> None:
-        """Close the camera."""
         if self._camera is not None:
             self._camera.close()
 
@@ -261,7 +259,7 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
             "port": endpoint.port,
             "at": endpoint.drone.body.position,
             "yaw": endpoint.drone.body.yaw,
-            "level": endpoint.drone.battery.level,
+            "level": endpoint.drone.carried.battery_level,
             "airborne": endpoint.drone.body.airborne,
             "info": endpoint.drone.info(),
         }
@@ -270,7 +268,6 @@ def _state(server: Server) -> dict[str, dict[str, object]]:
 
 
 def _kept(folder: Path) -> dict[str, dict[str, Any]]:
-    """Return the stored states of the drones."""
     with suppress(OSError, ValueError):
         kept: dict[str, dict[str, Any]] = json.loads((folder / DRONES).read_text(encoding="utf-8"))
         return kept

@@ -1,19 +1,91 @@
-"""Many simulated drones in one loop, a UDP port each: `udp://127.0.0.1:PORT` reaches one."""
+"""Many simulated drones in one loop, a UDP port each, and their faults: `udp://127.0.0.1:PORT` reaches one."""
 
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import combinations
 from math import dist
 from random import Random
 from typing import Any
 
 from ..shared.alone.world import World
+from .commander import STOP, hover
 from .drone import EMPTY_WORLD, Build, SimulatedCrazyflie
-from .faults import Value, let
 from .flight_log import FlightLog
-from .packets import NULL, LossyChannel
+from .packets import NULL, LossyChannel, Port, packed
+
+Value = float | bool | list[float]
+
+
+def _tumble(drone: SimulatedCrazyflie, _: float) -> None:
+    drone.body.tumbled = True
+    drone.body.cut()
+
+
+def _fetch(drone: SimulatedCrazyflie, _: float) -> None:
+    drone.body.place(drone.build.home)
+    drone.restart()
+
+
+def _setpoint(drone: SimulatedCrazyflie, height: float) -> None:
+    if height is True:
+        drone.hear(packed(Port.SETPOINT, 0, STOP))
+    else:
+        drone.hear(packed(Port.GENERIC_SETPOINT, 0, hover(height)))
+
+
+def _on(drone: SimulatedCrazyflie, on: float) -> None:
+    if on:
+        drone.restart()
+    else:
+        drone.switch(False)
+
+
+_OF_DRONES: Mapping[str, Callable[[SimulatedCrazyflie, float], None]] = {
+    "tumble": _tumble,
+    "fetch": _fetch,
+    "volts": lambda drone, volts: drone.carried.set_volts(volts),
+    "level": lambda drone, level: drone.carried.charge_to(level),
+    "busy": lambda drone, on: setattr(drone, "busy", bool(on)),
+    "unsure": lambda drone, on: setattr(drone, "unsure", bool(on)),
+    "upright": lambda drone, _: drone.body.place(drone.body.position),
+    "fixes": lambda drone, on: drone.estimator.lose(not on),
+    "noise": lambda drone, metres: setattr(drone.estimator, "noise", metres),
+    "rate": lambda drone, hertz: setattr(drone.estimator, "rate", hertz),
+    "deck": lambda drone, on: setattr(drone.supervisor, "faulty", bool(on)),
+    "setpoint": _setpoint,
+    "lock": lambda drone, _: drone.supervisor.lock(),
+    "restart": lambda drone, _: drone.restart(),
+    "on": _on,
+}
+_OF_AIR = ("silent", "loss", "latency")
+
+FAULTS = (*_OF_AIR, "place", *_OF_DRONES)
+"""All names. `fetch` is what a person does for a drone: stands it on its pad, and restarts it;
+`upright`: stands it up where it lies. `fixes`: whether positions reach it; `noise` and `rate`: metres
+by which they are off, and how many its own system gives a second. `setpoint`: of a stranger, that
+lets it hover so high, or stops its motors. `deck`: whether one has a fault.
+"""
+
+
+def let(drone: SimulatedCrazyflie, air: LossyChannel, name: str, value: Value) -> None:
+    """Set or reset a fault; raise `ValueError` if there is none of this name."""
+    if name == "place" and isinstance(value, list):
+        x, y, z = value
+        drone.body.place((x, y, z))
+    elif name not in FAULTS or isinstance(value, list):
+        raise ValueError(f"{name}: no such fault: there are {', '.join(FAULTS)}")
+    elif name in _OF_DRONES:
+        drone.note(f"fault {name}", value=value)
+        _OF_DRONES[name](drone, value)
+    elif name == "silent":
+        air.silent = bool(value)
+    elif name == "loss":
+        air.loss = value
+    else:
+        air.latency = value
+
 
 HOST = "127.0.0.1"
 _TICK = 0.01
@@ -38,7 +110,6 @@ class Endpoint(asyncio.DatagramProtocol):
 
     @property
     def uri(self) -> str:
-        """Its URI."""
         return f"udp://{HOST}:{self.port}"
 
     async def listen(self, port: int) -> None:
@@ -53,13 +124,11 @@ class Endpoint(asyncio.DatagramProtocol):
         self.port = self._transport.get_extra_info("sockname")[1]
 
     def close(self) -> None:
-        """Close the port, so that clients see it closed."""
         if self._transport is not None:
             self._transport.close()
             self._transport = None
 
     def datagram_received(self, data: bytes, addr: Address) -> None:
-        """Process a packet, unless it is lost."""
         loop = asyncio.get_running_loop()
         self.talked = loop.time()
         if self.air.loses():
@@ -116,17 +185,14 @@ class Server:
 
     @property
     def uris(self) -> dict[str, str]:
-        """Return their URIs."""
         return {id: endpoint.uri for id, endpoint in self.endpoints.items()}
 
     @property
     def drones(self) -> Mapping[str, SimulatedCrazyflie]:
-        """The drones by their ids."""
         return {id: endpoint.drone for id, endpoint in self.endpoints.items()}
 
     @property
     def airborne(self) -> bool:
-        """Whether a drone is in the air."""
         return any(one.drone.body.airborne for one in self.endpoints.values())
 
     @property
@@ -146,7 +212,6 @@ class Server:
             await endpoint.listen(endpoint.port)
 
     async def close(self) -> None:
-        """Close everything."""
         if self._ticking is not None:
             self._ticking.cancel()
             await asyncio.gather(self._ticking, return_exceptions=True)

@@ -2,67 +2,32 @@
 
 from __future__ import annotations
 
-from ..shared.domain.model import Photo, Point
-from .errors import (
-    ActionNotDone,
-    BatteryLow,
-    Crashed,
-    LinkLost,
-    Locked,
-    NavigationError,
-    NotReady,
-    OutsideArea,
-    PositionLost,
-    Rejected,
-    TargetTimeout,
-)
-from .protocol import (
-    BATTERY_LOW,
-    CRASHED,
-    LINK_LOST,
-    LOCKED,
-    POSITION_LOST,
-    Acts,
-    CaredFor,
-    DroneEvent,
-    DroneNavigation,
-    DroneSetup,
-    DroneTelemetry,
-    Identifiable,
-    Locatable,
-    Readable,
-    Scannable,
-)
-from .telemetry import Reports
-
-__all__ = [
-    "BATTERY_LOW",
-    "CRASHED",
-    "LINK_LOST",
-    "LOCKED",
-    "POSITION_LOST",
-    "ActionNotDone",
-    "Acts",
-    "BatteryLow",
-    "CaredFor",
-    "Crashed",
-    "DroneEvent",
-    "DroneNavigation",
-    "DroneSetup",
-    "DroneTelemetry",
-    "Identifiable",
-    "LinkLost",
-    "Locatable",
-    "Locked",
-    "NavigationError",
-    "NotReady",
-    "OutsideArea",
-    "Photo",
-    "Point",
-    "PositionLost",
-    "Readable",
-    "Rejected",
-    "Reports",
-    "Scannable",
-    "TargetTimeout",
-]
+from ..shared.domain.model import Photo as Photo
+from ..shared.domain.model import Point as Point
+from .protocol import BATTERY_LOW as BATTERY_LOW
+from .protocol import CRASHED as CRASHED
+from .protocol import LINK_LOST as LINK_LOST
+from .protocol import LOCKED as LOCKED
+from .protocol import POSITION_LOST as POSITION_LOST
+from .protocol import ActionNotDone as ActionNotDone
+from .protocol import Acts as Acts
+from .protocol import BatteryLow as BatteryLow
+from .protocol import CaredFor as CaredFor
+from .protocol import Crashed as Crashed
+from .protocol import DroneEvent as DroneEvent
+from .protocol import DroneNavigation as DroneNavigation
+from .protocol import DroneSetup as DroneSetup
+from .protocol import DroneTelemetry as DroneTelemetry
+from .protocol import Identifiable as Identifiable
+from .protocol import LinkLost as LinkLost
+from .protocol import Locatable as Locatable
+from .protocol import Locked as Locked
+from .protocol import NavigationError as NavigationError
+from .protocol import NotReady as NotReady
+from .protocol import OutsideArea as OutsideArea
+from .protocol import PositionLost as PositionLost
+from .protocol import Readable as Readable
+from .protocol import Rejected as Rejected
+from .protocol import Scannable as Scannable
+from .protocol import TargetTimeout as TargetTimeout
+from .telemetry import Reports as Reports

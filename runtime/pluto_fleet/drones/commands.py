@@ -9,24 +9,18 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping
 from math import dist, inf, isfinite
-from typing import TYPE_CHECKING, Any, SupportsFloat
+from typing import Any, SupportsFloat
 
-from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
+from ..jobs.controls import Act, Command, Cut, GoTo, Hold, Land, Read, TakeOff, Write
 from ..jobs.reports import motors_cut
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.model import Photo
+from ..shared.domain.model import Item, Photo, Point
 from ..shared.domain.text import percent, place, shown
 from .protocol import Acts, Readable
 from .telemetry import RISING
 from .timeouts import shortened
-from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN
-
-if TYPE_CHECKING:
-    from ..jobs.controls import Command
-    from ..shared.domain.model import Item, Point
-    from .vehicle import Vehicle
-
+from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN, Vehicle
 
 LONGEST = 60
 
@@ -116,7 +110,6 @@ async def take_off(vehicle: Vehicle, height: float) -> None:
 
 
 async def go_to(vehicle: Vehicle, target: Point) -> None:
-    """Fly straight to a point."""
     vehicle.check()
     check_airborne(vehicle)
     await fly(vehicle, target)
@@ -182,7 +175,6 @@ READ_LIMIT = 5.0
 async def act(
     vehicle: Vehicle, action: str, parameters: Mapping[str, Plain], item: Item | None
 ) -> object:
-    """Do a built-in action here."""
     vehicle.check()
     check_airborne(vehicle)
     why = why_not(vehicle, action, parameters)
@@ -213,7 +205,6 @@ def why_not(vehicle: Vehicle, action: str, parameters: Mapping[str, Plain]) -> s
 
 
 async def read(vehicle: Vehicle, name: str) -> float:
-    """Return a sensor or variable."""
     vehicle.check()
     if not isinstance(vehicle.navigation, Readable):
         raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be read")
@@ -225,7 +216,6 @@ async def read(vehicle: Vehicle, name: str) -> float:
 
 
 async def write(vehicle: Vehicle, name: str, value: float) -> None:
-    """Set a parameter."""
     vehicle.check()
     if not isinstance(vehicle.navigation, Readable):
         raise FlightFailed(Failure.ACTION, f"{vehicle.id} has nothing that can be written")

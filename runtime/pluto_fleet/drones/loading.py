@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from importlib.machinery import ModuleSpec
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TypeVar, cast
 
 from ..files.reading import near
 from ..shared.domain.errors import ANY_ERROR, BadInput
@@ -29,15 +29,13 @@ from .protocol import (
     Addressed,
     CaredFor,
     DroneNavigation,
+    DroneSetup,
     Identifiable,
     Locatable,
     Readable,
     Scannable,
 )
 from .timeouts import shortened
-
-if TYPE_CHECKING:
-    from .protocol import DroneSetup
 
 S = TypeVar("S")
 T = TypeVar("T")

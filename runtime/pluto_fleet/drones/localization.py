@@ -12,17 +12,11 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Mapping
 from math import isfinite
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
+from ..shared.domain.model import Point
 from ..shared.domain.text import quoted
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-    from .protocol import Locatable
-
-
-OWN = "own"
-"""The name of the drones' own localization, which feeds nothing."""
+from .protocol import Locatable
 
 
 class Localization(Protocol):
@@ -38,7 +32,6 @@ class Localization(Protocol):
         Most simply an async generator: what it has opened it closes in its `finally`. If it ends or
         raises, it is called again a second later. Nothing in it may hold up the event loop.
         """
-        ...
 
 
 SILENCE = 1.0
@@ -74,7 +67,6 @@ class LocalizationFeed:
         self._listening: asyncio.Task[None] | None = None
 
     def start(self) -> None:
-        """Start the feed."""
         if self._listening is None:
             self._listening = asyncio.create_task(self._listen(), name=f"positions of {self.name}")
 

@@ -9,7 +9,7 @@ The rules for all commands:
 - They are coroutines on asyncio's event loop, and *return when it is done*: on arrival by the
   drone's telemetry (0.1 m), hovering, landed. A command that returns earlier lets an app do its action
   somewhere else.
-- They *raise one `NavigationError` per failure* (`errors.py`), as soon as it is known: a drone that is
+- They *raise one `NavigationError` per failure* (below), as soon as it is known: a drone that is
   silent for more than a second during a command is `LinkLost`, one that fell is `Crashed`, one that
   answers but does not arrive is `TargetTimeout`. None waits without a limit.
 - They *refuse what they cannot do before anything moves*, and never do something like it instead. A
@@ -21,6 +21,10 @@ The rules for all commands:
 - *Nothing may block the event loop* for more than 50 ms: all drones are flown by it. A library
   that blocks is called in a thread of the navigation's own, a daemon, with limits; what that thread
   receives comes back by `loop.call_soon_threadsafe`.
+
+What counts of an error is its attribute `failure`, and not its class: a navigation in another package need
+not import these, but only give its exceptions this attribute. Their text is a reason for a person, such as
+"cf1 stopped answering 1.2 s ago".
 """
 
 from __future__ import annotations
@@ -28,13 +32,88 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, runtime_checkable
+from typing import ClassVar, Protocol, runtime_checkable
 
 from ..jobs.reports import SILENCE
+from ..shared.domain.actions import Plain
+from ..shared.domain.model import Item, Point
 
-if TYPE_CHECKING:
-    from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Item, Point
+
+class NavigationError(Exception):
+    """A drone could not carry out a command, for a reason outside the software.
+
+    Any other exception of a navigation is a bug in it: the flight fails with that reason, and the
+    traceback goes to the log.
+    """
+
+    failure: ClassVar[str] = "ACTION"
+    """LINK, CRASH, BATTERY, REFUSED or ACTION: the kind of failure for the app."""
+
+
+class LinkLost(NavigationError):
+    """It does not answer, or has sent nothing for more than a second.
+
+    Its position is unknown; it is reconnected, and flown home if it still hovers.
+    """
+
+    failure = "LINK"
+
+
+class Crashed(NavigationError):
+    """It fell, hit something or lies on its back: it needs a person."""
+
+    failure = "CRASH"
+
+
+class Locked(NavigationError):
+    """Its motors are locked until it is restarted."""
+
+    failure = "CRASH"
+
+
+class PositionLost(NavigationError):
+    """It has lost its position: it lands, and does no action there.
+
+    Also sent as an event, as a drone without a command must come down as well.
+    """
+
+    failure = "LINK"
+
+
+class BatteryLow(NavigationError):
+    """Its battery is too low for this."""
+
+    failure = "BATTERY"
+
+
+class Rejected(NavigationError):
+    """It answered, and refuses: a command at the wrong moment, or an unknown name."""
+
+    failure = "REFUSED"
+
+
+class NotReady(NavigationError):
+    """It is not in a state to fly; `preflight` says why."""
+
+    failure = "REFUSED"
+
+
+class OutsideArea(NavigationError):
+    """The target is not permitted: refused before it moves, and never adjusted."""
+
+    failure = "REFUSED"
+
+
+class TargetTimeout(NavigationError):
+    """It is healthy and answers, but has not arrived in ample time."""
+
+    failure = "ACTION"
+
+
+class ActionNotDone(NavigationError):
+    """An action failed; the drone is healthy."""
+
+    failure = "ACTION"
 
 
 LINK_LOST = "link lost"
@@ -110,21 +189,18 @@ class DroneNavigation(Protocol):
         hovers or is on the ground. Raises `LinkLost` if it does not answer; the runtime waits 15 s.
         Arms nothing, and starts no motor.
         """
-        ...
 
     async def preflight(self) -> Sequence[str]:
         """Return why it must not take off now, as short reasons; nothing: it is ready.
 
         Called before the first flight and before every take-off: quick, and harmless at any time.
         """
-        ...
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Take off straight up, and hover at this height above the map's ground.
 
         Arms if that is needed. Raises `NotReady` if `preflight` would have a reason.
         """
-        ...
 
     async def go_to(self, target: Point, speed: float) -> None:
         """Fly straight to a point, never faster than this, and hover there.
@@ -132,28 +208,24 @@ class DroneNavigation(Protocol):
         The speed is a limit, not a wish: a course that eases in and out peaks above its mean.
         Raises `Rejected` for a drone that does not fly.
         """
-        ...
 
     async def hold(self) -> None:
         """Stop here, and return once it hovers; does nothing for a drone on the ground.
 
         Called after a command was cancelled, and at any other time.
         """
-        ...
 
     async def land(self, speed: float) -> None:
         """Land straight down, and return when the motors are off.
 
         Does nothing for a drone on the ground.
         """
-        ...
 
     async def emergency_stop(self) -> None:
         """Switch the motors off at once, wherever it is: it falls.
 
         Called only on a user's explicit command, and by no other command of a navigation.
         """
-        ...
 
     async def close(self) -> None:
         """Close the link; `events` ends, and no thread, task or socket is left.
@@ -161,7 +233,6 @@ class DroneNavigation(Protocol):
         This must not cut motors: a library that does so when it closes must land first, or wait.
         Called once, usually after a landing; it may be unconnected, or lost.
         """
-        ...
 
     @property
     def telemetry(self) -> DroneTelemetry:
@@ -169,14 +240,12 @@ class DroneNavigation(Protocol):
 
         The last known one while it is silent; its `time` shows that.
         """
-        ...
 
     def events(self) -> AsyncIterator[DroneEvent]:
         """Return an iterator of what happens to it without a command, until `close`.
 
         Iterated over once. Yield each event once, when it begins.
         """
-        ...
 
 
 # Optional abilities, each recognised by the names of its methods
@@ -191,14 +260,12 @@ class Acts(Protocol):
 
         It depends on the hardware: "cf1 has no camera". Called once it is connected.
         """
-        ...
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         """Do an action where it hovers, and return its result.
 
         `measure` returns a number, `take_photo` a `Photo`, the others None. Raises `ActionNotDone`.
         """
-        ...
 
 
 @runtime_checkable
@@ -207,11 +274,9 @@ class Readable(Protocol):
 
     async def read(self, name: str) -> float:
         """Return a sensor or variable; raise `Rejected` if there is none of this name."""
-        ...
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter, and return once it is set; raise `Rejected` if there is none of this name."""
-        ...
 
 
 @runtime_checkable
@@ -220,7 +285,6 @@ class Locatable(Protocol):
 
     async def locate(self, position: Point) -> None:
         """Send it its position in the map's frame, many times a second; without waiting for an answer."""
-        ...
 
 
 @runtime_checkable
@@ -232,7 +296,6 @@ class CaredFor(Protocol):
 
         Called only on a user's explicit command, for a drone on the ground.
         """
-        ...
 
 
 @runtime_checkable
@@ -241,7 +304,6 @@ class Identifiable(Protocol):
 
     async def identify(self) -> None:
         """Blink or beep for some seconds, and then restore the former state. Starts no motor."""
-        ...
 
 
 @runtime_checkable
@@ -253,7 +315,6 @@ class Scannable(Protocol):
 
         The options are the table `[navigation.NAME]` of the fleet file. Commands no drone.
         """
-        ...
 
 
 @runtime_checkable
@@ -266,4 +327,3 @@ class Addressed(Protocol):
         Two that reach one drone are the same text then. Raises `ValueError` with what is wrong, to be said
         after the URI. Called before anything flies, also by `--dry-run`; reaches for nothing.
         """
-        ...

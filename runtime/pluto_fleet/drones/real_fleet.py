@@ -6,13 +6,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet import navigation_of, options_of
+from ..files.fleet import OWN, navigation_of, options_of
 from ..jobs.reports import SILENCE
 from ..shared.domain.actions import BUILT_IN, Plain
+from ..shared.domain.model import Mission
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
-    from ..shared.domain.model import Mission
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,10 +40,10 @@ class RequiredAction:
 class RealFleet:
     """How all drones are flown."""
 
-    drones: tuple[RealDrone, ...]
-    localization: str
+    drones: tuple[RealDrone, ...] = ()
+    localization: str = OWN
     """Their localization: `own`, a name, or `module:Class`."""
-    localization_options: Mapping[str, object]
+    localization_options: Mapping[str, object] = field(default_factory=dict)
     wanted: tuple[RequiredAction, ...] = ()
     silence: float = SILENCE
     """Seconds for which a drone in the air may tell nothing before its flight fails."""

@@ -10,25 +10,16 @@ import asyncio
 from collections.abc import Callable, Sequence
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING
 
 from ..jobs.landing_sites import free_spot
-from ..jobs.reports import SILENCE
-from ..shared.domain.airspace import Polygon, distance, inside, tidy
+from ..shared.domain.airspace import Airspace, Polygon, distance, inside, tidy
 from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
+from ..shared.domain.model import Point
 from ..shared.domain.text import duration, number, percent, place
 from .commands import fly, land
-from .lag import Lag
-from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST
-from .timeouts import shortened
-from .vehicle import LAND, RISE
-
-if TYPE_CHECKING:
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Point
-    from .protocol import DroneEvent
-    from .vehicle import Vehicle
-
+from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST, DroneEvent
+from .timeouts import Lag, shortened
+from .vehicle import LAND, RISE, Vehicle
 
 TOLERANCE = 0.3
 """Metres of tolerance: positions are inexact, and a stopped drone overshoots."""
@@ -120,7 +111,6 @@ async def follow_events(vehicle: Vehicle) -> None:
 
 
 def handle_event(vehicle: Vehicle, event: DroneEvent) -> None:
-    """Handle an event."""
     kind, reason = str(event.kind), shortened(str(event.reason))
     who, where = vehicle.id, place(vehicle.telemetry.location)
     if kind == LINK_LOST:
@@ -159,7 +149,7 @@ class SafetyMonitor:
         airspace: Airspace,
         say: Callable[[str], object],
         clock: Callable[[], float],
-        silence: float = SILENCE,
+        silence: float,
     ) -> None:
         """`silence`: seconds for which a drone in the air may tell nothing."""
         self._silence = silence
@@ -193,7 +183,6 @@ class SafetyMonitor:
         return landings
 
     def look(self, vehicle: Vehicle) -> None:
-        """Check one drone."""
         telemetry = vehicle.telemetry
         if not vehicle.linked:
             return

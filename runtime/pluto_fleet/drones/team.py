@@ -7,35 +7,32 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
+from ..files.fleet import OWN
+from ..jobs.controls import Command, FleetDrone
 from ..jobs.reports import SILENCE, DroneReport
-from ..jobs.telemetry import Subscription
+from ..jobs.telemetry import Subscription, Telemetry
 from ..shared.domain.actions import BUILT_IN, Plain
-from ..shared.domain.errors import ANY_ERROR, BadInput
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.errors import ANY_ERROR, BadInput, FlightFailed
+from ..shared.domain.model import Point
 from ..shared.domain.text import quoted
 from . import commands
-from .connection import Connection, close
+from .connection import Connection, close, recover, wait_until_home
 from .loading import deaf, make_localization, make_navigation
-from .localization import OWN, LocalizationFeed
-from .protocol import DroneSetup, Locatable, Readable
-from .recovery import recover, wait_until_home
+from .localization import LocalizationFeed
+from .protocol import DroneNavigation, DroneSetup, Locatable, Readable
+from .real_fleet import RealDrone, RealFleet
 from .safety import EACH, SafetyMonitor, follow_events
-from .vehicle import Cargo, TeamDrone, Vehicle
+from .vehicle import Cargo, Vehicle
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from ..jobs.controls import Command, FleetDrone
-    from ..jobs.telemetry import Telemetry
     from ..process.realtime import RealTime
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.errors import FlightFailed
-    from ..shared.domain.model import Point
-    from .protocol import DroneNavigation
-    from .real_fleet import RealDrone, RealFleet, RequiredAction
 
 
 class Team:
@@ -44,24 +41,17 @@ class Team:
     def __init__(
         self,
         kernel: RealTime,
-        drones: Sequence[TeamDrone],
+        drones: Sequence[FleetDrone],
+        navigations: Mapping[str, DroneNavigation],
         airspace: Airspace,
         *,
         folder: Path,
         say: Callable[[str], object],
-        wanted: Sequence[RequiredAction] = (),
+        real: RealFleet = RealFleet(),  # noqa: B008 - it is frozen
         feeding: LocalizationFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
-        loaded: Collection[str] = (),
-        silence: float = SILENCE,
     ) -> None:
-        """`loaded`: the names of the navigations that drones may have that join.
-
-        `silence`: seconds for which a drone in the air may tell nothing.
-        """
-        self._loaded = frozenset(loaded)
-        self._silence = silence
-        self._kernel, self._wanted = kernel, tuple(wanted)
+        self._kernel, self._real = kernel, real
         self._cargo, self._feed = Cargo(folder, say), feeding
         self._say, self._clock, self._folder = say, clock, folder
         self.vehicles: dict[str, Vehicle] = {}
@@ -70,14 +60,17 @@ class Team:
         self.telemetry: Mapping[str, Telemetry] = self._told
         """The drones' telemetry, always current."""
         self._links: dict[str, Connection] = {}
-        self._monitor = SafetyMonitor(airspace, say, clock, silence)
+        self._monitor = SafetyMonitor(airspace, say, clock, real.silence)
         self._tasks: list[asyncio.Task[None]] = []
         self._monitoring: Subscription[float] | None = None
+        parameters = {drone.id: drone.parameters for drone in real.drones}
         for drone in drones:
-            self._have(drone)
+            self._have(drone, navigations[drone.id], parameters.get(drone.id, {}))
 
-    def _have(self, drone: TeamDrone) -> Vehicle:
-        vehicle = Vehicle(drone, self._cargo, self._say, self._clock)
+    def _have(
+        self, drone: FleetDrone, navigation: DroneNavigation, parameters: Mapping[str, float]
+    ) -> Vehicle:
+        vehicle = Vehicle(drone, navigation, self._cargo, self._say, self._clock, parameters)
         self.vehicles[drone.id], self._told[drone.id] = vehicle, vehicle.telemetry
         self._links[drone.id] = Connection(vehicle)
         self._monitor.watch(vehicle)
@@ -91,26 +84,18 @@ class Team:
 
         Its navigation must be one that is flown already: to load another may hold up all drones.
         """
-        if how.navigation not in self._loaded:
+        if how.navigation not in {drone.navigation for drone in self._real.drones}:
             raise BadInput(
                 f"{drone.id} cannot join: no drone of this flight is flown by {how.navigation}, and to"
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
-        folder = self._folder / FILES
-        speed = drone.category.speed
-        navigation = make_one(how, drone.home, speed, folder, self._silence)
+        files = self._folder / FILES
+        navigation = make_one(how, drone.home, drone.category.speed, files, self._real.silence)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise deaf(self._feed.name, [drone.id])
             self._feed.feed(drone.id, navigation)
-        one = TeamDrone(
-            id=drone.id,
-            category=drone.category,
-            home=drone.home,
-            navigation=navigation,
-            parameters=how.parameters,
-        )
-        self._connect(self._have(one))
+        self._connect(self._have(drone, navigation, how.parameters))
 
     def begin(self) -> None:
         """Start to connect to all drones, and to monitor them; waits for none."""
@@ -162,42 +147,33 @@ class Team:
         return self.vehicles[drone].down
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        """Return why a drone's hardware cannot do a built-in action, or None."""
         return commands.why_not(self.vehicles[drone], action, parameters)
 
     def begins(self, drone: str, flight: str | None, seconds: float) -> None:
-        """Begin a flight; raise `FlightFailed` if the drone takes no commands."""
         self.vehicles[drone].check()
 
     async def do(self, drone: str, command: Command) -> object:
-        """Carry out a command, and return when it is done."""
         return await self._kernel.call_hook(commands.do, self.vehicles[drone], command)
 
     def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
         self.vehicles[drone].break_off()
 
     def mended(self, drone: str) -> None:
-        """A person has looked after a lost drone: it may be asked anew."""
         vehicle = self.vehicles[drone]
         if not vehicle.must_land:
             vehicle.clear_failure()
             vehicle.looked_after = True
 
     async def reach(self, drone: str) -> bool:
-        """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
         return bool(await self._kernel.call_hook(recover, self.vehicles[drone], self._links[drone]))
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until a person has put a drone back into its dock, well; False: not in time."""
         return bool(await self._kernel.call_hook(wait_until_home, self.vehicles[drone]))
 
     def unload(self, drone: str) -> None:
-        """Record that its item was unloaded."""
         self._cargo.carries(drone, None)
 
     async def drone_report(self, drone: str) -> DroneReport:
-        """Ask a drone where it is, and whether it may fly; say so if it does not answer."""
         await self._kernel.call_hook(self._links[drone].once)
         vehicle = self.vehicles[drone]
         problems: object = await self._kernel.call_hook(self._problems, vehicle)
@@ -227,7 +203,7 @@ class Team:
     def _lacks(self, vehicle: Vehicle) -> tuple[str, ...]:
         """Return the actions that its category can do, but not its hardware."""
         lacks: list[str] = []
-        for wanted in self._wanted:
+        for wanted in self._real.wanted:
             if wanted.action in BUILT_IN and vehicle.drone.category.can(wanted.action):
                 why = commands.why_not(vehicle, wanted.action, wanted.parameters)
                 if why is not None and why not in lacks:
@@ -286,23 +262,13 @@ def make_team(
     }
     return Team(
         kernel,
-        [
-            TeamDrone(
-                id=drone.id,
-                category=drone.category,
-                home=drone.home,
-                navigation=navigations[drone.id],
-                parameters=how[drone.id].parameters,
-            )
-            for drone in drones
-        ],
+        drones,
+        navigations,
         airspace,
         folder=folder,
         say=say,
-        wanted=real.wanted,
+        real=real,
         feeding=_feeding(real, navigations, say),
-        loaded={drone.navigation for drone in real.drones},
-        silence=real.silence,
     )
 
 

@@ -8,17 +8,21 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from math import inf, isfinite
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
-from .errors import Crashed, LinkLost, OutsideArea, Rejected, TargetTimeout
-from .lag import Lag
-from .protocol import CRASHED, DroneEvent, DroneTelemetry
-
-if TYPE_CHECKING:
-    from ..shared.domain.model import Point
-    from .protocol import DroneSetup
-    from .timeouts import NavigationCalls
-
+from ..shared.domain.model import Point
+from .protocol import (
+    CRASHED,
+    Crashed,
+    DroneEvent,
+    DroneSetup,
+    DroneTelemetry,
+    LinkLost,
+    OutsideArea,
+    Rejected,
+    TargetTimeout,
+)
+from .timeouts import Lag, NavigationCalls
 
 T = TypeVar("T")
 
@@ -77,7 +81,6 @@ class Reports:
         return hand_over
 
     def happened(self, kind: str, reason: str) -> None:
-        """Emit an event, once."""
         self._events.put_nowait(DroneEvent(kind=kind, reason=reason))
 
     def refuse(self, target: Point, speed: float) -> None:
@@ -118,7 +121,6 @@ class Reports:
             yield event
 
     def close(self) -> None:
-        """End the events."""
         self._events.put_nowait(None)
 
 
@@ -178,13 +180,11 @@ class VehicleTelemetry:
 
     @property
     def location(self) -> Point:
-        """Where it is."""
         last = self.look()
         return self._home if last is None else last.position
 
     @property
     def battery_level(self) -> float:
-        """The charge of its battery, from 0 to 1."""
         last = self.look()
         return 0.0 if last is None else last.battery_level
 
@@ -196,7 +196,6 @@ class VehicleTelemetry:
 
     @property
     def landed(self) -> bool:
-        """Whether it is on the ground, as it must be after a silence longer than its flight time."""
         last, now = self.look(), self._calls.clock()
         if now < self.rises_until:
             return False

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import traceback
+from collections import deque
 from collections.abc import Awaitable, Callable, Generator
 from contextlib import suppress
 from functools import partial
@@ -123,7 +124,6 @@ class NavigationCalls:
             self.say(what)
 
     def took(self, seconds: float) -> None:
-        """Called with the duration of a step."""
         if seconds > BLOCKED and self._is_news("blocked"):
             self.say(f"the navigation of {self.drone} blocked for {duration(seconds)}")
 
@@ -165,6 +165,30 @@ class NavigationCalls:
             self._said.clear()
         self._said[what] = now
         return True
+
+
+class Lag:
+    """How long this process was kept from listening to its drones, by a call that is due again and again.
+
+    That is no silence of theirs.
+    """
+
+    def __init__(self) -> None:
+        self._stalls: deque[tuple[float, float]] = deque(maxlen=200)
+        """When each ended, and its seconds."""
+        self.due = float("inf")
+        """When it is called next."""
+
+    def called(self, now: float, due: float) -> None:
+        """Note that the call has come, and when it is due next."""
+        if now > self.due:
+            self._stalls.append((now, now - self.due))
+        self.due = due
+
+    def since(self, then: float, now: float) -> float:
+        """Return for how many seconds from then to now nothing could be heard."""
+        past = sum(min(late, end - then) for end, late in self._stalls if end > then)
+        return past + max(0.0, min(now - self.due, now - then))
 
 
 def shortened(text: str) -> str:

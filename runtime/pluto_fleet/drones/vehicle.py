@@ -1,4 +1,4 @@
-"""One drone of the team: its state, its commands, and why it takes none.
+"""One drone of the team: its state, its commands one after the other, and why it takes none.
 
 Real drones cannot report what they carry: that is stored in a file beside their ledger.
 """
@@ -9,24 +9,99 @@ import asyncio
 import json
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
+from ..jobs.controls import FleetDrone
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import place
 from ..shared.fleet.reach import docked
-from .command_queue import CommandQueue
-from .protocol import CaredFor, Readable
+from .protocol import CaredFor, DroneNavigation, Readable
 from .telemetry import EMPTY, VehicleTelemetry
 from .timeouts import NavigationCalls, shortened
 
-if TYPE_CHECKING:
-    from ..shared.domain.model import Category, Point
-    from .protocol import DroneNavigation
+T = TypeVar("T")
+
+_CANNOT_HOVER = frozenset({Failure.LINK, Failure.CRASH})
+"""Failures after which a drone cannot be commanded to hover."""
+
+
+class CommandQueue:
+    """The commands of one drone."""
+
+    def __init__(self, hold: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        self._hold = hold
+        self._turn = asyncio.Lock()
+        self._over: asyncio.Future[None] | None = None
+        """Fails when the command in progress is aborted."""
+        self._brake: asyncio.Task[None] | None = None
+        self.doing = ""
+        """The command in progress."""
+
+    async def run(self, doing: str, work: Callable[[], Coroutine[Any, Any, T]]) -> T:
+        """Run a command after all earlier ones; raise `FlightFailed` as soon as it is aborted.
+
+        When it is cancelled, aborted or fails, the drone is left hovering.
+        """
+        async with self._turn:
+            await self._braked()
+            over = self._over = asyncio.get_running_loop().create_future()
+            self.doing = doing
+            task = asyncio.ensure_future(work())
+            task.add_done_callback(_heard)
+            try:
+                await asyncio.wait((task, over), return_when=asyncio.FIRST_COMPLETED)
+                if over.done():
+                    over.result()
+                return task.result()
+            except FlightFailed as error:
+                self._stop(task, error.failure not in _CANNOT_HOVER)
+                raise
+            except asyncio.CancelledError:
+                self._stop(task, True)
+                raise
+            finally:
+                over.cancel()
+                self._over, self.doing = None, ""
+
+    def fail(self, error: FlightFailed) -> None:
+        """Abort the command in progress, if any: it raises this."""
+        if self._over is not None and not self._over.done():
+            self._over.set_exception(error)
+
+    def release(self) -> None:
+        """Stop waiting until it hovers."""
+        if self._brake is not None:
+            self._brake.cancel()
+
+    def _stop(self, task: asyncio.Task[Any], holds: bool) -> None:
+        self._brake = asyncio.ensure_future(self._braking(task, holds))
+
+    async def _braking(self, task: asyncio.Task[Any], holds: bool) -> None:
+        """End the last command in a hover before the next one begins."""
+        task.cancel()
+        await asyncio.wait((task,))
+        if holds:
+            await self._hold()
+
+    async def _braked(self) -> None:
+        """Wait until it hovers, or cannot; that goes on when this is cancelled."""
+        brake = self._brake
+        if brake is not None:
+            await asyncio.wait((brake,))
+            if self._brake is brake:
+                self._brake = None
+            with suppress(asyncio.CancelledError, FlightFailed):
+                brake.result()
+
+
+def _heard(task: asyncio.Task[Any]) -> None:
+    """Retrieve the exception: the caller has been told already."""
+    if not task.cancelled():
+        task.exception()
 
 
 NAME = "aboard.json"
@@ -44,7 +119,6 @@ class Cargo:
                 self._aboard = {str(drone): str(item) for drone, item in known.items()}
 
     def of(self, drone: str) -> str | None:
-        """Return the item aboard a drone."""
         return self._aboard.get(drone)
 
     def carries(self, drone: str, item: str | None) -> None:
@@ -60,8 +134,6 @@ class Cargo:
         except OSError as error:
             self._say(f"{self._file} cannot be written: {error}")
 
-
-T = TypeVar("T")
 
 LAND, RISE = "land", "take off"
 """The names of its commands to land and to take off."""
@@ -86,43 +158,32 @@ RECENTLY = 3.0
 """Seconds after being seen in the air within which a crash counts as a fall from the air."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TeamDrone:
-    """The data of a drone that its vehicle needs."""
-
-    id: str
-    category: Category
-    home: Point
-    navigation: DroneNavigation
-    parameters: Mapping[str, float] = field(default_factory=dict)
-    """What it is set to when it is connected to."""
-
-
 class Vehicle:
     """A drone flown by its navigation, in asyncio's loop."""
 
     def __init__(
         self,
-        drone: TeamDrone,
+        drone: FleetDrone,
+        navigation: DroneNavigation,
         cargo: Cargo,
         say: Callable[[str], object],
         clock: Callable[[], float],
+        parameters: Mapping[str, float] | None = None,
     ) -> None:
-        self.drone, self.id, self.navigation = drone, drone.id, drone.navigation
-        self.position_problem: Callable[[], str | None] = _seeing
+        """`parameters`: what it is set to when it is connected to."""
+        self.drone, self.id, self.navigation = drone, drone.id, navigation
+        self.parameters = parameters or {}
+        self.position_problem: Callable[[], str | None] = lambda: None
         """Returns why it has no position from its localization, if it needs one."""
         self.missing_actions: Callable[[], tuple[str, ...]] = tuple
         """Returns the actions that the plan needs, and its hardware cannot do."""
         self.cargo, self.calls = cargo, NavigationCalls(drone.id, say, clock)
         self.telemetry = VehicleTelemetry(
-            drone.home,
-            drone.category.endurance,
-            lambda: self.navigation.telemetry,
-            self.calls,
+            drone.home, drone.category.endurance, lambda: self.navigation.telemetry, self.calls
         )
         self.commands = CommandQueue(self.hover)
         self.linked = False
-        self.on_lost: Callable[[], object] = _nothing
+        self.on_lost: Callable[[], object] = lambda: None
         """Called when its link is lost."""
         self.out_of_reach = f"{drone.id} has not been reached yet"
         """Why it is not linked, if it is not."""
@@ -149,7 +210,6 @@ class Vehicle:
 
     @property
     def is_docked(self) -> bool:
-        """Whether it is at home."""
         return self.telemetry.landed and docked(self.telemetry.location, self.drone.home)
 
     @property
@@ -253,7 +313,7 @@ class Vehicle:
         unset = list[str]()
         if not isinstance(navigation, Readable) or navigation.telemetry.flying:
             return  # in the air it has them since it was connected to first
-        for name, value in self.drone.parameters.items():
+        for name, value in self.parameters.items():
             try:
                 await self.calls.call(f"set {name}", SET, navigation.write, name, value)
             except FlightFailed as error:
@@ -311,11 +371,3 @@ class Vehicle:
                 await self.calls.call("hover", HOLD, self.navigation.hold)
             except FlightFailed as error:
                 self.calls.say(f"{self.id} was to hover: {error}")
-
-
-def _nothing() -> None:
-    """Ignore a lost link."""
-
-
-def _seeing() -> None:
-    """Return None: it localizes itself."""

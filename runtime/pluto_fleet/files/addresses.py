@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -176,6 +177,16 @@ def _by_wire(scheme: str, rest: str) -> str:
                 f"names no host, four numbers up to 255; write it like {such}"
             ) from None
     return f"{'127.0.0.1' if host == 'localhost' else host}:{port}"
+
+
+def which(uri: str) -> str:
+    """Return a drone's uri in a canonical form, whichever dongle it names.
+
+    What is no address of a Crazyflie is compared as a text.
+    """
+    with suppress(ValueError):
+        return address_of(uri.strip()).drone
+    return uri.strip().casefold().partition("?")[0].rstrip("/")
 
 
 # What several on the air do to each other

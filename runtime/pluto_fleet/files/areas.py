@@ -6,23 +6,20 @@ from collections.abc import Sequence
 from functools import partial
 from itertools import pairwise
 from math import dist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..extras import has
 from ..shared.alone.files import with_fields
 from ..shared.domain import values
 from ..shared.domain.actions import PICK, RELEASE
+from ..shared.domain.airspace import Airspace, Polygon
 from ..shared.domain.fields import Entity
+from ..shared.domain.model import Point, Trip
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import number, quoted
-from ..shared.domain.values import Table, read_parameters
+from ..shared.domain.values import Keys, Table, read_parameters
 from .reading import Document, MadeOfArea, PlanTable, no_such_name
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.airspace import Airspace, Polygon
-    from ..shared.domain.model import Point, Trip
-    from ..shared.domain.values import Keys
 
 SPACING = values.Quantity(Type.LENGTH, 0.05, 10_000.0)
 """The side of the square around each place."""

@@ -2,38 +2,42 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import cycle, islice
+from datetime import date, time
+from functools import partial
+from itertools import count, cycle, islice
+from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
+from ..jobs.landing_sites import free_spots
 from ..jobs.reports import SILENCE
 from ..shared.alone.files import (
     FLEET,
     read_behaviour,
+    read_drones,
     read_map,
     read_motion,
     read_world,
 )
 from ..shared.domain import values
 from ..shared.domain.airspace import Airspace
-from ..shared.domain.fleet_data import FleetData
+from ..shared.domain.errors import BadInput
+from ..shared.domain.fleet_data import DroneData, FleetData
 from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import number, quoted
-from .addresses import SUCH_AS, address_of, crowded_air
-from .drones import CRAZYFLIE, DroneEntry, drones_of, joining_drone
+from ..shared.domain.values import Keys, Table
+from .addresses import SUCH_AS, address_of, crowded_air, which
 from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
-from .options import Options, navigation_options, options_in
-from .reading import Document, listed, read, top
+from .reading import Document, PlanTable, listed, near, parsed, read, top
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..shared.domain.model import Point
-    from .options import Options
 
-
+CRAZYFLIE = "crazyflie"
+"""The default navigation."""
 APART = 0.5
 """Metres: two Crazyflies closer than this disturb each other with their downwash."""
 
@@ -43,12 +47,10 @@ BETWEEN = values.Quantity(Type.LENGTH, 0.05, 10.0, or_none=True)
 OWN = "own"
 """The default localization: the drones' own."""
 
-
 QUIET = values.Quantity(Type.TIME, 1.0, 30.0)
 """How long a drone in the air may tell nothing."""
 
-
-_REAL: dict[str, values.Read] = {
+_REAL: Keys = {
     "apart": BETWEEN,
     "silence": QUIET,
     "navigation": values.name,
@@ -56,11 +58,165 @@ _REAL: dict[str, values.Read] = {
 }
 """How the keys of `[fleet]` are read that only real flights need."""
 
-
-__all__ = ["CRAZYFLIE", "DroneEntry", "FleetFile", "default_fleet", "fleet_of", "load_fleet"]
-
 DEFAULT_SIZE, ROW = 5, 18
 """Drones of the default fleet, and how many stand in a row."""
+
+
+# What a navigation is told
+
+Options = Mapping[str, object]
+"""Texts, numbers, booleans, and lists and tables of these."""
+
+DEEPEST = 8
+"""The deepest nesting of tables and lists, which are sent to another process as JSON."""
+
+_LARGEST_WHOLE = 2**63
+
+
+def options_in(table: Table) -> Options:
+    """Return a table's options; what JSON cannot hold is noted."""
+    return table.read({}, dict.fromkeys(table.data, plain))
+
+
+def navigation_options(top: Table, used: Sequence[str]) -> Mapping[str, Options]:
+    """Return the tables `[navigation.NAME]` by name; one that no drone uses is noted."""
+    every = top.table("navigation")
+    for name in every.data:
+        if name not in used:
+            every.who = f"[navigation.{name}]"
+            hint = near(name, used) or f"; in this fleet there is: {listed(used)}"
+            every.problem(f"nothing is flown by a navigation {quoted(name)}{hint}", name)
+    return {name: options_in(every.table(name)) for name in every.data if name in used}
+
+
+def plain(value: object) -> object:
+    """Return a value, if JSON can hold it without change."""
+    for part, depth in _parts(value, 1):
+        if depth > DEEPEST:
+            raise ValueError("is nested too deep")
+        if said := _no_json(part):
+            raise ValueError(said if part is value else f"has an element that {said}")
+    return value
+
+
+def _parts(value: object, depth: int) -> Iterator[tuple[object, int]]:
+    yield value, depth
+    inner = value.values() if isinstance(value, dict) else value
+    if isinstance(value, dict | list) and depth <= DEEPEST:
+        for part in cast("Iterable[object]", inner):
+            yield from _parts(part, depth + 1)
+
+
+def _no_json(value: object) -> str:
+    if isinstance(value, date | time):
+        return "is a date or a time: put it in quotes"
+    if isinstance(value, float) and not isfinite(value):
+        return "is not a finite number"
+    return "is too large" if isinstance(value, int) and abs(value) >= _LARGEST_WHOLE else ""
+
+
+# Drones
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DroneEntry(DroneData):
+    """A drone of the fleet file, with how a real one is flown."""
+
+    uri: str | None = None
+    """The address of a real one, in its navigation's format."""
+    navigation: str | None = None
+    """How it is flown; None: as the fleet is."""
+    options: Options = field(default_factory=dict)
+    """Options for its navigation, which override the fleet's."""
+    parameters: Mapping[str, float] = field(default_factory=dict)
+    """What it is set to when it is connected to, by the names of its firmware."""
+    line: int | None = None
+
+
+def drones_of(
+    top: PlanTable, app: App, airspace: Airspace | None, flown_by: str
+) -> tuple[DroneEntry, ...]:
+    """Return the drones of a fleet; `flown_by`: how it is flown, where a drone says nothing of that."""
+    drones = list[DroneEntry]()
+    uris = dict[str, Table]()
+    for table, given in read_drones(top, app, airspace):
+        navigation = table.value("navigation", values.name)
+        uri = table.value("uri", partial(_uri, navigation or flown_by))
+        _answers_alone(table, uris)
+        real = {
+            "uri": uri,
+            "navigation": navigation,
+            "options": options_in(table.table("options")),
+            "parameters": table.value("parameters", _parameters) or {},
+        }
+        drones.append(DroneEntry(**given, **real, line=table.document.line(table.path)))
+    return tuple(drones)
+
+
+def joining_drone(
+    app: App,
+    airspace: Airspace,
+    flown_by: str,
+    drones: Sequence[DroneEntry],
+    data: Mapping[str, object],
+) -> DroneEntry:
+    """Read a drone that joins these, given as in a fleet file; raise `BadInput` with all that is wrong."""
+    others = [_known(one) for one in drones]
+    document = Document("", {"drone": [*others, {**data}]})
+    *_, drone = drones_of(PlanTable(document, document.data), app, airspace, flown_by)
+    document.refuse_if_bad()
+    if drone.home[2] != 0.0:  # what is known of ways from the docks on the ground would not hold
+        raise BadInput(
+            f"drone {quoted(drone.id)}: a drone that joins has its dock on the ground: home = [x, y]"
+        )
+    return drone
+
+
+def _known(drone: DroneEntry) -> dict[str, object]:
+    """Return a drone as a fleet file has it, by what no other one may have."""
+    table = {"id": drone.id, "category": drone.category, "home": [*drone.home]}
+    own = {"uri": drone.uri, "navigation": drone.navigation}
+    return {**table, **{key: value for key, value in own.items() if value is not None}}
+
+
+def _answers_alone(table: Table, uris: dict[str, Table]) -> None:
+    uri = table.data.get("uri")
+    if isinstance(uri, str):
+        other = uris.setdefault(which(uri), table)
+        if other is not table:
+            said = f"uri is that of {other.who}{other.where('uri')}: it would be one and the same drone"
+            table.problem(said, "uri")
+
+
+def _parameters(value: object) -> Mapping[str, float]:
+    """Read them; TOML makes tables of names with a point that are not in quotes."""
+    if not isinstance(value, dict):
+        raise ValueError(  # noqa: TRY004 - it is told with the key
+            'is not a table: write { "locSrv.extPosStdDev" = 0.01 }'
+        )
+    return dict(_named(value, ""))
+
+
+def _named(table: Mapping[str, object], group: str) -> Iterator[tuple[str, float]]:
+    for key, value in table.items():
+        name = f"{group}{key}"
+        if isinstance(value, dict):
+            yield from _named(value, f"{name}.")
+            continue
+        try:
+            yield name, values.real(value)
+        except ValueError as error:
+            raise ValueError(f"sets {quoted(name)} to what {error}") from None
+
+
+def _uri(navigation: str, value: object) -> str:
+    uri: str = values.name(value)
+    if navigation == CRAZYFLIE:
+        address_of(uri)
+    return uri
+
+
+# Fleets
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,17 +241,12 @@ class FleetFile(FleetData):
 
 def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
     """Return the fleet that is used without a file: five drones on an empty map."""
-    categories = islice(cycle(app.categories), size)
-    drones = tuple(
-        DroneEntry(id=f"cf{place + 1}", category=category.name, home=_default_home(place))
-        for place, category in enumerate(categories)
-    )
-    return FleetFile(airspace=Airspace(), drones=drones, motion=CRAZYFLIE_MOTION)
-
-
-def _default_home(place: int) -> Point:
-    row, column = divmod(place, ROW)
-    return float(column + 1), 0.5 + row, 0.0
+    drones = list[DroneEntry]()
+    for place, category in enumerate(islice(cycle(app.categories), size)):
+        row, column = divmod(place, ROW)
+        home = (float(column + 1), 0.5 + row, 0.0)
+        drones.append(DroneEntry(id=f"cf{place + 1}", category=category.name, home=home))
+    return FleetFile(airspace=Airspace(), drones=tuple(drones), motion=CRAZYFLIE_MOTION)
 
 
 def load_fleet(path: Path, app: App) -> FleetFile:
@@ -107,16 +258,8 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     """Return the fleet of a file's text, as `load_fleet` does."""
     whole = top(document, FLEET)
     on_map = whole.table("map")
-    behaviour = whole.table("fleet")
     airspace = read_map(on_map)
-    given = {
-        **read_behaviour(behaviour),
-        **{
-            key: value
-            for key, read in _REAL.items()
-            if (value := behaviour.value(key, read)) is not None
-        },
-    }
+    given = read_behaviour(whole.table("fleet"), _REAL)
     flown_by = given.get("navigation", CRAZYFLIE)
     drones = drones_of(whole, app, airspace, flown_by)
     if "localization" in whole.data and given.get("localization", OWN) == OWN:
@@ -205,3 +348,62 @@ def shared_by_air(fleet: FleetFile) -> list[str]:
             if where and len(drones) > 1
         ),
     ]
+
+
+# As simulated Crazyflies
+
+
+def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> FleetFile:
+    """Return the fleet of a file's text, or the default fleet; optionally as simulated Crazyflies."""
+    if text is None:
+        return default_fleet(app, crtp_sim or DEFAULT_SIZE)
+    fleet = fleet_of(parsed(name, text), app)
+    return fleet if crtp_sim is None else as_crtp_fleet(fleet, crtp_sim)
+
+
+def as_crtp_fleet(fleet: FleetFile, number: int) -> FleetFile:
+    """Return a fleet of this many drones, each a Crazyflie that is simulated down to its radio.
+
+    They are the first of the fleet file; further ones are copies of them, placed beside them.
+    """
+    drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
+    for place in range(len(drones), number):
+        taken = [one.home for one in drones]
+        beside = max(fleet.apart, _APART)
+        home = next(free_spots(fleet.airspace, taken[-1], taken, beside), None)
+        if home is None:
+            raise BadInput(
+                f"--crtp-sim {number}: this map has room for {place} drones, which stand"
+                f" {beside:g} m apart: fly fewer, or let the fleet file say where they stand"
+            )
+        like = drones[place % len(fleet.drones)]
+        drones.append(replace(like, id=_free_id(drones), home=home))
+    return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
+
+
+def missing_categories(fleet: FleetFile, number: int) -> str | None:
+    """Return a sentence that names the categories which the first drones of a fleet lack; None: none."""
+    there = {one.category for one in fleet.drones[:number]}
+    missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
+    if not missing:
+        return None
+    return (
+        f"no {' and no '.join(missing)} flies: --crtp-sim {number} takes only {number} of the fleet"
+        f" file's {len(fleet.drones)} drones, from its top"
+    )
+
+
+def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
+    """Return a drone as a Crazyflie; options for another navigation are dropped."""
+    options = one.options if navigation_of(fleet, one) == CRAZYFLIE else {}
+    return replace(one, navigation=None, uri=None, options=options)
+
+
+_APART = 0.7
+"""Metres between drones that the fleet file does not place."""
+
+
+def _free_id(drones: Sequence[DroneEntry]) -> str:
+    """Return the first unused default name."""
+    known = {one.id for one in drones}
+    return next(id for number in count(1) if (id := f"cf{number}") not in known)

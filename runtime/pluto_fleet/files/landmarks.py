@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import TYPE_CHECKING, Any
+from itertools import pairwise
+from typing import Any
 
 from ..shared.domain import values
-from ..shared.domain.airspace import Airspace
-from .outline import outline
-
-if TYPE_CHECKING:
-    from ..shared.domain.airspace import Corner, Polygon
-    from ..shared.domain.values import Keys, Table
+from ..shared.domain.airspace import EPSILON, Airspace, Corner, Polygon, distance, tidy
+from ..shared.domain.text import place
+from ..shared.domain.values import Keys, Table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,3 +133,48 @@ def _picture(table: Table, size: tuple[float, float]) -> Picture | None:
     others: Keys = {"at": values.corner, "size": values.size, "turn": degrees}
     given = table.table("image").read({"file": values.name}, others)
     return None if given["file"] is None else Picture(**{"size": size, **given})
+
+
+MOST_CORNERS = 200
+
+
+def outline(value: object) -> Polygon:
+    """Read the corners of a polygon that does not cross itself."""
+    corners = tidy(values.polygon(value))
+    if len(corners) > MOST_CORNERS:
+        raise ValueError(f"has more than {MOST_CORNERS} corners")
+    if (spot := crossing(corners)) is not None:
+        where = place((*spot, 0.0))
+        raise ValueError(
+            f"crosses or touches itself near {where}: name the corners in their order around it"
+        )
+    return corners
+
+
+def crossing(corners: Sequence[Corner]) -> Corner | None:
+    """Return a corner beside which an outline crosses or touches itself, or None."""
+    edges = [*pairwise([*corners, *corners[:1]])]
+    for i, (a, b) in enumerate(edges):
+        if _turns_back(a, b, edges[(i + 1) % len(edges)][1]):
+            return b
+        last = len(edges) - (i == 0)  # the edges beside this one share a corner with it
+        if any(_meet(a, b, c, d) for c, d in edges[i + 2 : last]):
+            return a
+    return None
+
+
+def _turns_back(a: Corner, b: Corner, c: Corner) -> bool:
+    """Return whether the edge from b to c lies on the one from a to b."""
+    return min(distance(c, a, b), distance(a, b, c)) <= EPSILON
+
+
+def _meet(a: Corner, b: Corner, c: Corner, d: Corner) -> bool:
+    """Return whether two edges cross or touch."""
+    if min(distance(a, c, d), distance(b, c, d), distance(c, a, b), distance(d, a, b)) <= EPSILON:
+        return True
+    return _side(a, b, c) != _side(a, b, d) and _side(c, d, a) != _side(c, d, b)
+
+
+def _side(a: Corner, b: Corner, c: Corner) -> bool:
+    """Return whether c is to the left of the line from a to b."""
+    return (b[0] - a[0]) * (c[1] - a[1]) > (b[1] - a[1]) * (c[0] - a[0])

@@ -6,29 +6,17 @@ import codecs
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from io import StringIO
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, quoted
-from ..shared.domain.values import MOST_TOLD
-from .filled import (
-    Filled,
-    as_numbers,
-    as_texts,
-    columns_of,
-    filled,
-    is_number,
-    values_in,
-)
-from .reading import PlanTable, listed, near, text_of
-
-if TYPE_CHECKING:
-    from ..shared.domain.values import KeyPath, Read
+from ..shared.domain.values import MOST_TOLD, KeyPath, Read, Table
+from .reading import PlanTable, advised, listed, near, text_of
 
 MOST = {"missions": 10_000, "values": 1_000_000, "characters": 10_000_000}
 """What all lists of a file make at most; it is counted before it is made."""
@@ -72,7 +60,7 @@ class RowTable(PlanTable):
 
     def value(self, key: str, read: Read) -> Any:
         """Return what stands under a key, where the values of a row may be numbers, too."""
-        return super().value(key, partial(_as_wanted, read))
+        return Table.value(self, key, partial(_as_wanted, partial(advised, read)))
 
     def where(self, key: str) -> str:
         """Say of which row it is, as a message continues."""
@@ -302,3 +290,94 @@ def _nameless(place: int) -> str:
 
 def _is_number(text: str) -> bool:
     return re.fullmatch(r"[+-]?[\d.,]+", text) is not None
+
+
+_PART = re.compile(r"\{\{|\}\}|\{([^{}]*)\}|[{}]")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_LONGEST = 40
+"""In characters: a longer number is a slip, and Python may refuse to read it."""
+_WORDS = {"true": True, "false": False}
+
+
+class Filled(str):
+    """A text with values of a row: where a number, true or false is wanted, it is read as one."""
+
+    columns: tuple[str, ...] = ()
+    """The columns whose values are in it."""
+
+
+def columns_of(template: object) -> Iterator[tuple[KeyPath, str | None]]:
+    """Yield the columns that a template names, each with the path of its text; None: a brace alone."""
+    if isinstance(template, str):
+        for part in _PART.finditer(template):
+            if part[0] not in ("{{", "}}"):
+                yield (), None if part[1] is None else part[1].strip()
+        return
+    pairs: Sequence[tuple[str | int, object]] = ()
+    if isinstance(template, dict):
+        pairs = [*template.items()]
+    elif isinstance(template, list):
+        pairs = [*enumerate(template)]
+    for key, value in pairs:
+        for path, column in columns_of(value):
+            yield (key, *path), column
+
+
+def filled(template: object, row: Mapping[str, str]) -> object:
+    """Return a template with the values of a row in its texts."""
+    match template:
+        case str():
+            return _filled(template, row)
+        case list():
+            return [filled(element, row) for element in template]
+        case dict():
+            return {key: filled(element, row) for key, element in template.items()}
+        case _:
+            return template
+
+
+def _filled(template: str, row: Mapping[str, str]) -> str:
+    columns = [column for _, column in columns_of(template) if column is not None]
+    text = _PART.sub(lambda part: part[0][0] if part[1] is None else row[part[1].strip()], template)
+    if not columns:
+        return text
+    found = Filled(text)
+    found.columns = tuple(dict.fromkeys(columns))
+    return found
+
+
+def values_in(value: object) -> Iterator[object]:
+    """Yield a value, and all that is within it."""
+    yield value
+    inner: Iterable[object] = ()
+    if isinstance(value, list):
+        inner = value
+    elif isinstance(value, dict):
+        inner = value.values()
+    for one in inner:
+        yield from values_in(one)
+
+
+def is_number(text: str) -> bool:
+    """Whether a text is written like a number."""
+    plain = text.strip()
+    return len(plain) <= _LONGEST and _NUMBER.fullmatch(plain) is not None
+
+
+def as_numbers(value: object) -> object:
+    """Return a value with numbers, true and false instead of a row's texts that are written so."""
+    if isinstance(value, list):
+        return [as_numbers(element) for element in value]
+    if not isinstance(value, Filled):
+        return value
+    text = value.strip()
+    if is_number(text):
+        return float(text) if set(text) & set(".eE") else int(text)
+    return _WORDS.get(text.lower(), str(value))
+
+
+def as_texts(value: object) -> object:
+    """Return a value with plain texts instead of a row's: what is read of it may be kept."""
+    if isinstance(value, list):
+        return [as_texts(element) for element in value]
+    return str(value) if isinstance(value, Filled) else value

@@ -1,27 +1,26 @@
-"""Checks before a flight: can the fleet do what the missions ask, and are their names distinguishable?"""
+"""Checks before a flight: can the fleet do what the missions ask and promise, and are their names distinguishable?"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
+from graphlib import TopologicalSorter
 from math import dist, inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unicodedata import normalize
 
-from ..shared.domain.fields import Entity, FieldType, put_plain
-from ..shared.domain.model import AfterTrip
+from ..app import App
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.fields import Entity, FieldType, put_plain, time_of_day
+from ..shared.domain.model import AfterTrip, Category, Mission, Point, Trip
 from ..shared.domain.own_fields import OwnField
-from ..shared.domain.text import duration, quoted
+from ..shared.domain.text import counted, duration, quoted
 from ..shared.domain.values import shown
 from ..shared.fleet.reach import Miss, chain_of, flight_seconds, miss_of, stops_of
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Category, Mission, Point, Trip
-    from .drones import DroneEntry
-    from .fleet import FleetFile
+from ..shared.flow.promises import kept_from
+from ..shared.time.hours import DAY, Hours
+from .fleet import DroneEntry, FleetFile
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,10 +97,7 @@ def unflyable(
 
 
 def _misses(
-    app: App,
-    airspace: Airspace,
-    drones: Sequence[tuple[Category, Point]],
-    chain: Sequence[Trip],
+    app: App, airspace: Airspace, drones: Sequence[tuple[Category, Point]], chain: Sequence[Trip]
 ) -> Sequence[Miss]:
     """Return each category's nearest miss, in the fleet's order; nothing if a drone lacks nothing."""
     best: dict[str, Miss | None] = dict.fromkeys(category.name for category, _ in drones)
@@ -126,9 +122,19 @@ def uncharged(missions: Sequence[Mission[Any]], app: App, fleet: FleetFile) -> s
     here = None
     for mission in missions:
         for chain in chains(mission):
-            takes += min(_seconds(app, fleet, kind, home, here, chain) for kind, home in drones)
+            x, y, _ = chain[-1].target
+            takes += min(
+                (
+                    inf
+                    if miss_of(app, fleet.airspace, kind, home, chain)
+                    else _seconds(
+                        app, fleet, kind, here or home, chain, (x, y, 0.0) if here else home
+                    )
+                )
+                for kind, home in drones
+            )
             if fleet.after_trip is not AfterTrip.HOME:
-                here = (*chain[-1].target[:2], 0.0)
+                here = (x, y, 0.0)
     if takes <= has:
         return None
     return (
@@ -141,34 +147,32 @@ def _seconds(
     app: App,
     fleet: FleetFile,
     kind: Category,
-    home: Point,
-    here: Point | None,
+    start: Point,
     chain: Sequence[Trip],
+    end: Point | None = None,
 ) -> float:
-    """Return how long a chain of trips takes from here; None: from home and back. Infinite: it cannot be."""
-    if miss_of(app, fleet.airspace, kind, home, chain) is not None:
-        return inf
+    """Return how long a chain of trips takes from a start, and on to an end on the ground; infinite: it cannot be."""
     stops = stops_of(app, kind, fleet.airspace.cruise_height, chain)
     points = [point for point, _ in stops]
-    x, y, _ = home if here is None else points[-1]
-    actions = sum(seconds for _, seconds in stops)
-    return flight_seconds(kind, fleet.airspace, here or home, [*points, (x, y, 0.0)], actions)
+    if end is not None:
+        points.append((end[0], end[1], 0.0))
+    busy = sum(seconds for _, seconds in stops)
+    return flight_seconds(kind, fleet.airspace, start, points, busy)
 
 
 def endless(missions: Sequence[Mission[Any]], app: App) -> list[str]:
     """Return a sentence for each mission that repeats until it is stopped."""
-    rounds = [
-        field.name
-        for field in app.fields
-        if field.on is Entity.MISSION and field.type is FieldType.ROUNDS
-    ]
     return [
-        f"mission {quoted(mission.name)} repeats until it is stopped ({name} = true): "
+        f"mission {quoted(name)} repeats until it is stopped ({field} = true): "
         "say when with --until, such as --until 2h"
-        for mission in missions
-        for name in rounds
-        if getattr(mission, name) is True
+        for name, field in _endless(missions, app).items()
     ]
+
+
+def _endless(missions: Sequence[Mission[Any]], app: App) -> dict[str, str]:
+    """Return by which field missions repeat until they are stopped."""
+    fields = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
+    return {one.name: key for one in missions for key in fields if getattr(one, key) is True}
 
 
 def look_alikes(
@@ -222,3 +226,193 @@ _LETTERS = str.maketrans(
     + "".join(map(chr, (*range(0x180B, 0x1810), *range(0xFE00, 0xFE10), *range(0xE0100, 0xE01F0)))),
 )
 """Letters that look like Latin ones, and signs that look alike, or are invisible."""
+
+
+LONG = 10.0
+"""Seconds of a wait that is worth a line: in a flight it is told then, or at once if it is known to take longer."""
+
+
+def waits(missions: Sequence[Mission[Any]], hours: Hours) -> Iterator[str]:
+    """Yield a sentence for each mission that waits, by the hours from their start on."""
+    for mission in missions:
+        promises = kept_from(mission.promises, hours)
+        after = ", ".join(map(quoted, promises.get("after", ())))
+        opens = promises.get("opens", 0.0)
+        at = getattr(mission, "at", None)
+        delay = getattr(mission.trips[0], "delay", None)
+        begins = 0.0 if at is None else hours.next(at, 0.0)
+        why, seconds = max(
+            ("its window has not opened", opens),
+            ("its first trip is not to start before", begins),
+            ("its first trip has a delay", delay or 0.0),
+            key=lambda one: one[1],
+        )
+        who = f"mission {quoted(mission.name)}: waits"
+        if after:
+            yield f"{who} until {after} {'have' if ', ' in after else 'has'} completed"
+        if seconds > LONG:
+            start = hours.said(0.0)
+            end = hours.said(seconds)
+            yield f"{who} {duration(seconds)} if it is started at {start}, until {end}: {why}"
+
+
+_SLACK = 1e-6
+"""Seconds that sums of floats may be wrong by."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Flight:
+    """A trip, or trips that one drone flies together, at its shortest: seconds from the launch."""
+
+    done: tuple[float, ...]
+    """Until each trip is done, by a drone that starts at home."""
+    again: tuple[float, ...]
+    """The same by a drone that may stand where the plan may have left it."""
+    back: float
+    """From the last one until its drone can fly again."""
+
+
+def impossible(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, hours: Hours | None = None
+) -> list[str]:
+    """Return a sentence for each promise that no order of flights can keep.
+
+    Bounds from below: no flight of any order is shorter. So what is told here is impossible; what is not may still
+    be late, which `simulate` tells. Faults, charging and drones in each other's way are left out.
+    `hours` from their start on; None: it is not known when that is.
+    """
+    if not any(one.promises for one in missions):
+        return []
+    bounds = _Bounds(app, fleet)
+    flights = {one.name: [*map(bounds.flight, chains(one))] for one in missions}
+    if hours is not None:
+        missions = [replace(m, promises=kept_from(m.promises, hours)) for m in missions]
+    named = {one.name: one for one in missions}
+    order = TopologicalSorter({one.name: one.promises.get("after", ()) for one in missions})
+    found, ends = [*_in_vain(missions, app)], dict[str, float]()
+    for name in order.static_order():
+        if name in named:
+            late = _too_late(named[name], flights[name], ends)
+            found += [f"mission {quoted(name)}: {late}"] if late else []
+    return found or [*_too_many(missions, flights, fleet)]
+
+
+def _in_vain(missions: Sequence[Mission[Any]], app: App) -> Iterator[str]:
+    """Yield why missions never begin that come after one without a last round."""
+    endless = _endless(missions, app)
+    for mission in missions:
+        for name in filter(endless.__contains__, mission.promises.get("after", ())):
+            who = f"mission {quoted(mission.name)}: it comes after {quoted(name)}"
+            yield f"{who}, which repeats until it is stopped, and never completes"
+
+
+def _too_late(
+    mission: Mission[Any], flights: Sequence[_Flight], ends: dict[str, float]
+) -> str | None:
+    """Return why a mission cannot end in time; note when it ends at the soonest."""
+    promises = mission.promises
+    opens, due = _moments(promises)
+    before = max(promises.get("after", ()), key=lambda name: ends.get(name, 0.0), default="")
+    begins = max(opens, ends.get(before, 0.0))
+    end = begins
+    for flight in flights:
+        began = end
+        for first, again in zip(flight.done, flight.again, strict=True):
+            end = max(first, began + again)
+    ends[mission.name] = end
+    takes = duration(end - begins)
+    if (length := _window(promises)) is not None and length < 0.0:
+        return f"it is due {duration(-length)} before its window opens"
+    if length is not None and begins == opens:
+        least = sum(flight.again[-1] for flight in flights) if due is None else end - begins
+        said = f"its window lasts {duration(length)}, and it takes {duration(least)} at the least"
+        return said if least > length + _SLACK else None
+    if due is None or end <= due + _SLACK:
+        return None
+    if not begins:
+        return f"it is due after {duration(due)}, and takes {takes} at the least"
+    return (
+        f"it comes after {quoted(before)}, which ends after {duration(begins)} at the soonest; it takes"
+        f" {takes} more at the least, and is due after {duration(due)}"
+    )
+
+
+def _window(promises: Mapping[str, Any]) -> float | None:
+    """Return how long a window lasts; None: it is none."""
+    opens, due = promises.get("opens"), promises.get("deadline")
+    if isinstance(opens, str) and isinstance(due, str):
+        return (time_of_day(due) - time_of_day(opens)) % DAY
+    return due - opens if isinstance(opens, float) and isinstance(due, float) else None
+
+
+def _moments(promises: Mapping[str, Any]) -> tuple[float, float | None]:
+    """Return from when to when a mission may fly, as far as that does not depend on the time of day."""
+    opens, due = promises.get("opens", 0.0), promises.get("deadline")
+    if isinstance(opens, str) or isinstance(due, str):
+        return 0.0, None
+    return opens, due
+
+
+def _too_many(
+    missions: Sequence[Mission[Any]], flights: Mapping[str, Sequence[_Flight]], fleet: FleetFile
+) -> Iterator[str]:
+    """Yield why missions that could be in time one by one cannot be so all together: too few drones."""
+    dues = {one.name: due for one in missions if (due := _moments(one.promises)[1]) is not None}
+    count = len(fleet.drones)
+    for due in sorted({*dues.values()}):
+        names = [name for name, limit in dues.items() if limit <= due]
+        works = [one for name in names for one in flights[name]]
+        least = sum(one.again[-1] + one.back for one in works)
+        least -= sum(sorted((one.back for one in works), reverse=True)[:count])
+        if works and least > count * due + _SLACK:
+            who = (
+                f"mission {quoted(names[0])}" if len(names) == 1 else counted(len(names), "mission")
+            )
+            yield (
+                f"no order keeps the deadlines: {who} due after {duration(due)} or sooner"
+                f" take {duration(least)} of flights at the least, and"
+                f" {counted(count, 'drone')} can fly for {duration(count * due)} until then"
+            )
+            return
+
+
+class _Bounds:
+    """The least that flights of an app take with a fleet."""
+
+    def __init__(self, app: App, fleet: FleetFile) -> None:
+        self._app, self._fleet = app, fleet
+        self._homes: list[tuple[Category, list[Point]]] = []
+        for kind in app.categories:
+            homes = [one.home for one in fleet.drones if one.category == kind.name]
+            self._homes += [(kind, homes)] if homes else []
+
+    def flight(self, chain: Sequence[Trip]) -> _Flight:
+        """Return the flight of trips that one drone flies together."""
+        able = [one for one in self._homes if all(one[0].can(trip.action) for trip in chain)]
+        goes_home = self._fleet.after_trip is AfterTrip.HOME
+        below = chain[0].source or chain[0].target
+        least = partial(min, default=0.0)
+        done, again = list[float](), list[float]()
+        for length in range(1, len(chain) + 1):
+            part = chain[:length]
+            done.append(
+                least(self._seconds(kind, at, part) for kind, homes in able for at in homes)
+            )
+            near = least(self._seconds(kind, below, part) for kind, _ in able)
+            again.append(done[-1] if goes_home else near)
+        end = chain[-1].target
+        if goes_home:
+            space = self._fleet.airspace
+            back = least(
+                flight_seconds(kind, space, end, [(x, y, 0.0)], 0.0)
+                for kind, homes in able
+                for x, y, _ in homes
+            )
+        else:
+            back = least(kind.motion.lands(end[2], kind.speed) for kind, _ in able)
+        return _Flight(done=tuple(done), again=tuple(again), back=back)
+
+    def _seconds(self, kind: Category, above: Point, chain: Sequence[Trip]) -> float:
+        """Return the least from the ground below a place; what cannot be flown is told elsewhere."""
+        least = _seconds(self._app, self._fleet, kind, (*above[:2], 0.0), chain)
+        return 0.0 if least == inf else least

@@ -8,22 +8,17 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, cut_off, number, percent, printable, quoted
-from ..shared.domain.values import Keys, Table, shortened
-from .foreign import foreign
+from ..shared.domain.values import KeyPath, Keys, Problem, Read, Table, shortened
+from .advice import advice, foreign
 from .landmarks import NO_LANDMARKS
-from .toml import line_of, line_of_long_key, places
-from .toml_advice import advice
-
-if TYPE_CHECKING:
-    from ..shared.domain.values import KeyPath, Problem
-    from .toml import TomlLines
+from .toml import TomlLines, line_of, line_of_long_key, places
 
 LARGEST = 1 << 20
 """In bytes: a plan is written by people, and anything larger is another file."""
@@ -131,6 +126,10 @@ class PlanTable(Table):
         self.document.is_made = True
         return named[value]
 
+    def value(self, key: str, read: Read) -> Any:
+        """Return what stands under a key; for a wrong word the nearest one is told."""
+        return super().value(key, partial(advised, read))
+
     def unknown(self, key: str, keys: Keys) -> None:
         """Note a key that is none of these, with the nearest of them."""
         hint = near(key, keys)
@@ -139,6 +138,17 @@ class PlanTable(Table):
             hint = ": this app's graph has no block that needs it"
         end = " " if hint.endswith("?") else "; "
         self.problem(f"unknown key {quoted(key)}{hint}{end}there may be: {listed(keys)}", key)
+
+
+def advised(read: Read, value: object) -> object:
+    """Read a value; of a wrong word say which one is near."""
+    try:
+        return read(value)
+    except ValueError as error:
+        hint = ""
+        if isinstance(read, partial) and read.func is values.one_of:
+            hint = near(f"{value}", read.args[0])
+        raise ValueError(f"{error}{hint}") from None
 
 
 def near(word: str, words: Iterable[str]) -> str:

@@ -11,16 +11,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
 from math import ceil, dist, floor
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import shapely
 from shapely.geometry import Polygon, box
 from shapely.ops import nearest_points
 
+from ..shared.domain.airspace import Airspace, Corner
 from ..shared.domain.text import place
-
-if TYPE_CHECKING:
-    from ..shared.domain.airspace import Airspace, Corner
 
 MOST = 2_000
 """The most places of one area."""

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from ..files.missions_text import trip_table
 from ..files.plan_check import unflyable
 from ..files.reading import Document, PlanTable
+from ..files.writing import trip_table
 from ..shared.alone.files import read_trips
 from ..shared.domain.actions import PICK
 from ..shared.domain.errors import BadInput

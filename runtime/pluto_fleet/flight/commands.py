@@ -6,10 +6,10 @@ even while the app waits for other things. Only the answer may have to wait.
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Mapping
 from contextlib import AsyncExitStack, asynccontextmanager
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from ..jobs.link import MISHAPS
 from ..jobs.reports import Down
@@ -17,59 +17,8 @@ from ..journal.errors import why
 from ..process.ipc import Answer, answering, listening
 from ..shared.domain.errors import BadInput
 
-
-class Control(Protocol):
-    """The commands of a running app; each returns what it did, or raises `BadInput`."""
-
-    def stop(self, how: Down) -> str:
-        """Bring all drones down; every mission can be resumed later."""
-        ...
-
-    def pause(self, mission: str | None) -> str:
-        """Suspend a mission, or all, until it is told to go on."""
-        ...
-
-    def go_on(self, mission: str | None) -> str:
-        """Resume a paused mission, or all paused ones."""
-        ...
-
-    def skip(self, mission: str, trip: str | None) -> str:
-        """Skip a trip of a mission; None: its next one."""
-        ...
-
-    def cancel(self, mission: str | None) -> str:
-        """End a mission, or all, for good."""
-        ...
-
-    def change_trips(
-        self, mission: str, trips: Sequence[object], replaces: Sequence[object] | None
-    ) -> str:
-        """Replace the trips of a mission that have not flown."""
-        ...
-
-    def prioritise(self, mission: str, trip: str, priority: int) -> str:
-        """Change a trip's priority in the queue for a drone."""
-        ...
-
-    def retire(self, drone: str) -> str:
-        """Allocate a drone to no further trip, until it is brought back."""
-        ...
-
-    def join(self, entry: Mapping[str, object]) -> str:
-        """Have a drone join the fleet, given as in a fleet file."""
-        ...
-
-    def mishap(self, drone: str, kind: str) -> str:
-        """Have a mishap happen to a simulated drone, to rehearse it."""
-        ...
-
-    def bring_back(self, drone: str) -> str:
-        """Make a drone available again that was retired, or lost and repaired since."""
-        ...
-
-    def decide(self, mission: str, answer: str) -> str:
-        """Answer an open question: `done`, `not-done`, `go-on` or `cancel`."""
-        ...
+if TYPE_CHECKING:
+    from .control import Control
 
 
 def perform(control: Control, request: Mapping[str, object]) -> str:
@@ -116,11 +65,13 @@ def joining_in(request: Mapping[str, object]) -> Mapping[str, object] | None:
     """Return the drone that is to join, as in a fleet file; None: it is another request."""
     if request.get("command") != "join":
         return None
-    given = {key: one for key, one in request.items() if key not in ("command", "drone")}
+    entry = {"id": request.get("drone"), **request}
     return {
-        "id": request.get("drone"),
-        **{key: one for key, one in given.items() if one is not None},
+        key: one for key, one in entry.items() if one is not None and key not in _NOT_OF_THE_DRONE
     }
+
+
+_NOT_OF_THE_DRONE = ("command", "drone")
 
 
 def stop_in(request: Mapping[str, object]) -> Down | None:

@@ -1,8 +1,8 @@
-"""The configuration of a flight, and the outcome of one run of its app."""
+"""What is flown, what one run of it came to, and how it is stopped."""
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from typing import TYPE_CHECKING, Any
@@ -14,16 +14,10 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..files.fleet import FleetFile
-    from ..jobs.link import Link
     from ..jobs.reports import Down
     from ..journal.standing import Standing
-    from ..process.realtime import RealTime
     from ..shared.alone.world import Faults
     from ..shared.domain.model import Drone, Mission
-    from ..shared.domain.trace import Event
-
-    Connect = Callable[[RealTime, FleetFile, int, Callable[[], object]], Awaitable[Link]]
-    Joining = Callable[[FleetFile], Awaitable[Mapping[str, object]]]
 
 
 class End(Enum):
@@ -66,21 +60,6 @@ class FlightSetup:
 def how_to_go_on(app: App, journal: Path) -> str:
     """Return how to resume a flight: a sentence for the user who has stopped it, with the command."""
     return f"to go on: {app.name} resume {in_shell(journal)}"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FlightConfig:
-    """What all runs of one flight share."""
-
-    flight: FlightSetup
-    connect: Connect
-    """Connects to the gateway, or starts it: given kernel, fleet, epoch, and what to call if it dies."""
-    tell: Callable[[Event], object]
-    """Called with an event, once it is durable."""
-    joining: Joining | None = None
-    """Returns the last drone of a fleet as the gateway takes it in; None: no drone can join."""
-    patient: bool = False
-    """Whether it goes on while a mission waits for the user's decision."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -19,7 +19,7 @@ from ..shared.domain.text import counted, quoted
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
-from .mission_status import aside
+from .mission_status import ANSWERS, aside
 from .reconcile import ANSWERS as DONE_OR_NOT
 from .reconcile import (
     CANCELLED,
@@ -346,9 +346,6 @@ def _named(those: Sequence[tuple[str, Record]]) -> str:
 
 
 _ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)
-
-ANSWERS = {Status.UNCERTAIN: ("done", "not-done", "cancel"), Status.HELD: ("go-on", "cancel")}
-"""The possible answers, by the mission's status."""
 
 _HOW = {
     Down.HOME: "all drones fly home and land",

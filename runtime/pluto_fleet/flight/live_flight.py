@@ -11,6 +11,7 @@ import json
 import time
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -35,8 +36,25 @@ if TYPE_CHECKING:
     from ..jobs.link import Link
     from ..journal.standing import Standing
     from ..journal.store import Store
+    from ..shared.domain.trace import Event
     from ..shared.time.kernel import Task
-    from .config import FlightConfig, Stops
+    from .access import GatewayAccess
+    from .config import FlightSetup, Stops
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightObserver:
+    """Callbacks for what happens in a flight."""
+
+    tell: Callable[[Event], object]
+    """Called with each event, once it is durable."""
+    say: Callable[[str], object]
+    """Called with messages that are not events, such as that a gateway has died."""
+    born: Callable[[LiveFlight], object] | None = None
+    """Called with each run when it begins."""
+    patient: bool = False
+    """Whether the flight goes on while a mission waits for the user's decision."""
+
 
 LOOK_EVERY = 1.0
 """Seconds of real time between two checks that the journal is still there."""
@@ -48,11 +66,19 @@ class LiveFlight:
     """Runs from the first report of the drones to the end."""
 
     def __init__(
-        self, setting: FlightConfig, store: Store, records: Standing, begin: float
+        self,
+        flight: FlightSetup,
+        observer: FlightObserver,
+        access: GatewayAccess,
+        store: Store,
+        records: Standing,
+        begin: float,
     ) -> None:
-        self._setting, self._store = setting, store
+        """`begin` is the time in the flight at which this run begins."""
+        self._flight, self._observer, self._access = flight, observer, access
+        self._store = store
         self._loop = asyncio.get_running_loop()
-        self._kernel = RealTime(setting.flight.speed, begin)
+        self._kernel = RealTime(flight.speed, begin)
         self._clock = WallClock(self._kernel, records.clock)
         self._records = records
         self._writer = Writer(store, partial(self._post, self._durable), self._unwritable)
@@ -72,11 +98,11 @@ class LiveFlight:
 
     async def live(self, stops: Stops) -> FlightResult:
         """Run until all missions have ended, it is stopped, or the gateway dies."""
-        setting, kernel, self._stops = self._setting, self._kernel, stops
-        flight = setting.flight
+        flight, kernel = self._flight, self._kernel
+        self._stops = stops
         lost = partial(self._end.set, End.LOST)
         fleet = with_joined(flight.app, flight.fleet, self._records.joined)
-        self._link = link = await setting.connect(kernel, fleet, self._store.epoch, lost)
+        self._link = link = await self._access.link(kernel, fleet, self._store.epoch, lost)
         link.seen = self._seen
         hooks = RealHooks(kernel)
         self.life = life = RecordedFlight(
@@ -87,14 +113,14 @@ class LiveFlight:
             self._writer,
             self._records,
             epoch=self._store.epoch,
-            watcher=setting.tell,
+            watcher=self._observer.tell,
             hooks=hooks,
             clock=self._clock,
             charges=flight.charges,
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
-        life.patient, life.carried_home = setting.patient, flight.sim
+        life.patient, life.carried_home = self._observer.patient, flight.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with hear_commands(commands_note(flight.journal), self.answer):
@@ -120,7 +146,7 @@ class LiveFlight:
 
     async def _lived(self, life: RecordedFlight, stops: Stops) -> End:
         """Run to some end, and make everything durable."""
-        over = life.go_on(self._setting.flight.missions)
+        over = life.go_on(self._flight.missions)
         over.watch(self._over)
         self._copy()
         self._kernel.spawn(Waits(life).watch(), FLEET, "what waits")
@@ -249,12 +275,10 @@ class LiveFlight:
             return
         entry = joining_in(request)
         if entry is not None:
-            if self._setting.joining is None:
-                raise BadInput("no drone can join this flight")
-            joining = await self._setting.joining(life.control.fleet_with(entry))
+            joining = await self._access.joining(life.control.fleet_with(entry))
             await self._asked(link.ask("join", joining=joining), "a drone joins")
         match request:
-            case {"command": "mishap"} if not self._setting.flight.sim:
+            case {"command": "mishap"} if not self._flight.sim:
                 raise BadInput("mishaps happen to drones that --sim simulates, and to no others")
             case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind != UNCERTAIN:
                 life.control.check_drone(drone)

@@ -17,8 +17,8 @@ from ..shared.domain.status import Status
 if TYPE_CHECKING:
     from ..app import App
 
-ANSWERS = {"question": ("done", "not-done", "cancel"), "held": ("go-on", "cancel")}
-"""The possible answers for each question of a mission."""
+ANSWERS = {Status.UNCERTAIN: ("done", "not-done", "cancel"), Status.HELD: ("go-on", "cancel")}
+"""The possible answers, by the status of a mission that asks."""
 
 _ASIDE = {"question": Status.UNCERTAIN, "held": Status.HELD, "paused": Status.PAUSED}
 
@@ -63,24 +63,22 @@ def has_ended(records: Standing) -> bool:
     return bool(asides) and all(asides)
 
 
-def waiting(records: Standing, *, answered: bool = False) -> Iterator[tuple[str, str, str]]:
+def waiting(records: Standing, *, answered: bool = False) -> Iterator[tuple[str, Status, str]]:
     """Yield the missions that wait for the user: name, status, and the question.
 
     `answered`: also those that have been answered without effect yet.
     """
     for name, record in in_order(records):
-        for what in ANSWERS:
-            asks = record[what] is not None and not record["ended"]
-            if asks and (answered or record["answer"] is None):
-                yield name, what, record[what]
-                break
+        asked = aside(record)
+        if asked is not None and asked[0] in ANSWERS and (answered or record["answer"] is None):
+            yield name, *asked
 
 
 def aside(record: Record) -> tuple[Status, str] | None:
     """Return the status and question of a mission that waits for the user, or None."""
     for what, status in _ASIDE.items():
         if record[what] is not None and not record["ended"]:
-            return status, record[what] if what in ANSWERS else ""
+            return status, record[what] if status in ANSWERS else ""
     return None
 
 

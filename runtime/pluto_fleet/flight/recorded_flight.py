@@ -36,6 +36,8 @@ class RecordedFlight(RecordedBrain):
         """`epoch` counts the runs; the rest is as for a `RecordedBrain`."""
         super().__init__(*parts, **more)
         self._epoch = epoch
+        self._added: dict[str, int] = {}
+        """The places in the plan of missions that came later: the records have them after their instant."""
         self.carried_home = True
         """Whether drones that need a person are waited for when all missions have ended."""
         self._over: Future[float] = Future()
@@ -61,14 +63,15 @@ class RecordedFlight(RecordedBrain):
         """Start more missions while others fly; raise `BadInput` if they cannot be flown."""
         if not self.is_set_out:
             raise BadInput("the drones are just being asked where they are: try again in a moment")
-        known = self.brain.standing()["missions"]
+        known = {name: int(record["index"]) for name, record in self.records.missions.items()}
+        known |= self._added
         for mission in missions:
             if mission.name in known:
                 name = quoted(mission.name)
                 raise BadInput(f"a mission {name} has been started already: rename the new one")
-        first = 1 + max(record["index"] for record in known.values())
+        first = 1 + max(known.values())
         for index, mission in enumerate(missions, start=first):
-            mission.index = index
+            mission.index = self._added[mission.name] = index
         self._begin(missions)
 
     def _begin(self, missions: Sequence[Mission[Any]]) -> None:

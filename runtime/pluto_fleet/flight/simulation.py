@@ -7,11 +7,11 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..gateway.gateway import Gateway
+from ..jobs.controls import fleet_drones
 from ..shared.alone.simulate import Outcome
 from ..shared.alone.world import World
 from ..shared.domain.app import moving
 from ..shared.flow.record import fleet_data
-from ..simulation.body import simulated
 from ..simulation.drones import SimulatedNavigation
 from .driver import Driver, Stands, begun, take_up
 from .outcome import SimulationResult, result_of
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..shared.domain.model import Mission
     from ..shared.domain.trace import Event
     from ..shared.time.kernel import Future, Kernel
-    from ..simulation.body import SimulatedBody
+    from ..simulation.drones import SimulatedBody
 
 Listener = Callable[["Event"], object]
 Around = Callable[["Kernel", "Controls"], "Controls"]
@@ -53,7 +53,7 @@ class Simulation:
         """
         app = moving(app, fleet.motion, charges=fleet.charges_at_home)
         self._app, self._fleet, self._kernel = app, fleet, kernel
-        self._drones = simulated(app, fleet)
+        self._drones = fleet_drones(app, fleet)
         world = World(seed, fleet.airspace, fleet.world)
         self._navigation = SimulatedNavigation(kernel, self._drones, world, faults, seed)
         self._stands = {} if stands is None else stands

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from math import dist
 from typing import TYPE_CHECKING, Any
 
-from ..files.plan_waits import LONG
+from ..files.plan_check import LONG
 from ..shared.domain.motion import charging
 from ..shared.domain.status import DroneStatus
 from ..shared.domain.text import duration, percent, place

@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from hashlib import sha256
 from pathlib import Path
 
-from ..files.drones import which
+from ..files.addresses import which
 from ..process import locks
 from ..process.ipc import is_private
 from ..shared.domain.errors import BadInput

@@ -11,8 +11,8 @@ from functools import partial
 from math import inf
 from typing import TYPE_CHECKING, Any, NoReturn
 
-from ..drones.lag import Lag
 from ..drones.real_fleet import RealDrone
+from ..drones.timeouts import Lag
 from ..jobs.controls import FleetDrone, Read, See, Trigger, Write
 from ..jobs.link import Link
 from ..jobs.reports import (
@@ -26,7 +26,6 @@ from ..jobs.reports import (
 from ..shared.domain.errors import BadInput, Cancelled, FlightFailed
 from ..shared.hooks.plain_data import point_of, value_data
 from ..shared.time.kernel import FLEET, EventKind, Kernel, Task
-from ..simulation.body import SimulatedDrone
 from .descent import Descent
 from .executor import Executor, Leaving
 from .jobs import Jobs
@@ -44,7 +43,7 @@ if TYPE_CHECKING:
 
 
 Rehearse = Callable[[str, str, "str | None"], Coroutine[Any, Any, str]]
-TakeIn = Callable[[SimulatedDrone, RealDrone | None], object]
+TakeIn = Callable[[FleetDrone, RealDrone | None], object]
 Answered = Callable[["Gateway", "Order"], Coroutine[Any, Any, object]]
 
 
@@ -189,7 +188,7 @@ class Line(Link):
             kernel.at(kernel.now, EventKind.FLIGHT, FLEET, self._lost)
 
 
-def _take_in_none(drone: SimulatedDrone, _: RealDrone | None) -> NoReturn:
+def _take_in_none(drone: FleetDrone, _: RealDrone | None) -> NoReturn:
     raise BadInput(f"{drone.id} cannot join: these drones are all that there are")
 
 

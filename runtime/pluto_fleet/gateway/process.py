@@ -15,6 +15,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down
 from ..process import locks
 from ..process.forked import deaf, in_children
@@ -25,7 +26,7 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CRAZYFLIE
 from ..shared.domain.text import printable
 from ..shared.time.kernel import FLEET, EventKind, Future
-from ..simulation.drones import SimulatedDrone, SimulatedNavigation
+from ..simulation.drones import SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
 from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway, Rehearse, TakeIn
@@ -37,7 +38,7 @@ from .wire import MAX_COMMAND
 
 if TYPE_CHECKING:
     from ..drones.real_fleet import RealDrone
-    from ..jobs.controls import Controls
+    from ..jobs.controls import Controls, FleetDrone
     from .settings import Settings
 
 
@@ -167,7 +168,7 @@ async def run(folder: Path, settings: Settings) -> None:
         simulated, keeper = _simulated(folder, settings, kernel)
         seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
 
-        def take_in(drone: SimulatedDrone, _: object) -> None:
+        def take_in(drone: FleetDrone, _: object) -> None:
             simulated.join(drone)
             keeper.watch(drone.id)
 
@@ -181,7 +182,7 @@ async def run(folder: Path, settings: Settings) -> None:
         team.begin()
         seen = Sightings(folder / SEEN, team.telemetry, down=team.down)
 
-        def take_in_real(drone: SimulatedDrone, how: RealDrone | None) -> None:
+        def take_in_real(drone: FleetDrone, how: RealDrone | None) -> None:
             assert how is not None
             joined.enter_context(lock_drones({drone.id: how.uri or drone.id}))
             team.join(drone, how)

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from ..drones.real_fleet import RealDrone, RealFleet
+from ..jobs.controls import FleetDrone, fleet_drones
 from ..shared.alone.world import Faults
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.app import moving
 from ..shared.domain.fleet_data import WorldData
-from ..simulation.body import SimulatedDrone, simulated
 
 if TYPE_CHECKING:
     from ..app import App
@@ -29,7 +29,7 @@ IDLE = 60.0
 class Settings:
     """A fleet of drones, and how it is flown."""
 
-    drones: tuple[SimulatedDrone, ...]
+    drones: tuple[FleetDrone, ...]
     airspace: Airspace
     apart: float
     world: WorldData | None
@@ -60,7 +60,7 @@ def settings_for(
     """Return the settings for the fleet of an app."""
     moved = moving(app, fleet.motion, charges=fleet.charges_at_home)
     return Settings(
-        drones=tuple(simulated(moved, fleet)),
+        drones=tuple(fleet_drones(moved, fleet)),
         airspace=fleet.airspace,
         apart=fleet.apart,
         max_airborne=fleet.max_airborne,
@@ -88,12 +88,12 @@ def settings_of(data: Mapping[str, Any]) -> Settings:
 class Joining:
     """A drone that joins a fleet in flight."""
 
-    drone: SimulatedDrone
+    drone: FleetDrone
     real: RealDrone | None
     """How a real one is flown."""
 
 
-def joining_data(drone: SimulatedDrone, real: RealDrone | None) -> dict[str, object]:
+def joining_data(drone: FleetDrone, real: RealDrone | None) -> dict[str, object]:
     """Return a drone that joins as plain data."""
     data: dict[str, object] = msgspec.to_builtins(Joining(drone=drone, real=real), enc_hook=dict)
     return data

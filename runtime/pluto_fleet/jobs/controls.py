@@ -6,37 +6,38 @@ No-fly areas and other drones are not considered here: see `gateway/executor.py`
 from __future__ import annotations
 
 from collections.abc import Coroutine, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+from ..shared.domain.model import Category, Point  # settings are read by these types
+
 if TYPE_CHECKING:
+    from ..app import App
     from ..shared.domain.actions import Plain
-    from ..shared.domain.model import Category, Item, Point
+    from ..shared.domain.fleet_data import FleetData
+    from ..shared.domain.model import Item
     from .reports import DroneReport
     from .telemetry import Telemetry
 
 
-class FleetDrone(Protocol):
-    """What the gateway needs to know about a drone."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FleetDrone:
+    """A drone of a fleet, real or simulated."""
 
-    @property
-    def id(self) -> str:
-        """Its name in the fleet."""
-        ...
+    id: str
+    category: Category
+    home: Point
+    index: int = 0
+    """Its index in the fleet file."""
 
-    @property
-    def category(self) -> Category:
-        """Its speed and endurance."""
-        ...
 
-    @property
-    def home(self) -> Point:
-        """Where its dock is."""
-        ...
-
-    @property
-    def index(self) -> int:
-        """Its index in the fleet file."""
-        ...
+def fleet_drones(app: App, fleet: FleetData) -> list[FleetDrone]:
+    """Return the drones of a fleet file."""
+    categories = {category.name: category for category in app.categories}
+    return [
+        FleetDrone(id=one.id, category=categories[one.category], home=one.home, index=index)
+        for index, one in enumerate(fleet.drones)
+    ]
 
 
 class TakeOff(NamedTuple):
@@ -109,49 +110,39 @@ class Controls(Protocol):
     @property
     def telemetry(self) -> Mapping[str, Telemetry]:
         """What is known of each drone; the values stay current."""
-        ...
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
         """Return why a drone's hardware cannot do a built-in action, or None."""
-        ...
 
     def begins(self, drone: str, flight: str | None, seconds: float) -> None:
         """Called at the start of a flight, with its expected duration; None: it is for no job.
 
         Raises `FlightFailed` if the drone takes no commands.
         """
-        ...
 
     def do(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
         """Carry out a command, and return when it is done: on arrival, when landed.
 
         Raises `FlightFailed` when the drone cannot finish. Cancelled, it leaves the drone hovering.
         """
-        ...
 
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
-        ...
 
     def mended(self, drone: str) -> None:
         """A person has looked after a lost drone: it may be asked anew."""
-        ...
 
     async def reach(self, drone: str) -> bool:
         """Wait, after a failed flight, until a drone takes commands again; False: it is lost."""
-        ...
 
     async def fetched(self, drone: str) -> bool:
         """Wait until a person has put a drone back into its dock, well; False: that does not happen."""
-        ...
 
     def unload(self, drone: str) -> None:
         """Take off what it carries: a person meets it in its dock."""
-        ...
 
     async def drone_report(self, drone: str) -> DroneReport:
         """Ask a drone where it is and what it has done; say so if it does not answer."""
-        ...
 
 
 class ForwardingControls:

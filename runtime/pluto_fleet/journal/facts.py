@@ -233,6 +233,10 @@ _DRONE = {"drone": str, "at?": Point | None, "battery?": float | None, "reason?"
 
 BEGUN = "journal.begun"
 """The event of the first row."""
+SHOWN = "shown"
+"""The event of what pages are shown differently than before (`station/shown.py`)."""
+SAID = "said"
+"""The event of a line of the console that nothing else tells."""
 DRAINED = "drone.drained"
 """The event of a drone that has come home with less than its reserve."""
 
@@ -255,6 +259,13 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "stopped": {"how": str},
     "commanded": {"id": str, "command?": str},
     "log": {"text": str, "mission?": str | None},
+    SAID: {"text": str, "kind": Literal["good", "bad", "info", "hook"]},
+    SHOWN: {
+        "state?": dict[str, Any],
+        "missions?": dict[str, dict[str, Any]],
+        "drones?": dict[str, dict[str, Any]],
+        "alerts?": dict[str, dict[str, Any]],
+    },
     "mission.promised": {**_MISSION, "plan": PlanFacts},
     "mission.created": {**_MISSION, "plan": PlanFacts, "trips": list[str]},
     "mission.late": _MISSION,

@@ -156,6 +156,7 @@ _SENTENCES: Mapping[str, Say] = {
     "drone.lost": _lost,
     "clock.moved": _clock_moved,
     "log": lambda event: str(event["text"]),
+    "said": lambda event: str(event["text"]),
 }
 
 
@@ -243,4 +244,5 @@ _JOURNAL_SENTENCES: Mapping[str, Say] = {
     "drone.charging": "{drone} charges",
     "drone.offline": "{drone} does not answer",
     FLEW: lambda _: None,
+    "shown": lambda _: None,
 }

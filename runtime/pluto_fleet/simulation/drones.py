@@ -1,4 +1,4 @@
-"""A simulated team of drones, on any kernel, in virtual or real time."""
+"""A simulated team of drones, on any kernel, in virtual or real time: each obeys a gateway, command by command."""
 
 from __future__ import annotations
 
@@ -6,25 +6,211 @@ from collections.abc import Callable, Coroutine, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import Any, cast
 
-from ..jobs.controls import Act, Cut, GoTo, Hold, Land, Read, See, TakeOff, Trigger, Write
-from ..jobs.reports import motors_cut
-from ..shared.alone.world import CARRYING_HOME, Faults, draw
+from ..jobs.controls import (
+    Act,
+    Command,
+    Cut,
+    FleetDrone,
+    GoTo,
+    Hold,
+    Land,
+    Read,
+    See,
+    TakeOff,
+    Trigger,
+    Write,
+)
+from ..jobs.reports import DroneReport, motors_cut
+from ..jobs.telemetry import Telemetry
+from ..shared.alone.drones import Body
+from ..shared.alone.world import CARRYING_HOME, Faults, World, draw
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
+from ..shared.domain.model import Item, Point
+from ..shared.domain.motion import varies
 from ..shared.domain.text import place
-from ..shared.time.kernel import EventKind, Future, Kernel
-from .body import SimulatedBody, SimulatedDrone, Told
+from ..shared.domain.trace import Clock
+from ..shared.fleet.telemetry import Charge, Leg
+from ..shared.hooks.plain_data import item_data, item_of, point_of
+from ..shared.time.kernel import FLEET, EventKind, Future, Kernel, Key
+from ..shared.time.told import VirtualTime
 
-if TYPE_CHECKING:
-    from ..jobs.controls import Command
-    from ..jobs.reports import DroneReport
-    from ..jobs.telemetry import Telemetry
-    from ..shared.alone.world import World
-    from ..shared.domain.model import Item, Point
 
-__all__ = ["SimulatedDrone", "SimulatedNavigation"]
+@dataclass(frozen=True, slots=True)
+class _Clock:
+    """The time of a real-time kernel, which goes on between its events."""
+
+    time: Callable[[], float]
+
+    @property
+    def now(self) -> float:
+        return self.time()
+
+
+HEIGHTS = 0.025
+"""Metres by which heights vary, from way to way: their standard deviation, where durations vary, too."""
+
+
+class SimulatedBody(Body):
+    """A drone by a kernel's clock."""
+
+    def __init__(self, drone: FleetDrone, world: World, kernel: Kernel) -> None:
+        self.on_change: Callable[[], object] = lambda: None
+        """Called when its state has changed other than by time."""
+        is_virtual = isinstance(kernel, VirtualTime)  # time stands still between its events
+        clock = kernel if is_virtual else cast("Clock", _Clock(kernel.time))
+        super().__init__(drone.id, drone.home, drone.category, world, clock)
+        self.above = 0.0
+        """How much higher than it is it says that it is."""
+        self.key: Key = FLEET + 1 + drone.index
+        self.command = ""
+        """The command in progress, one at a time."""
+        self.over: Future[None] | None = None
+        """Set when the command is done, if it takes time; fails if it is aborted."""
+        self.cut_short = FlightFailed(Failure.REFUSED, "it was broken off")
+        """Why the last command was cut short."""
+        self.boot = 0
+        """How often it was restarted."""
+        self.done: dict[str, object] = {}
+        """The jobs whose action it did, with their results."""
+
+    @property
+    def place(self) -> Point:
+        self.settle()
+        return self.location
+
+    @property
+    def battery_level(self) -> float:
+        self.settle()
+        return super().battery_level
+
+    @property
+    def landed(self) -> bool:
+        self.settle()
+        return self._landed
+
+    @property
+    def report(self) -> DroneReport:
+        """Return its report; one that takes no commands does not answer."""
+        return DroneReport(
+            drone=self.id,
+            reached=self.down is None,
+            location=self.place,
+            landed=self.landed,
+            battery_level=self.battery_level,
+            boot=self.boot,
+            carrying=None if self.carries is None else self.carries.name,
+            done=dict(self.done),
+            problems=() if self.down is None else (str(self.down),),
+        )
+
+    # Commands
+
+    def follow(self, way: Sequence[Point], *, lands: bool = False) -> float:
+        """Set out on a way; return when the drone will be at rest at its end."""
+        if self.motion.spread:
+            x, y, _ = way[-1]
+            self.above = varies(HEIGHTS, f"{self._flight}/{x:.2f}/{y:.2f}/height") - 1.0
+        return super().follow(way, lands=lands)
+
+    def turn(self, legs: list[Leg], now: float, *, lands_at: float = inf) -> None:
+        """Fly other legs from now on; it has landed at that time."""
+        super().turn(legs, now, lands_at=lands_at)
+        self.on_change()
+
+    def dock(self) -> None:
+        """Stand in its dock, where someone has carried it, and take commands again."""
+        if self.down is not None:
+            self.reboot()
+        super().dock()
+
+    def reboot(self) -> None:
+        """Restart it: it forgets what it has done."""
+        self.boot, self.done, self.settings = self.boot + 1, {}, {}
+
+    def unload(self) -> None:
+        self.carries = None
+        self.on_change()
+
+    def befall(self, what: Failure, why: str | None = None) -> bool:
+        """Cause a fault now; return False if it took no commands before."""
+        self.settle()
+        if self.down is not None:
+            return False
+        self._happen(self._clock.now, what)
+        if why is not None:
+            self.down = FlightFailed(what, why)
+        return True
+
+    # Saving and restoring
+
+    @property
+    def data(self) -> dict[str, object]:
+        """Everything of it as plain data, but for what it has done; all times are its clock's."""
+        leg = self._legs[0]
+        charge = self._charge
+        down = self.down
+        return {
+            "boot": self.boot,
+            "carries": item_data(self.carries),
+            "down": None if down is None else [down.failure.name, str(down)],
+            "reachable_at": self.reachable_at,
+            "flight": self._flight,
+            "drawn": {what.name: after for what, after in self._drawn.items()},
+            "began": self._began,
+            "charge": [charge.level, charge.since, charge.rate],
+            "leg": [leg.start, leg.end, leg.leaves, leg.arrives],
+            "lands_at": self._lands_at,
+            "landed": self._landed,
+            "flown": self._flown,
+        }
+
+    def restore(self, data: Mapping[str, Any], shift: float = 0.0) -> None:
+        """Be as it was by a clock that was so much behind.
+
+        What it was told to do, it does to the end, and then it hovers.
+        """
+        self.boot, self.carries = data["boot"], item_of(data["carries"])
+        self.down = None
+        self.reachable_at = data["reachable_at"] + shift
+        if data["down"] is not None:
+            failure, reason = data["down"]
+            self.down = FlightFailed(Failure[failure], reason)
+        self._flight = data["flight"]
+        self._drawn = {Failure[what]: after for what, after in data["drawn"].items()}
+        self._began = data["began"] + shift
+        level, since, rate = data["charge"]
+        self._charge = Charge(level, since + shift, rate, self.motion.taper)
+        start, end, leaves, arrives = data["leg"]
+        leaves, arrives = leaves + shift, arrives + shift
+        self._legs = [Leg(point_of(start), point_of(end), leaves, arrives, self.motion.smooth)]
+        self._lands_at = data["lands_at"] + shift
+        self._landed, self._flown = data["landed"], data["flown"]
+        self._look_ahead()
+
+
+class Told:
+    """The telemetry of a simulated drone, which is never silent."""
+
+    silence = 0.0
+
+    def __init__(self, body: SimulatedBody) -> None:
+        self._body = body
+
+    @property
+    def location(self) -> Point:
+        x, y, z = self._body.place
+        return x, y, z + min(1.0, z) * self._body.above
+
+    @property
+    def battery_level(self) -> float:
+        return self._body.battery_level
+
+    @property
+    def landed(self) -> bool:
+        return self._body.landed
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,7 +236,7 @@ class SimulatedNavigation:
     def __init__(
         self,
         kernel: Kernel,
-        drones: Sequence[SimulatedDrone],
+        drones: Sequence[FleetDrone],
         world: World,
         faults: Faults,
         seed: int,
@@ -69,9 +255,9 @@ class SimulatedNavigation:
         self._forgotten: dict[str | None, Future[None]] = {}
         """By jobs, what to set when their actions were done and forgotten."""
 
-    def join(self, drone: SimulatedDrone, _: object = None) -> None:
+    def join(self, drone: FleetDrone, _: object = None) -> None:
         """Have one more drone, in its dock."""
-        body = SimulatedBody(drone, self._world, self._kernel.time)
+        body = SimulatedBody(drone, self._world, self._kernel)
         self.bodies[drone.id] = body
         self.telemetry[drone.id] = Told(body)
 
@@ -134,14 +320,12 @@ class SimulatedNavigation:
             over.fail(why)
 
     def break_off(self, drone: str) -> None:
-        """Stop what a drone does, and hover."""
         body = self.bodies[drone]
         if body.over is not None:
             body.halt()
             self._interrupt(body, broken_off(drone))
 
     def why_not(self, drone: str, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        """Return why a drone cannot do a built-in action: simulated ones can do all."""
         return None if action in BUILT_IN else f"{drone} has no action {action}"
 
     def begins(self, drone: str, flight: str | None, seconds: float) -> None:
@@ -153,7 +337,6 @@ class SimulatedNavigation:
             body.begin(flight, draw(self._faults, self._seed, flight, seconds))
 
     def do(self, drone: str, command: Command) -> Coroutine[Any, Any, Any]:
-        """Return what carries out a command."""
         return CARRIES_OUT[type(command)](self, drone, *command)
 
     async def _take_off(self, drone: str, height: float) -> None:
@@ -165,7 +348,6 @@ class SimulatedNavigation:
             await self._until(body, body.follow([(x, y, height)]), "to take off")
 
     async def _go_to(self, drone: str, target: Point) -> None:
-        """Fly straight to a point."""
         body = self._in_the_air(drone)
         await self._until(body, body.follow([body.place, target]), f"to fly to {place(target)}")
 
@@ -225,7 +407,6 @@ class SimulatedNavigation:
         return self._world.tracks(self._kernel.now)
 
     async def _hold(self, drone: str) -> None:
-        """Hover until a fault occurs or it is cancelled."""
         body = self._in_the_air(drone)
         body.can_act("the action")
         await self._until(body, inf, "to hover")
@@ -235,7 +416,6 @@ class SimulatedNavigation:
         return self._in_the_air(drone).read(name)
 
     async def _write(self, drone: str, name: str, value: float) -> None:
-        """Store a value under this name."""
         self._in_the_air(drone).settings[name] = value
 
     async def _cut(self, drone: str) -> None:
@@ -246,7 +426,6 @@ class SimulatedNavigation:
             body.check()
 
     def mended(self, drone: str) -> None:
-        """A person has repaired it, put it into its dock and switched it on."""
         body = self.bodies[drone]
         if body.down is not None:
             body.dock()
@@ -266,18 +445,15 @@ class SimulatedNavigation:
         return body.answers()
 
     async def fetched(self, drone: str) -> bool:
-        """Wait until a drone was carried home."""
         body = self.bodies[drone]
         await self._busy(body, self._kernel.now + CARRYING_HOME, "to recover")
         body.dock()
         return True
 
     def unload(self, drone: str) -> None:
-        """Take off what it carries: a person meets it in its dock."""
         self.bodies[drone].unload()
 
     async def drone_report(self, drone: str) -> DroneReport:
-        """Ask a drone where it is and what it has done."""
         return self.bodies[drone].report
 
     async def _until(self, body: SimulatedBody, when: float, command: str) -> None:

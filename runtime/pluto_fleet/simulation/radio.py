@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine
 from functools import partial
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
-from ..jobs.controls import Cut, ForwardingControls, Read, Write
+from ..jobs.controls import Command, Controls, Cut, ForwardingControls, Read, Write
+from ..jobs.reports import DroneReport
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.time.kernel import FLEET, EventKind, Future, Kernel
-
-if TYPE_CHECKING:
-    from ..jobs.controls import Command, Controls
-    from ..jobs.reports import DroneReport
 
 T = TypeVar("T")
 
@@ -31,16 +28,9 @@ class Radio(ForwardingControls):
         self._kernel, self._delay = kernel, delay
         self._orders: dict[str, Future[None]] = {}
         """A future for each drone's command, which fails if the command is aborted."""
-        self.late = 0
-        """The number of delayed messages."""
         self.break_off = self._break_off
         self.reach = self._reach
         self.drone_report = self._drone_report
-
-    def _late(self, what: str) -> float:
-        seconds = self._delay(what)
-        self.late += seconds > 0
-        return seconds
 
     def _break_off(self, drone: str) -> None:
         """Stop what a drone does, or a command in transit."""
@@ -51,7 +41,6 @@ class Radio(ForwardingControls):
             order.fail(FlightFailed(Failure.REFUSED, why))
 
     async def do(self, drone: str, command: Command) -> Any:
-        """Carry out a command, once it has arrived."""
         done = partial(self._controls.do, drone, command)
         match command:
             case Cut():
@@ -65,17 +54,16 @@ class Radio(ForwardingControls):
         return await self._sent(drone, partial(self._controls.reach, drone))
 
     async def _drone_report(self, drone: str) -> DroneReport:
-        """Ask a drone where it is and what it has done, be it busy or not."""
         return await self._asked(self._controls.drone_report(drone))
 
     async def _asked(self, question: Coroutine[Any, Any, T]) -> T:
         """Query a drone, concurrently with its command."""
         try:
-            await self._kernel.sleep(self._late(COMMAND), EventKind.FLIGHT)
+            await self._kernel.sleep(self._delay(COMMAND), EventKind.FLIGHT)
             answer = await question
         finally:
             question.close()
-        await self._kernel.sleep(self._late(ANSWER), EventKind.FLIGHT)
+        await self._kernel.sleep(self._delay(ANSWER), EventKind.FLIGHT)
         return answer
 
     async def _sent(self, drone: str, command: Callable[[], Coroutine[Any, Any, T]]) -> T:
@@ -90,7 +78,7 @@ class Radio(ForwardingControls):
         return result
 
     async def _on_its_way(self, what: str, broken_off: Future[None]) -> None:
-        seconds = self._late(what)
+        seconds = self._delay(what)
         if seconds > 0:
             until = self._kernel.now + seconds
             await self._kernel.within(broken_off, until, EventKind.FLIGHT, FLEET)

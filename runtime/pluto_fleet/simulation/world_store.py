@@ -20,8 +20,7 @@ from typing import Any
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.hooks.plain_data import item_data, item_of, value_data, value_of
-from .body import SimulatedBody
-from .drones import WorldAction
+from .drones import SimulatedBody, WorldAction
 
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
 
@@ -45,7 +44,6 @@ class Moment:
 
 
 def this_moment() -> Moment:
-    """Return the current moment."""
     boot = _this_boot()
     up = time.clock_gettime(time.CLOCK_BOOTTIME) if boot else 0.0
     return Moment(wall=time.time(), boot=boot, up=up)

@@ -6,15 +6,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from math import dist, floor, inf
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..files.drones import DroneEntry
+from ..files.fleet import DroneEntry, FleetFile
 from ..shared.domain.actions import PICK, RELEASE
-
-if TYPE_CHECKING:
-    from ..files.fleet import FleetFile
-    from ..shared.domain.airspace import Airspace
-    from ..shared.domain.model import Mission, Point
+from ..shared.domain.airspace import Airspace
+from ..shared.domain.model import Mission, Point
 
 Counts = tuple[int, ...]
 """How many drones of each category, in the order in which the fleet file first has them."""

@@ -3,22 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING
 
+from ..files.fleet import DroneEntry
 from ..report.terminal import table
 from ..shared.domain.text import counted, number, printable
-from .causes import percent_of, when
-
-if TYPE_CHECKING:
-    from ..files.drones import DroneEntry
-    from .answer import Answer
-    from .fleets import Counts
-    from .question import Question
-    from .tries import Tally
+from .answer import Answer, percent_of, when
+from .fleets import Counts
+from .question import Question
+from .tries import Tally
 
 
 def report(answer: Answer) -> Iterator[str]:
-    """Yield the lines of the report."""
     if answer.tallies:
         yield from _tried(answer)
         yield ""
@@ -128,7 +123,6 @@ def drones_of(answer: Answer, tally: Tally) -> tuple[Sequence[DroneEntry], Seque
 
 
 def data(answer: Answer, name: str, seed: int) -> Mapping[str, object]:
-    """Return the answer as plain data."""
     found = answer.found
     whole: dict[str, object] = {
         "app": name,

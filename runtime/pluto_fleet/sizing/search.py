@@ -10,12 +10,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from itertools import combinations, pairwise, permutations
-from typing import TYPE_CHECKING
 
 from .fleets import Counts, Stock
-
-if TYPE_CHECKING:
-    from .tries import Tries
+from .tries import Tries
 
 _LOOK_BELOW = 3
 """How many sizes below the smallest that halving has found are tried."""

@@ -8,18 +8,19 @@ from contextlib import suppress
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
-from typing import TYPE_CHECKING, cast, get_type_hints
+from typing import TYPE_CHECKING
 
-from ..flight.control import ANSWERS
+import msgspec
+
+from ..flight.mission_status import ANSWERS
 from ..process.whole_file import write_whole
 from ..report.sentences import sentence_of
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, cut_off, duration, percent, quoted
 from .feed import VersionedRows
-from .rows import waits_for_a_drone
+from .rows import waits_for_a_drone, words
 from .wire import Alert
-from .words import words
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -157,7 +158,6 @@ def of_results(findings: Iterable[Result]) -> Iterator[Cause]:
 LONG = 120.0
 """Seconds of a flight after which it is said why missions wait."""
 _NAMED = 3
-"""The most drones that a sentence names."""
 _SHORT = 90.0
 """Seconds: what is expected later is told to the minute."""
 
@@ -274,7 +274,6 @@ class Attention:
         """`now` is in seconds since 1970."""
         self._file, self._now = file, now
         self.rows: VersionedRows[Alert] = VersionedRows()
-        """Them, for pages."""
         self._alerts: dict[str, Alert] = {one["id"]: one for one in _kept(file)}
         self._open = {_key(id): id for id, one in self._alerts.items() if not one["over"]}
         self._told = False
@@ -377,11 +376,5 @@ def _by(name: str | None) -> str:
 def _kept(file: Path) -> list[Alert]:
     """Return the alerts of an earlier station; none if they cannot be read."""
     with suppress(OSError, ValueError):
-        found = json.loads(file.read_text(encoding="utf-8"))
-        if isinstance(found, list) and all(_is_alert(one) for one in found):
-            return cast(list[Alert], found)
+        return msgspec.json.decode(file.read_bytes(), type=list[Alert])
     return []
-
-
-def _is_alert(data: object) -> bool:
-    return isinstance(data, dict) and data.keys() == get_type_hints(Alert).keys()

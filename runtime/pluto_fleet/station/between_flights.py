@@ -32,8 +32,7 @@ from .attention import Cause, of_drones
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..files.drones import DroneEntry
-    from ..files.fleet import FleetFile
+    from ..files.fleet import DroneEntry, FleetFile
     from .config import StationConfig
     from .wire import DroneRow
 

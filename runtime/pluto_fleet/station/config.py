@@ -18,7 +18,7 @@ from .results.meaning import SIMULATED_UNITS, Meanings
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
-    from ..shared.domain.actions import Action, Parameter
+    from ..shared.domain.actions import Action
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .map.drawn import DrawnMap
@@ -43,7 +43,6 @@ class StationConfig:
     fleet: FleetFile
     fleet_text: str | None = None
     fleet_path: Path | None = None
-    """The fleet file, if there is one."""
     sim: bool = True
     crtp_sim: int | None = None
     """The number of simulated Crazyflies that are flown as real ones, or None."""
@@ -52,7 +51,6 @@ class StationConfig:
     speed: float | None = None
     """The speed of time; None: real time, or as before."""
     title: str | None = None
-    """What the station is called instead of its app."""
     logo: Logo | None = None
 
     @property
@@ -130,20 +128,19 @@ def _can(app: App, action: Action) -> bool:
 
 
 def _action(action: Action) -> ActionData:
+    parameters: list[ParameterData] = [
+        {
+            "name": one.name,
+            "type": one.type.value,
+            "units": _units(one.type),
+            "default": one.default,
+        }
+        for one in action.parameters
+    ]
     return {
         "name": action.name,
         "item": action.name in (PICK, RELEASE),
-        "parameters": [_parameter(parameter) for parameter in action.parameters],
-    }
-
-
-def _parameter(parameter: Parameter) -> ParameterData:
-    kind = parameter.type
-    return {
-        "name": parameter.name,
-        "type": kind.value,
-        "units": _units(kind),
-        "default": parameter.default,
+        "parameters": parameters,
     }
 
 
@@ -164,10 +161,7 @@ def _category(category: Category) -> CategoryData:
 def _graph(app: App) -> GraphData | None:
     """Return the graph in the package of an app; one that plutoc has not written has none."""
     file = Path(app.flow.__code__.co_filename).with_name("graph.json")
-    if not file.is_file():
-        return None
-    graph: GraphData = json.loads(file.read_text("utf-8"))
-    return graph
+    return json.loads(file.read_text("utf-8")) if file.is_file() else None
 
 
 def _retries(graph: GraphData | None) -> bool:

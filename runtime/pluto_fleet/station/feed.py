@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
-from ..journal.facts import DRAINED
+from ..journal.facts import DRAINED, SAID
 from ..report.sentences import line_of, sentence_of
 from .results.meaning import Meanings
 from .results.rows import NameOf, ResultRows, nowhere
@@ -112,7 +112,6 @@ class Feed:
         self.drained: deque[tuple[int, Event]] = deque(maxlen=ALERTED)
         """The newest events of broken reserves, numbered from 1."""
         self._reserves = 0
-        """How many reserves were broken."""
         self._fresh: list[str] = []
         """Results of which more is known than pages were told."""
         self._amended: deque[tuple[int, str]] = deque(maxlen=AMENDED_KEPT)
@@ -195,6 +194,9 @@ def kind_of(event: Event) -> LineKind:
     kind = event["event"]
     if kind == "log":
         return "hook"
+    if kind == SAID:
+        said: LineKind = event["kind"]
+        return said
     if kind in _BAD or event.get("status") == "FAILED":
         return "bad"
     return "good" if kind == "mission.ended" and event["status"] == "COMPLETED" else "info"

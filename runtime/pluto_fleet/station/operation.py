@@ -9,7 +9,9 @@ import inspect
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, wraps
+from functools import cached_property, reduce, wraps
+from operator import or_
+from types import UnionType
 from typing import (
     Annotated,
     Any,
@@ -31,7 +33,6 @@ JSON = "application/json"
 SMALL_BODY = 1024 * 1024
 """The most bytes of a body, where an address does not say that it takes more."""
 LARGE_BODY = 20 * 1024 * 1024
-"""The most bytes of a picture."""
 LARGEST = 2**53
 """The largest whole number that is exact in a browser."""
 _DEPTH = 8
@@ -131,19 +132,22 @@ def _plain(depth: int) -> Any:
 
 
 _PLAIN = _plain(_DEPTH)
+_OBJECT: Any = dict[str, _PLAIN]  # type: ignore[valid-type]
 
 
 def _decoded(kind: Any) -> Any:
-    """Return as what a value is decoded: objects as plain data, as what takes them says what is wrong in them."""
+    """Return as what a value is decoded: of objects plain data, as what takes them says what is wrong in them."""
     if kind is int:
         return Whole
-    return _PLAIN if _has_objects(kind) else kind
-
-
-def _has_objects(kind: Any) -> bool:
-    if get_origin(kind) is Literal:
-        return False
-    return is_typeddict(kind) or kind is Any or any(map(_has_objects, get_args(kind)))
+    if kind is Any:
+        return _PLAIN
+    if is_typeddict(kind) or get_origin(kind) is dict:
+        return _OBJECT
+    if get_origin(kind) is list:
+        return list[_decoded(get_args(kind)[0])]  # type: ignore[misc]
+    if isinstance(kind, UnionType):
+        return reduce(or_, map(_decoded, get_args(kind)))
+    return kind
 
 
 _WORDS = {

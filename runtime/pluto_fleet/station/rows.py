@@ -1,22 +1,27 @@
-"""The rows of missions and drones for pages, and the blocks at which a mission waits."""
+"""The rows of missions and drones for pages, the blocks at which a mission waits, and sentences with a key."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..flight.control import ANSWERS, PRIORITY
-from ..flight.mission_status import aside
+from ..flight.control import PRIORITY
+from ..flight.mission_status import ANSWERS, aside
 from ..flight.reconcile import trip_of
 from ..shared.domain.status import Status, TripStatus
 from ..shared.domain.text import cut_off
-from .words import words
 
 if TYPE_CHECKING:
     from ..app import App
     from ..gateway.sightings import Sighting
     from ..journal.standing import Record
-    from .wire import DroneRow, MissionRow, Question, TripRow, Words
+    from .wire import DroneRow, MissionRow, Question, SaidKey, Scalar, TripRow, Words
+
+
+def words(key: SaidKey, text: str, **facts: Scalar | list[str]) -> Words:
+    """Return a sentence by the key of its translations, its facts, and the sentence in English."""
+    return {"key": key, "facts": facts, "text": text}
+
 
 END = "end"
 """The pseudo-block of missions that have ended."""

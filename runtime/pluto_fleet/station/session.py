@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import time
 import traceback
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import closing, suppress
 from enum import Enum
-from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..flight.config import End, FlightSetup, Stops
-from ..flight.lives import FlightObserver, run_flight
-from ..flight.mission_status import in_order, records_in
-from ..gateway.wire import STALE_AFTER
+from ..flight.live_flight import FlightObserver
+from ..flight.lives import run_flight
+from ..flight.mission_status import records_in
 from ..journal.errors import JournalError
 from ..journal.lock import holder
 from ..journal.place import written
@@ -36,21 +34,18 @@ from .attention import (
 )
 from .between_flights import IdleDrones
 from .feed import Feed, VersionedRows
-from .history.folder import recording_of
-from .history.recorder import Recorder
 from .plan.in_flight import settled
 from .plan.shape import BROKEN_OFF
 from .results.meaning import SIMULATED_UNITS
 from .results.rows import NameOf, nowhere
-from .wait_reasons import WaitReasons
+from .sight import Sight
 
 if TYPE_CHECKING:
-    from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
     from ..shared.domain.trace import Event
-    from .wire import DroneRow, LineKind, MissionRow
+    from .wire import Alert, DroneRow, LineKind, MissionRow, State
 
 
 class Phase(Enum):
@@ -65,7 +60,6 @@ class Phase(Enum):
     INTERRUPTED = "interrupted"
     """It has ended unexpectedly: it can be resumed, or discarded."""
     OVER = "over"
-    """Every mission has ended."""
 
 
 def phase_of(session: FlightSession | None) -> Phase:
@@ -110,7 +104,6 @@ class FlightSession:
         self.drones: VersionedRows[DroneRow] = VersionedRows()
         self.stops = Stops()
         self.one: LiveFlight | None = None
-        """The current run."""
         self.records: Standing | None = known
         """The journal's records when it was last read."""
         self.end: End | None = None
@@ -120,13 +113,11 @@ class FlightSession:
         self.task: asyncio.Task[None] | None = None
         self._ended, self._seen, self._heard = ended, seen, heard
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
-        self._waiting = WaitReasons(flight.app, flight.fleet, time.monotonic)
+        self._sight = Sight(flight)
         self._waits = Waits()
         self._left_at = 0.0
-        self.recorder: Recorder | None = None
-        """Records what pages are shown, from its begin on until its end."""
-        self._said = 0
-        """The lines of the console that are in no journal."""
+        self._leaves = False
+        """Whether it has just ended."""
         self._read_at: int | None = None
         """The journal's modification time when it was last read."""
 
@@ -173,39 +164,23 @@ class FlightSession:
         known = self.known.missions if self.known is not None else {}
         return {name: settled(record) for name, record in known.items()}
 
-    def read(self, known: Recovered) -> None:
+    def read(self, records: Standing) -> None:
         """Show the journal of a run that has ended."""
-        self.records = known.records
+        self.records = records
         with closing(Reader(self.flight.journal)) as reader, suppress(JournalError):
             for _, event in reader.events():
                 self.feed.take(event)
 
-    def begin(self, store: Store, known: Recovered | None) -> None:
+    def begin(self, store: Store, records: Standing | None) -> None:
         """Run it, from its beginning or from its records."""
         self.end, self.trouble, self.stops = None, "", Stops()
-        self._record()
-        self.task = asyncio.create_task(self._live(store, known))
+        self.task = asyncio.create_task(self._live(store, records))
         self.task.add_done_callback(lambda _: self._ended())
 
-    def _record(self) -> None:
-        """Begin to record what is shown, or go on with it."""
-        loop = asyncio.get_running_loop()
-
-        def troubled(text: str) -> None:
-            with suppress(RuntimeError):  # the loop is closed: the station has ended
-                loop.call_soon_threadsafe(self.say, text)
-
-        self.recorder = Recorder(
-            recording_of(self.journal),
-            begun_at=round(time.time() * 1000),
-            speed=self.flight.speed,
-            troubled=troubled,
-        )
-
-    async def _live(self, store: Store, known: Recovered | None) -> None:
+    async def _live(self, store: Store, records: Standing | None) -> None:
         observer = FlightObserver(tell=self._hear, say=self.say, born=self._born, patient=True)
         try:
-            lived = await run_flight(self.flight, store, self.stops, known, observer)
+            lived = await run_flight(self.flight, store, self.stops, records, observer)
         except BadInput as error:
             self.trouble = str(error)
         except (asyncio.CancelledError, KeyboardInterrupt, SystemExit):
@@ -219,6 +194,7 @@ class FlightSession:
         finally:
             store.close()
             self._left_at = self.now
+            self._leaves = True
             self.one = None
             if self.trouble:
                 self.say(self.trouble)
@@ -242,10 +218,7 @@ class FlightSession:
 
     def say(self, text: str, kind: LineKind = "bad") -> None:
         """Tell users on the console what they should know of it."""
-        if self.recorder is not None:
-            line = {"time": self.now, "text": text, "kind": kind}
-            self.recorder.tell(line, after=self.feed.log.last - self._said)
-        self._said += 1
+        self._sight.say(self.life, self.now, text, kind)
         self.feed.say(self.now, text, kind)
 
     @property
@@ -283,12 +256,8 @@ class FlightSession:
     def _see_missions(self, number: int) -> bool:
         life, put, changed = self.life, self.missions.put, False
         if life is not None and life.is_set_out:
-            now, app, why = self.now, self.flight.app, self._waiting.why
-            self._waiting.look(life.brain, life.fleet)
-            missions, where = life.records.missions, life.brain.whereabouts()
-            for name, _ in in_order(life.records):
-                row = rows.row_in_flight(name, missions, where, now, app, why)
-                changed |= put(name, row, number)
+            for row in self._sight.missions(life):
+                changed |= put(row["name"], row, number)
         elif self.records is not None:
             for name, record in self.records.missions.items():
                 changed |= put(name, rows.recorded_row(name, record), number)
@@ -297,28 +266,18 @@ class FlightSession:
     def _see_drones(self, number: int) -> bool:
         put, changed = self.drones.put, False
         life = self.life
-        for row in self._idle.rows(self.records) if life is None else self._drones_now(life):
+        for row in self._idle.rows(self.records) if life is None else self._sight.drones(life):
             changed |= put(row["id"], row, number)
         return changed
 
-    def _drones_now(self, life: RecordedFlight) -> Iterator[DroneRow]:
-        where = life.brain.whereabouts()
-        work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
-        for id, drone in life.brain.drones().items():
-            low = self._waiting.why_low(drone)
-            why, status = low or drone["unready"], "LOW" if low else ""
-            silence = life.link.telemetry(id).silence
-            heard = drone if isfinite(silence) else {**drone, "at": None, "battery": None}
-            is_stale = isfinite(silence) and silence > STALE_AFTER
-            yield rows.drone_row(
-                id,
-                heard,
-                status=status,
-                why=why,
-                mission=work.get(id),
-                seen=time.time() - silence if is_stale else None,
-                ready_in=self._waiting.ready_in(id, drone, bool(low)),
-            )
+    def note(self, now: float, state: State, alerts: Iterable[Alert]) -> None:
+        """Have the journal say what is shown."""
+        rows: Any = {"missions": self.missions, "drones": self.drones, "alerts": alerts}
+        if self.life is not None:
+            self._sight.note(self.life, now, state, **rows)
+        elif self._leaves:
+            self._leaves = False
+            self._sight.leave(self.journal, now, state, **rows)
 
     def causes(self) -> Iterator[Cause]:
         """Yield what a person must know of, as the rows are now."""
@@ -330,7 +289,7 @@ class FlightSession:
         yield from of_reserves(self.feed.drained)
         if self.lives:
             yield from of_batteries(drones, self._waits.any)
-            cause = of_waiting(long, drones, self._waiting.takes) if long else None
+            cause = of_waiting(long, drones, self._sight.waiting.takes) if long else None
             if cause is not None:
                 yield cause
 

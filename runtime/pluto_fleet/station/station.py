@@ -31,10 +31,9 @@ from .attention import FILE as ALERTS
 from .attention import Attention
 from .between_flights import FleetHistory, put_away, unfinished_flight
 from .config import described
-from .flight_changes import FlightChanges
-from .map.drawn import DrawnMap
-from .map.ways import DrawnWays
+from .map.drawn import DrawnMap, DrawnWays
 from .plan.kept import PlanLibrary
+from .plan.plan import FlightChanges
 from .plan.problems import broken, promised
 from .preflight.preflight import StartForecasts
 from .results.exports import CurrentFlight, Exports
@@ -45,7 +44,6 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
-    from ..flight.fly import Recovered
     from ..flight.live_flight import LiveFlight
     from ..process.apart import Answers
     from ..shared.domain.model import Mission
@@ -61,9 +59,6 @@ ANSWERS_KEPT = 1_000
 
 GATEWAY_ANSWERS_WITHIN = 5.0
 """The time-out of a gateway without a brain, in seconds."""
-
-RECORDED_WITHIN = 5.0
-"""Seconds that its end waits for a recording to be written."""
 
 LOOK_EVERY = 0.1
 """The polling interval of its end, in seconds."""
@@ -91,11 +86,9 @@ class Station:
         """The fleet, with the drones that have joined it."""
         self.described = described(app, config, self.map, secrets.token_hex(8))
         self.session: FlightSession | None = None
-        """The current or last flight."""
         self.leaves = asyncio.Event()
         """Set when the station is to end and nothing flies any more."""
         self.attention = Attention(config.own_folder / ALERTS, time.time)
-        """What people must know of."""
         self._leaving = False
         self._answers: OrderedDict[str, asyncio.Future[str]] = OrderedDict()
         self._updates = Updates(self)
@@ -104,7 +97,9 @@ class Station:
         self._one_at_a_time = asyncio.Lock()
         self.history = FleetHistory(app, config)
         """The drones' states while there is no flight."""
-        self._forecasts = StartForecasts(app, config, plan, self.history, self._may_start)
+        self._forecasts = StartForecasts(
+            app, config, plan, self.history, lambda: self.fleet, self._may_start
+        )
         self.files = files
         self.exports = Exports(config, files, self._flight_now)
         self._before: Path | None = None
@@ -134,7 +129,7 @@ class Station:
                 self.plan.unlock()
             return
         self.session = self._session_of(taken.flight(self._config.speed))
-        self.session.read(taken.known)
+        self.session.read(taken.records)
         if taken.is_over:
             self.session.end = End.OVER
         taken.store.close()
@@ -322,12 +317,12 @@ class Station:
         taken = reopen(self._app, journal)
         clear_stop(taken.store.path)
         self.session.flight = taken.flight(self._config.speed)
-        self._fly(self.session, taken.store, taken.known)
+        self._fly(self.session, taken.store, taken.records)
         return "going on where it was"
 
-    def _fly(self, session: FlightSession, store: Store, known: Recovered | None) -> None:
-        """Let a flight begin, or go on, and be recorded."""
-        session.begin(store, known)
+    def _fly(self, session: FlightSession, store: Store, records: Standing | None) -> None:
+        """Let a flight begin, or go on, and be watched."""
+        session.begin(store, records)
         self._watching = asyncio.ensure_future(self._updates.watch(session))
 
     async def _discard(self) -> str:
@@ -439,16 +434,11 @@ class Station:
         self._lock_what_flies()
         if self.session is not None and self.session.records is not None:
             self.history.leave(self.session.journal, self.session.records)
-        if self._leaving:
-            self.leaves.set()
-        if self.session is not None:  # at last, so that an error of the display keeps nothing back
-            self._updates.close(self.session)
-
-    async def recorded(self) -> None:
-        """Wait until what was shown of the last flight is recorded, but not for a disk that hangs."""
-        recorder = self.session.recorder if self.session is not None else None
-        if recorder is not None:
-            await asyncio.to_thread(recorder.wait, RECORDED_WITHIN)
+        try:
+            self._updates.close()
+        finally:  # an error of the display keeps nothing back
+            if self._leaving:
+                self.leaves.set()
 
     # What pages show
 

@@ -13,7 +13,6 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Protocol
 
 from .feed import VersionedRows
-from .history.recorder import Sample
 from .session import phase_of
 
 if TYPE_CHECKING:
@@ -94,18 +93,14 @@ class Updates:
         await asyncio.shield(self._tick)
 
     async def watch(self, session: FlightSession) -> None:
-        """Sample a flight until it ends, so that it is recorded, whether or not a page looks."""
+        """Sample a flight until it ends, so that its journal says what was shown, whether or not a page looks."""
         while session.lives:
             await self._next_tick()
             await asyncio.sleep(RECORD_EVERY)
 
-    def close(self, session: FlightSession) -> None:
-        """Sample once more a flight that has ended, and end its recording."""
-        try:
-            self._note_what_is_new()
-        finally:
-            if session.recorder is not None:
-                session.recorder.end()
+    def close(self) -> None:
+        """Sample a flight once more that has just ended."""
+        self._note_what_is_new()
 
     def hurry(self) -> None:
         """Sample soon: there is new telemetry.
@@ -147,16 +142,8 @@ class Updates:
         changed |= self._station.attention.look(flight, causes, version)
         if changed:
             self._version = version
-        if changed and session is not None and session.recorder is not None:
-            session.recorder.show(
-                Sample(
-                    t=self._now,
-                    state={**state, "time": self._now},
-                    missions=[*session.missions],
-                    drones=[*session.drones],
-                    alerts=[*self._station.attention.rows],
-                )
-            )
+        if session is not None and (changed or not session.lives):
+            session.note(self._now, state, self._station.attention.rows)
 
     def _state_at(self, now: float) -> State:
         session, plan = self._station.session, self._station.plan

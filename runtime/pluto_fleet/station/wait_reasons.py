@@ -14,7 +14,7 @@ from ..shared.domain.text import percent
 from ..shared.fleet.reach import LOW, Reach, chain_of, docked, miss_of
 from ..shared.fleet.reach import docked as stands_in_its_dock
 from ..shared.hooks.plain_data import trip_of
-from .words import words
+from .rows import words
 
 if TYPE_CHECKING:
     from ..journal.standing import Record
@@ -89,7 +89,7 @@ class WaitReasons:
 
     def look(self, brain: Brain, fleet: FleetData) -> None:
         """Begin a sample of all missions and drones; drones may have joined the fleet."""
-        self._fleet = fleet
+        self._fleet, self._entries = fleet, {one.id: one for one in fleet.drones}
         now, self._left, self._drones = self._clock(), MISSIONS_A_LOOK, brain.drones()
         self._known = {
             which: (asked, said)

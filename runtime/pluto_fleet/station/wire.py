@@ -349,14 +349,12 @@ class FlightSummary(TypedDict):
     results: int
     drones: list[str]
     lost: list[str]
-    recorded: bool
-    """Whether what the pages showed was recorded, so that the replay is what was seen."""
     said: str
     """What is wrong with its journal; empty: nothing."""
 
 
 class Frame(TypedDict):
-    """What changed on the pages at an instant of a recording; a keyframe has every row."""
+    """What changed on the pages at an instant of a flight; a keyframe has every row."""
 
     t: float
     state: State
@@ -366,16 +364,14 @@ class Frame(TypedDict):
 
 
 class Replay(TypedDict):
-    """A part of a recording, from a keyframe on."""
+    """A part of a replay, from a keyframe on."""
 
     flight: str
     begun_at: int | None
-    recorded: bool
-    """Whether these frames are what was seen; else they are made of the journal's events."""
     said: str
     """What is missing, or not known; empty: nothing."""
     seconds: float
-    """The length of the whole recording."""
+    """The length of the whole replay."""
     frames: list[Frame]
     next: float | None
     """Where the next part begins."""
@@ -535,7 +531,7 @@ class Forecast(TypedDict):
     problems: list[Words]
     """Why a Start would be refused, and which promises cannot be kept."""
     rehearsal: str | None
-    """The id of a recording of the median run, to be replayed."""
+    """The id under which the median run can be replayed."""
 
 
 class Place(TypedDict):

@@ -7,13 +7,12 @@ from collections.abc import Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, fields, replace
 from enum import Enum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..files.fleet import FleetFile
+from ..shared.alone.world import FAULTS, Faults
+from ..shared.domain.model import Mission
 from ..shared.domain.text import number
-
-if TYPE_CHECKING:
-    from ..files.fleet import FleetFile
-    from ..shared.domain.model import Mission
 
 
 class StrikeKind(Enum):
@@ -88,17 +87,9 @@ _BLOW = re.compile(r"([a-z-]+)@([1-9]\d{0,8})(?:\+(\d{1,6}(?:\.\d{1,6})?))?")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Weather:
+class Weather(Faults):
     """Random faults: probabilities from 0 to 1, or seconds, with their names on the command line."""
 
-    crash: float = 0.0
-    """The share of flights that crash."""
-    link: float = 0.0
-    """The share of flights that lose their link."""
-    action: float = 0.0
-    """The share of flights whose action fails."""
-    battery: float = 0.0
-    """The share of flights whose battery is suddenly empty."""
     hook: float = 0.0
     """The share of hook calls that raise an unexpected error."""
     block: float = 0.0
@@ -123,7 +114,7 @@ class BrokenHook(RuntimeError):
 
 FAIR = Weather()
 
-_SHARES = ("crash", "link", "action", "battery", "hook", "block", "late")
+_SHARES = (*FAULTS, "hook", "block", "late")
 _MOST = 3_600.0
 """The largest seconds of all but `jump`: with longer delays an app may rightly fail."""
 _LONGEST_JUMP = 1e10
@@ -231,6 +222,6 @@ WRITTEN: Mapping[str, str] = {
     "clock jump": "--weather jump",
     "hook raising": "--weather hook",
     "hook blocking": "--weather block",
-    **{f"flight: {name}": f"--weather {name}" for name in ("crash", "link", "battery", "action")},
+    **{f"flight: {name}": f"--weather {name}" for name in FAULTS},
 }
 """How what can be asked for is asked for."""

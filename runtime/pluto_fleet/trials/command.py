@@ -2,38 +2,60 @@
 
 from __future__ import annotations
 
+from argparse import ArgumentParser
 from collections.abc import Callable, Iterator, Sequence
 from copy import deepcopy
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 from operator import attrgetter
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ..files.drones import DroneEntry
-from ..files.fleet import FleetFile, default_fleet, load_fleet
-from ..files.fleet_text import fleet_text
+from ..app import App
+from ..arguments import whole_number
+from ..files.fleet import DroneEntry, FleetFile, default_fleet, load_fleet
 from ..files.missions import load_missions
-from ..files.missions_text import missions_text
 from ..files.plan_check import problems
-from ..report.terminal import trial_progress
+from ..files.writing import fleet_text, missions_text
+from ..process.text import in_shell
+from ..report.sentences import line_of
+from ..report.terminal import table, trial_progress
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
-from ..shared.domain.text import counted
+from ..shared.domain.model import Mission
+from ..shared.domain.quantities import typed
+from ..shared.domain.text import counted, printable
 from ..shared.domain.trace import dumped
 from ..shared.fleet.reach import idle_actions
-from .case import FAIR, Case
-from .explore import Finding, Tally, everywhere, explored, random_case, small_case
+from .case import (
+    ENDS,
+    FAIR,
+    WORDS,
+    WRITTEN,
+    Case,
+    Strike,
+    Weather,
+    strikes_of,
+    strikes_text,
+    weather_of,
+    weather_text,
+)
+from .explore import (
+    Finding,
+    MistakeKinds,
+    Tally,
+    everywhere,
+    explored,
+    first_the_same,
+    random_case,
+    shows_the_same,
+    shrunk,
+    small_case,
+)
 from .lives import tried
-from .options import Options, parse
-from .report import findings_data, repeated, report, shown_again
-from .shrink import first_the_same, shows_the_same, shrunk
-
-if TYPE_CHECKING:
-    from ..app import App
-    from ..shared.domain.model import Mission
+from .record import TrialResult
 
 FOUND, BAD_INPUT = 1, 2
 
@@ -199,9 +221,216 @@ def _missions(app: App, fleet: FleetFile, options: Options) -> list[Mission[Any]
     if found:
         raise BadInput("\n".join(f"{options.missions}: {sentence}" for sentence in found))
     missions = deepcopy(missions)
-    for field in app.fields:
-        if field.on is Entity.MISSION and field.type is FieldType.ROUNDS:
+    for one in app.fields:
+        if one.on is Entity.MISSION and one.type is FieldType.ROUNDS:
             for mission in missions:
-                if getattr(mission, field.name) is True:
-                    setattr(mission, field.name, 1)
+                if getattr(mission, one.name) is True:
+                    setattr(mission, one.name, 1)
     return missions
+
+
+SEEDS = 100
+
+
+@dataclass
+class Options:
+    """The parsed options. No slots: argparse sets further attributes."""
+
+    file: Path = field(default_factory=Path)
+    """The app's file, as given."""
+    missions: Path | None = None
+    fleet: Path | None = None
+    seeds: int = SEEDS
+    seed: int = 0
+    strike: tuple[Strike, ...] | None = None
+    weather: Weather | None = None
+    json: bool = False
+
+    @property
+    def single(self) -> bool:
+        """Whether a single case is to be repeated."""
+        return self.strike is not None or self.weather is not None
+
+
+_USAGE = """plutoc test [-h] [--seeds N] [--seed N] [--missions M.toml]
+                   [--fleet F.toml] [--strike WHAT@ROW,…]
+                   [--weather WHAT=HOW,…] [--json]
+                   FILE"""
+"""The usage of `plutoc test`, which is what the user has typed."""
+
+
+def parse(argv: Sequence[str]) -> Options:
+    """Read the command line; raise SystemExit, as argparse does, after an error."""
+    parser = ArgumentParser(prog="plutoc test", usage=_USAGE, allow_abbrev=False)
+    parser.add_argument("--file", type=Path)
+    parser.add_argument("--seeds", type=whole_number(1))
+    parser.add_argument("--seed", type=whole_number())
+    parser.add_argument("--missions", type=Path)
+    parser.add_argument("--fleet", type=Path)
+    parser.add_argument("--strike", type=typed(strikes_of))
+    parser.add_argument("--weather", type=typed(weather_of))
+    parser.add_argument("--json", action="store_true")
+    return parser.parse_args(argv, namespace=Options())
+
+
+_MOST_EVENTS = 200
+_WAS_INTERRUPTED = "It was interrupted before that was made smaller."
+_VANISHED = (
+    "It could not be made smaller: flown once more by itself, the case did not show it. What your own"
+    " code does must hang on something else, such as a clock, chance, or what an earlier run has left"
+    " behind."
+)
+
+
+def report(
+    app: App, options: Options, tally: Tally, smallest: Finding | None, *, interrupted: bool = False
+) -> Iterator[str]:
+    """Yield the lines for a person."""
+    struck = [what for what in WORDS if tally.fired[what]]
+    yield from table(
+        ("what went wrong on purpose", "times", "written"),
+        [(WORDS[what], str(tally.fired[what]), WRITTEN.get(what, "")) for what in struck],
+        right=(1,),
+    )
+    never = [words for what, words in WORDS.items() if not tally.fired[what]]
+    if never and not tally.findings and not interrupted:  # else it ended too soon for most
+        few = " or of more seeds" if options.seeds < SEEDS else ""
+        yield f"Never happened, for want of an occasion{few}: {'; '.join(never)}."
+    yield ""
+    yield from _outcomes(tally)
+    if not tally.findings:
+        yield "No run did what no run may do" + (
+            " until it was interrupted." if interrupted else "."
+        )
+        return
+    first = tally.findings[0]
+    found = counted(len(tally.findings), "run")
+    yield f"Something is wrong, in {found}. What was found first:"
+    yield ""
+    yield from _said(first)
+    yield ""
+    vanished = smallest is None and not interrupted
+    yield "It was found in this case:" if vanished else "See it again:"
+    yield "  " + _again(options, first)
+    yield from _others(tally.findings)
+    yield ""
+    if smallest is None:
+        yield _VANISHED if vanished else _WAS_INTERRUPTED
+        return
+    yield "The smallest case that shows the same:"
+    yield ""
+    yield from smallest_case(app, options, smallest)
+
+
+def _outcomes(tally: Tally) -> Iterator[str]:
+    runs, missions = counted(tally.runs, "run"), counted(tally.missions.total(), "mission")
+    again = tally.lives - tally.runs
+    yield f"{runs}, in which the app was started anew {counted(again, 'time')} after it had died or was stopped."
+    ends = [
+        f"{count} {words if count > 1 else words.replace('were ', 'was ')}"
+        for end, words in ENDS.items()
+        if (count := tally.missions[end])
+    ]
+    yield f"{missions} ended: {', '.join(ends) or 'none'}."
+
+
+def _said(finding: Finding) -> Iterator[str]:
+    return (f"  {printable(sentence)}" for sentence in finding.sentences)
+
+
+def _others(findings: Sequence[Finding]) -> Iterator[str]:
+    """Yield the other findings, each once."""
+    alike = MistakeKinds(findings[0].case)
+    known = {alike.kind(sentence) for sentence in findings[0].sentences}
+    new: list[str] = []
+    for finding in findings[1:]:
+        alike = MistakeKinds(finding.case)
+        for sentence in finding.sentences:
+            if alike.kind(sentence) not in known:
+                known.add(alike.kind(sentence))
+                new.append(f"  {printable(sentence)} (seed {finding.case.seed})")
+    if new:
+        yield ""
+        yield "Found later, and not looked into:"
+        yield from new
+
+
+def smallest_case(app: App, options: Options, finding: Finding) -> Iterator[str]:
+    """Yield the violation, the case's files, and the command that repeats it."""
+    case = finding.case
+    yield from _said(finding)
+    yield ""
+    yield "# failing.toml"
+    yield from missions_text(app, case.missions).rstrip().split("\n")
+    yield ""
+    yield "# failing-fleet.toml"
+    yield from fleet_text(case.fleet).rstrip().split("\n")
+    yield ""
+    yield "Save that, and see it again:"
+    small = replace(options, missions=Path("failing.toml"), fleet=Path("failing-fleet.toml"))
+    yield "  " + _again(small, finding)
+
+
+def _again(options: Options, finding: Finding) -> str:
+    """Return the command that repeats a case, with its files."""
+    words = repeated(finding.case, options.missions, options.fleet)
+    return " ".join(map(in_shell, ["plutoc", "test", options.file, *words]))
+
+
+def repeated(case: Case, missions: Path | None, fleet: Path | None) -> list[str]:
+    """Return the arguments that repeat a case."""
+    words: list[str] = []
+    for flag, path in (("--missions", missions), ("--fleet", fleet)):
+        words += [] if path is None else [flag, str(path)]
+    words += ["--seed", str(case.seed)]
+    weather = weather_text(case.weather)
+    if case.strikes or not weather:
+        words += ["--strike", strikes_text(case.strikes) or "-"]
+    if weather:
+        words += ["--weather", weather]
+    return words
+
+
+def shown_again(trial: TrialResult) -> Iterator[str]:
+    """Yield the events of a case, and its violations."""
+    lines = [line for event in trial.events if (line := line_of(event)) is not None]
+    yield from lines[-_MOST_EVENTS:]
+    yield ""
+    for sentence in trial.wrong:
+        yield printable(sentence)
+    if not trial.wrong:
+        yield "This run did nothing that no run may do."
+
+
+def findings_data(app: App, tally: Tally, smallest: Finding | None) -> dict[str, object]:
+    """Return the object that `--json` prints."""
+    return {
+        "app": app.name,
+        "runs": tally.runs,
+        "lives": tally.lives,
+        "rows": tally.rows,
+        "missions": dict(sorted(tally.missions.items())),
+        "struck": dict(sorted(tally.fired.items())),
+        "findings": [
+            {
+                "seed": finding.case.seed,
+                "what": list(finding.sentences),
+                "strike": strikes_text(finding.case.strikes),
+                "weather": weather_text(finding.case.weather),
+            }
+            for finding in tally.findings
+        ],
+        "smallest": None if smallest is None else _data(app, smallest),
+    }
+
+
+def _data(app: App, finding: Finding) -> dict[str, object]:
+    case = finding.case
+    return {
+        "what": list(finding.sentences),
+        "seed": case.seed,
+        "strike": strikes_text(case.strikes),
+        "weather": weather_text(case.weather),
+        "missions": missions_text(app, case.missions),
+        "fleet": fleet_text(case.fleet),
+    }

@@ -5,24 +5,18 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ..app import App
 from ..flight.offline import decided
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
-from .case import BrokenHook
-from .invariants import ENDS, Invariants, items_of
-from .rules import at
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from ..app import App
-    from ..shared.domain.trace import Event
-    from .case import Case
+from ..shared.domain.trace import Event
+from .case import BrokenHook, Case
+from .invariants import ENDS, Invariants, at, items_of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -113,70 +107,47 @@ TripPlace = tuple[object, object, object]
 """Mission, trip, round."""
 
 
-@dataclass(frozen=True, slots=True)
-class MissionMemory:
-    """The durable state of one mission."""
-
-    round: int
-    attempts: int
-    completed: tuple[str, ...]
-    fields: tuple[object, ...]
-    trips: dict[str, tuple[object, ...]]
-    """By name: the attempt, and the trip's fields."""
+Memory = Mapping[str, Any]
+"""What an app must still know of a mission when it goes on, by what that is called."""
 
 
-def memory_of(record: Record) -> MissionMemory:
-    """Return the state of a mission, by its record."""
-    return MissionMemory(
-        record["round"],
-        record["attempts"],
-        tuple(trip["name"] for trip in record["done"]),
-        _fields(record),
-        {
-            trip["name"]: (trip.get("attempt", 1), *_fields(trip))
-            for trip in (*record["todo"], *record["done"])
+def memory_of(record: Record) -> Memory:
+    """Return what is to be known of a mission, by its record."""
+    trips = [*record["todo"], *record["done"]]
+    return {
+        "its round": record["round"],
+        "its fields": dict(record.get("fields", {})),
+        **{
+            f"trip {one['name']}": (one.get("attempt", 1), dict(one.get("fields", {})))
+            for one in trips
         },
-    )
+        _FLIGHTS: record["attempts"],
+        _DONE: frozenset(trip["name"] for trip in record["done"]),
+    }
 
 
-def forgotten(
-    name: str, before: MissionMemory, after: MissionMemory, since: Sequence[Event]
-) -> Iterable[str]:
+_FLIGHTS, _DONE = "flights", "completed trips"
+
+
+def forgotten(name: str, before: Memory, after: Memory, since: Sequence[Event]) -> Iterator[str]:
     """Yield what an app has not restored of a mission, apart from changes since."""
-    launched = sum(event["event"] == "trip.launched" for event in since)
-    if any(event["event"] in _CHANGES for event in since):
+    happened = Counter(event["event"] for event in since)
+    if not happened.keys().isdisjoint(_CHANGES):
         return
-    if before.round != after.round:
-        yield f"{name} was in round {before.round}, and went on in round {after.round}"
-    flown = before.attempts + launched
-    interrupted = sum(event["event"] == "trip.interrupted" for event in since)
-    if not flown - interrupted <= after.attempts <= flown:
-        yield f"{name} had had {before.attempts} flights, and went on with {after.attempts - launched}"
-    if before.fields != after.fields:
-        yield f"{name} had {_shown(before.fields)}, and went on with {_shown(after.fields)}"
-    for trip in before.completed:
-        if trip not in after.completed:
-            yield f"{trip} of {name} was completed, and is to be flown again"
-    for trip, facts in before.trips.items():
-        found = after.trips.get(trip)
-        if found is None:
-            yield f"{trip} of {name} was forgotten"
-        elif found != facts:
-            yield f"{trip} of {name} had {_shown(facts)}, and went on with {_shown(found)}"
+    most = before[_FLIGHTS] + happened["trip.launched"]
+    if not most - happened["trip.interrupted"] <= after[_FLIGHTS] <= most:
+        yield f"{name} had had {before[_FLIGHTS]} flights, and went on with {after[_FLIGHTS]}"
+    for trip in sorted(before[_DONE] - after[_DONE]):
+        yield f"{trip} of {name} was completed, and is to be flown again"
+    for what in before.keys() - {_FLIGHTS, _DONE}:
+        if before[what] != after.get(what):
+            yield f"{what} of {name} was {before[what]}, and went on with {after.get(what)}"
 
 
 _CHANGES = (
     *("trip.reset", "trip.skipped", "mission.repeated", "mission.extended", "mission.changed"),
     "mission.replanned",
 )
-
-
-def _fields(of: Record) -> tuple[object, ...]:
-    return tuple(sorted(of.get("fields", {}).items()))
-
-
-def _shown(facts: Sequence[object]) -> str:
-    return ", ".join(map(repr, facts))
 
 
 _IN_A_HOOK = re.compile(
@@ -231,7 +202,7 @@ class TrialRecord:
         self.events: list[Event] = []
         self.ends: dict[str, str] = {}
         """By mission, its final status."""
-        self.known: dict[str, MissionMemory] = {}
+        self.known: dict[str, Memory] = {}
         """By mission, what the next run must restore."""
         self.delays = 0.0
         """The total seconds of delays."""

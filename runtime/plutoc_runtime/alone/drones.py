@@ -23,7 +23,7 @@ from .world import BEFALL, CARRYING_HOME, OUTAGE, Faults, World, draw
 if TYPE_CHECKING:
     from ..domain.actions import Plain
     from ..domain.app import App
-    from ..domain.fleet_data import DroneData, FleetData
+    from ..domain.fleet_data import FleetData
     from ..domain.model import Category, Item, Point
     from ..domain.trace import Clock
 
@@ -37,10 +37,12 @@ MOMENT = 0.001
 class Body(KnownState):
     """One drone, initially in its dock. The caller waits, until when it says."""
 
-    def __init__(self, drone: DroneData, category: Category, world: World, clock: Clock) -> None:
-        super().__init__(clock, drone.home, varied(category.motion, world.seed))
-        self.id = drone.id
-        self.home = drone.home
+    def __init__(
+        self, id: str, home: Point, category: Category, world: World, clock: Clock
+    ) -> None:
+        super().__init__(clock, home, varied(category.motion, world.seed))
+        self.id = id
+        self.home = home
         self.category = category
         self.world = world
         self.down: FlightFailed | None = None  # why it takes no commands, if it takes none
@@ -49,13 +51,13 @@ class Body(KnownState):
         self.settings = dict[str, float]()  # what an action of the app's own has written
         self.due = inf  # when the next thing happens by itself
         self._what: Failure | None = None  # that thing; None: it has landed
-        self._flight = f"{world.seed}/{drone.id}"  # what chance is drawn by, with where a leg ends
+        self._flight = f"{world.seed}/{id}"  # what chance is drawn by, with where a leg ends
         self._drawn: Mapping[Failure, float] = {}
         self._began = 0.0
         self._flown = 0.0
         self._cut_at = -inf
         """When it was told to hover while it was on its way, the last time."""
-        self.stand(drone.home, 1.0)
+        self.stand(home, 1.0)
 
     def stand(self, at: Point, level: float) -> None:
         """Stand there with this charge, before it has flown."""
@@ -248,7 +250,10 @@ class IdealDrones:
         self._told: list[dict[str, Any]] = []
         self.world = world = World(seed, fleet.airspace, fleet.world)
         kinds = {category.name: category for category in app.categories}
-        self.drones = {one.id: Body(one, kinds[one.category], world, clock) for one in fleet.drones}
+        self.drones = {
+            one.id: Body(one.id, one.home, kinds[one.category], world, clock)
+            for one in fleet.drones
+        }
         self._works: dict[str, tuple[int, Work]] = {}  # the order of each drone, carried out
         self._wakes = dict.fromkeys(self.drones, inf)  # until when that waits
         self._seen = 0.0  # when it was looked last at what moves

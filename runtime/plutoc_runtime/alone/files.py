@@ -36,6 +36,7 @@ LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[area
 MISSIONS = ("mission",)
 FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "world")
 """What stands in the two files."""
+REAL: Keys = dict.fromkeys(("apart", "silence", "navigation", "localization"))  # of [fleet]
 T = TypeVar("T", bound=Table)
 HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 
@@ -185,15 +186,14 @@ def read_map(table: Table) -> Airspace | None:
     return Airspace(**given) if len(table.problems) == before else None
 
 
-def read_behaviour(table: Table) -> dict[str, Any]:
-    """Return what `[fleet]` says, without what only real flights need."""
+def read_behaviour(table: Table, real: Keys = REAL) -> dict[str, Any]:
+    """Return what `[fleet]` says; `real` reads what only real flights need."""
     keys: Keys = {
         "after_trip": values.after_trip,
         "max_airborne": values.count,
         "charges_at_home": values.boolean,
     }
-    real = ("apart", "silence", "navigation", "localization")
-    return table.read({}, {**keys, **dict.fromkeys(real)})
+    return table.read({}, {**keys, **real})
 
 
 def read_motion(top: Table) -> Motion:

@@ -91,6 +91,7 @@ class Events(Part):
         """By the names of their events, and of their blocks."""
         for creator in creators:
             self._creators.setdefault(creator.event, {})[creator.block] = creator
+            engine.entries.append(creator.block)
         self.happenings: dict[str, Happening] = {}
         """By their ids."""
         self._changed: dict[str, None] = {}
@@ -100,6 +101,7 @@ class Events(Part):
         """By the names of events, the flights that they break off."""
         self.commands = {"raise": self._raise}
         self._core.trace.listen(self._hear)
+        self._core.transitions.noted = True
         self._core.context = partial(Context, self)
         self._core.queue.entered = self.release
 
@@ -277,7 +279,7 @@ class Events(Part):
         else:
             happening.made.append(mission.name)
             self._note("event.over", {"id": event.id, "made": mission.name})
-            self._engine.start([mission], at=creator.block)
+            self._engine.begin([mission], at=creator.block)
         self._engine.expect_no_more()
 
     async def _mission_of(self, creator: Creator, event: Event) -> Mission[Any] | None:

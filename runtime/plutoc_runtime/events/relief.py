@@ -88,8 +88,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     """Fly a drone to where another is, and have it take over; return whether it has."""
     core = state.core
     core.fleet.engage(drone)
-    core.transitions.note("trip.relieving", state.mission, trip=flight.trip.name, drone=drone.id)
-    core.transitions.set_out(drone)
+    core.transitions.relieve(state.mission, flight.trip, drone)
     going: Future[object] | None = None
     number = 0
     goal = drone.location

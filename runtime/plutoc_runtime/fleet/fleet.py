@@ -104,12 +104,14 @@ class Fleet:
 
     def dismiss(self, drone: Drone) -> None:
         """Take a drone back whose trip has ended well."""
-        may_stay = self._after_trip is AfterTrip.STAY or self._is_docked(drone)
-        has_enough = drone.battery_level > drone.category.reserve
         if drone in self.retired:
             if not self._settle_here(drone):
                 self.send_home(drone)
-        elif drone.telemetry.landed and may_stay and has_enough:
+        elif (
+            drone.telemetry.landed
+            and drone.battery_level > drone.category.reserve
+            and (self._after_trip is AfterTrip.STAY or docked(drone.location, drone.home))
+        ):
             self.become(drone, _FREE)
         elif self._after_trip is AfterTrip.HOME or self.is_low(drone):
             self.send_home(drone)
@@ -128,11 +130,6 @@ class Fleet:
     def never_flew(self, drone: Drone) -> None:
         """Take a drone back that was allocated and not launched."""
         self.send(drone, DroneStatus.BUSY, self._stay, "is not needed")
-
-    async def all_down(self) -> None:
-        """Wait until no drone is returning, landing or recovering."""
-        while under_way := [task for task in self.errands.values() if not task.is_set]:
-            await under_way[0].ended()
 
     def send(self, drone: Drone, status: DroneStatus, errand: Errand, what: str) -> None:
         self.engage(drone)

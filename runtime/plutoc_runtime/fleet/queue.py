@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 UNCHARGED = "what is left in its battery is too little, and nothing charges it at home"
 _FREE = DroneStatus.FREE
 _SERVE = EventKind.SERVE
-_MANY = 30  # for more requests it is not worth while to find out for which a drone suffices
 _by_rank = attrgetter("rank")
 
 
@@ -62,11 +61,15 @@ class Request(Future["Drone"]):
     def able(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip now."""
         telemetry = drone.telemetry
-        return telemetry.battery_level >= self.level(drone, telemetry.location)
+        level = telemetry.battery_level
+        here = telemetry.location
+        if here == drone.home and level >= self.takes(drone.category)[2]:
+            return True
+        return level >= self.level(drone, here)
 
     def ever(self, drone: Drone) -> bool:
         """Return whether a drone can fly the trip from its home with a full battery."""
-        return self.level(drone, drone.home) < inf
+        return self.takes(drone.category)[2] <= 1.0 or self.level(drone, drone.home) < inf
 
     def never(self, drone: Drone) -> str | None:
         """Return why a drone cannot fly the trip even with all that its battery will have; None: it can."""
@@ -93,7 +96,7 @@ class Request(Future["Drone"]):
 
     def at_least(self, drone: Drone, here: Point) -> float:
         """Return a lower bound of the level that a drone needs from here: the straight way there and home."""
-        upright, a_metre = self._bounds.get(drone.category) or self.takes(drone.category)
+        upright, a_metre, _ = self._bounds.get(drone.category) or self.takes(drone.category)
         x, y, _ = self.goal
         from_x, from_y, height = here
         home_x, home_y, _ = drone.home
@@ -145,15 +148,6 @@ class Needs:
             else:
                 heapreplace(heap, (request.level(self._drone, self.place), number, True, request))
         return inf
-
-    def up_to(self, level: float, most: int) -> list[Request]:
-        """Return the requests that need no more than a level; of many, one more than `most`."""
-        found = list[tuple[float, int, bool, Request]]()
-        while len(found) <= most and self.least(level) < inf:
-            found.append(heappop(self._heap))
-        for entry in found:
-            heappush(self._heap, entry)
-        return [request for *_, request in found]
 
 
 class Queue:
@@ -278,23 +272,29 @@ class Queue:
         self._fresh.clear()
 
     def _share_out(self) -> None:
-        """Ask for each request which drone it gets; after one in vain, for those that a ready drone could fly."""
+        """Ask for each request which drone it gets, until no drone that is left suffices for any."""
         place = len(self.requests)
         before = inf
-        while place and len(self.ready) < before:
+        while place and self.ready and self.room:
+            if len(self.ready) == before and not self._is_suited(self.requests[place - 1]):
+                place -= 1
+                continue
             before = len(self.ready)
             place = self._ask(place - 1)
-        if place and self.ready:
-            below: tuple[float, int] = self.requests[place - 1].rank
-            for request in self._suited():
-                if request.rank <= below:
-                    place = self._ask(self._place(request))
-                    below = self.requests[place - 1].rank if place else (-inf, 0)
+            if len(self.ready) == before and not any(map(self._suffices, self.ready)):
+                return
+
+    def _suffices(self, drone: Drone) -> bool:
+        return self._needs_of(drone).least(drone.battery_level) < inf
+
+    def _is_suited(self, request: Request) -> bool:
+        return any(
+            drone.battery_level >= request.at_least(drone, drone.location) and request.able(drone)
+            for drone in self.ready
+        )
 
     def _ask(self, place: int) -> int:
         """Ask which drone the request at this place gets; return the least place that this was asked for."""
-        if not self.ready or not self.room:
-            return place
         request = self.requests[place]
         share = getattr(request.policy, "share", None)
         if share is not None:
@@ -306,14 +306,6 @@ class Queue:
         else:
             self.give(place, choice)
         return place
-
-    def _suited(self) -> list[Request]:
-        """Return the requests that a ready drone could fly, in their order; where many could, all."""
-        suited = set[Request]()
-        for drone in self.ready:
-            some = self._needs_of(drone).up_to(drone.battery_level, _MANY)
-            suited.update(some if len(some) <= _MANY else self.requests)
-        return sorted(suited, key=_by_rank, reverse=True)
 
     def give(self, place: int, choice: Choice | None) -> None:
         """Give the request at this place a drone, if one was chosen."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import IntEnum
 from functools import lru_cache
-from math import dist, inf
+from math import dist, hypot, inf
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..domain.actions import BUILT_IN, PICK, RELEASE
@@ -235,18 +235,26 @@ def reckoned(app: App, missions: Sequence[Mission[Any]]) -> list[str]:
     ]
 
 
-Bounds = tuple[float, float]
-"""The least level beside the way, and for each metre of it."""
+Bounds = tuple[float, float, float]
+"""The least level beside the way, and for each metre of it; and what is enough for a drone that stands at home,
+wherever on the map that is: infinite where a route must be searched to tell."""
 _FAR = 1e6  # metres of a long leg: a metre of a short one takes no less
+_BEYOND = 0.01  # metres beyond an edge of the map that do not count
 _LESS = 1 - 1e-9  # sums of floats are not exact, and bounds must be true
+_MORE = 1 + 1e-8
 
 
 class Reach:
     """The battery that trips take of drones: exactly, by a search for a route, and at least."""
 
-    def __init__(self, app: App, airspace: Airspace) -> None:
+    def __init__(self, app: App, airspace: Airspace, homes: Sequence[Point] = ()) -> None:
+        """`homes`: where drones stand at first."""
         self.app = app
         self.airspace = airspace
+        docks = [(x, y, -z) for x, y, z in homes]  # on the ground, where heights have no sign
+        ends = [(0.0, 0.0, airspace.cruise_height), *docks]
+        self._is_open = not airspace.no_fly and not any(map(airspace.problem, ends))
+        """Whether nothing is in the way from any dock to any place on the map."""
         self._bounds = lru_cache(1_000)(self._bounds_of)  # plans repeat their targets
 
     def level(self, category: Category, home: Point, here: Point, trips: Sequence[Trip]) -> float:
@@ -258,15 +266,26 @@ class Reach:
         return needed(category, self.airspace, here, stops, home) + category.reserve
 
     def takes(self, category: Category, trip: Trip) -> Bounds:
-        """Return what a trip takes of a battery at least."""
+        """Return what a trip takes of a battery at least, and what is enough."""
         seconds = self.app.actions[trip.action].lasts(trip.parameters)
-        return self._bounds(category, seconds, trip.target[2])
+        is_straight = trip.source is None and trip.item is None and category.can(trip.action)
+        return self._bounds(category, seconds, trip.target, is_straight)
 
-    def _bounds_of(self, category: Category, seconds: float, height: float) -> Bounds:
+    def _bounds_of(
+        self, category: Category, seconds: float, target: Point, is_straight: bool
+    ) -> Bounds:
+        space = self.airspace
+        height = target[2]
         motion = category.motion
         speed = category.speed
-        upright = motion.rises(self.airspace.cruise_height, speed) + motion.lands(height, speed)
+        upright = motion.rises(space.cruise_height, speed) + motion.lands(height, speed)
         upright += 2 * motion.settles + seconds
         a_metre = motion.leg(_FAR, speed) / _FAR
         share = 1.0 / category.endurance
-        return category.reserve + share * upright * _LESS, share * a_metre * _LESS
+        least = category.reserve + share * upright * _LESS
+        way = share * a_metre * _LESS
+        enough = inf
+        if is_straight and self._is_open and not space.problem(target):
+            slack = a_metre * abs(height - space.cruise_height) + 2 * motion.shortness(speed)
+            enough = (least + 2 * (hypot(*space.size) + _BEYOND) * way) * _MORE + share * slack
+        return least, way, enough

@@ -89,14 +89,12 @@ class Charge:
 class KnownState:
     """The state of one drone, as it was told last: the drone's `Telemetry`."""
 
-    __slots__ = ("_charge", "_clock", "_landed", "_legs", "_motion")
-
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
+        self.motion = motion
+        self._landed = True
         self._clock = clock
-        self._motion = motion
         self._legs = [resting(home, 0.0)]
         self._charge = Charge(0.0, 0.0)
-        self._landed = True
 
     @property
     def location(self) -> Point:
@@ -112,11 +110,6 @@ class KnownState:
         return charge.at(self._clock.now) if charge.rate else charge.level
 
     @property
-    def motion(self) -> Motion:
-        """How it moves."""
-        return self._motion
-
-    @property
     def landed(self) -> bool:
         """Whether it stands on the ground."""
         return self._landed
@@ -125,7 +118,7 @@ class KnownState:
         """Take over a message about it; what the message does not say stays as it was."""
         now = self._clock.now
         if legs := told.get("legs"):
-            smooth = self._motion.smooth
+            smooth = self.motion.smooth
             self._legs = [
                 Leg((ax, ay, az), (bx, by, bz), leaves, arrives, smooth)
                 for (ax, ay, az), (bx, by, bz), leaves, arrives in legs
@@ -135,7 +128,7 @@ class KnownState:
             self._legs = [resting((x, y, z), now)]
         match told.get("battery"):
             case [level, since, rate]:
-                self._charge = Charge(level, since, rate, self._motion.taper)
+                self._charge = Charge(level, since, rate, self.motion.taper)
             case float(level) | int(level):
                 self._charge = Charge(level, now)
         self._landed = told.get("landed", self._landed)

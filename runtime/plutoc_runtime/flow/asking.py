@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import takewhile
 from operator import is_
 from typing import TYPE_CHECKING, Any
 
@@ -89,7 +91,7 @@ def take_over(state: MissionState, hook: Hook) -> None:
         if trip in changed:
             core.changes.trip(mission, trip)
     core.changes.mission(mission.name)
-    if core.trace.live and (changed or trips != before):
+    if changed or trips != before:
         _note_change(core, mission, changed)
     before[:] = trips
 
@@ -131,14 +133,8 @@ def _note_change(core: Core, mission: Mission[Any], changed: set[Any]) -> None:
     app = core.app
     old = trips_of(mission)
     new = mission.trips
-    least = min(len(old), len(new))
-    first = last = 0
-    while first < least and old[first] is new[first] and old[first] not in changed:
-        first += 1
-    while (
-        last < least - first and old[-1 - last] is new[-1 - last] and old[-1 - last] not in changed
-    ):
-        last += 1
+    first = _alike(old, new, changed)
+    last = _alike(old[first:][::-1], new[first:][::-1], changed)
     core.trace.note(
         "mission.changed",
         mission=mission.name,
@@ -148,3 +144,10 @@ def _note_change(core: Core, mission: Mission[Any], changed: set[Any]) -> None:
         done=[trip_data(app, trip) for trip in mission.completed_trips if trip in changed],
         fields=fields_of(app, Entity.MISSION, mission),
     )
+
+
+def _alike(old: Sequence[Trip], new: Sequence[Trip], changed: set[Any]) -> int:
+    """Return with how many trips that have not changed both lists begin."""
+    both = zip(old, new, strict=False)
+    alike = takewhile(lambda pair: pair[0] is pair[1] and pair[0] not in changed, both)
+    return sum(1 for _ in alike)

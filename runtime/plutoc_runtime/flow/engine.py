@@ -13,14 +13,14 @@ from ..domain.status import FAILED, RUNNING, STANDBY, UNEXECUTED, Status
 from ..domain.text import said
 from ..fleet.orders import failure_of
 from ..hooks.plain_data import value_of
-from ..time.kernel import FLEET, Future, Task
 from .mission import Core, MissionState
 from .promises import Promises
-from .record import Record, restore_drone, restore_results, restored
+from .record import Record, mission_of, restore_drone, restore_results, restored
 from .run import Run
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
+    from ..time.kernel import Task
     from .flight import Flight
 
 
@@ -34,57 +34,45 @@ class Engine:
         self._fields = {(kinds[field.on], field.name): field for field in core.app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
+        self.entries = [*core.app.resumes]
+        """The blocks at which missions can enter the graph."""
         self._expected = 0  # what may begin more of them
-        self.whole: Task[float] | None = None
-        """Waits for the end of all; gives when the last mission has ended."""
-        self.done: Future[None] = Future()  # set when the last mission has ended, or was suspended
+        self.ended_at: float | None = None
+        """When the last mission on its way ended, or was suspended; None: not yet."""
 
     @property
     def living(self) -> int:
         """How many missions are on their way through their graphs, and not waiting for others."""
         return self._begun - len(self.promises.waiting)
 
-    def start(self, missions: Sequence[Mission[Any]], at: str | None = None) -> None:
-        """Start the missions, all at the same instant; `at` is the block where they enter the graph."""
-        states = [self.new_state(mission) for mission in missions]
-        for state in states:
+    def start(self, missions: Sequence[Record]) -> None:
+        """Start missions, given as data, all at the same instant."""
+        index = len(self.states)
+        self.begin([mission_of(self.core.app, data, index + i) for i, data in enumerate(missions)])
+
+    def begin(self, missions: Sequence[Mission[Any]], at: str | None = None) -> None:
+        """Begin new missions; `at` is the block where they enter the graph."""
+        for state in [self.new_state(mission) for mission in missions]:
             state.at = at
             self.states[state.mission.name] = state
             if state.mission.promises:
                 self.promises.start(state.mission)
             self.enter(state, UNEXECUTED)
-        self.look_after_the_end()
 
     def expect(self) -> None:
         """Note that something, such as an event, may yet begin a mission: this is not the end."""
-        if self.done.is_set:
-            self.done = Future()
         self._expected += 1
-        self.look_after_the_end()
+        self.ended_at = None
 
     def expect_no_more(self) -> None:
         """Note that what was expected is there, or will not come."""
         self._expected -= 1
         self.look_for_the_end()
 
-    def look_after_the_end(self) -> None:
-        """Have somebody wait for the end of all, unless somebody does."""
-        if self.whole is None or self.whole.is_set:
-            self.whole = self.core.kernel.spawn(self._see_through(), FLEET, "the whole")
-
-    async def _see_through(self) -> float:
-        """Wait until every mission has ended and every drone has landed; return when the last one ended."""
-        while True:
-            await self.done
-            ended = self.core.kernel.now
-            await self.core.fleet.all_down()
-            if self.done.is_set:  # no mission has been resumed meanwhile
-                return ended
-
     def new_state(self, mission: Mission[Any]) -> MissionState:
         """Return the initial state of a mission."""
         self.keep(mission, trips_of(mission))
-        return MissionState(self.core, mission, self._doomed)
+        return MissionState(self.core, mission, self._call_off)
 
     def keep(self, mission: Mission[Any], trips: Iterable[Trip]) -> None:
         """Have a mission kept, with trips that it has: from now on hooks may write what they may."""
@@ -94,8 +82,7 @@ class Engine:
 
     def enter(self, state: MissionState, status: Status) -> None:
         """Start a mission's flow, at its beginning or at the block where it resumes."""
-        if self.done.is_set:
-            self.done = Future()
+        self.ended_at = None
         mission = state.mission
         run = Run(mission, state, state.key)
         run.at = state.at
@@ -106,9 +93,6 @@ class Engine:
         run.task = state.task = state.spawn(flow, mission.name)
         run.task.over = partial(self._ended, state)
         self._begun += 1
-
-    def _doomed(self, state: MissionState) -> None:
-        state.spawn(self._call_off(state), f"{state.mission.name} is doomed")
 
     async def _call_off(self, state: MissionState) -> None:
         """Cancel a mission once the coroutine that found out that it must end has had its turn.
@@ -131,13 +115,8 @@ class Engine:
         flight = state.in_flight
         if flight is not None:
             state.break_off(flight)
-            if flight.trip.item is not None:
-                state.holds = flight.flier
-            holds = state.carrier or state.holds
-            if holds is None:
+            if state.keep_item(flight) is None:
                 self.core.fleet.recover(flight.flier)
-            else:
-                state.keep_carrier(holds)
         if state.allocated is not None and state.allocated is not state.carrier:
             self.core.fleet.never_flew(state.allocated)
         state.allocated = None
@@ -199,23 +178,13 @@ class Engine:
                 continue
             if name in missions:
                 self._resume(state, missions[name].get("report"), engaged)
-            elif drones:
-                self._keep_out(state, engaged)
+            elif drones and (drone := state.keep_item(state.unsettled)) is not None:
+                engaged.add(drone)
         for id, report in drones.items():
-            drone = fleet.named(id)
-            if drone is not None and drone not in engaged and drone not in fleet.errands:
-                fleet.take_up(drone, report)
+            free = fleet.named(id)
+            if free is not None and free not in engaged and free not in fleet.errands:
+                fleet.take_up(free, report)
         self.look_for_the_end()
-
-    def _keep_out(self, state: MissionState, engaged: set[Drone]) -> None:
-        """Keep the drone that has, or may have, a mission's item."""
-        flight = state.unsettled
-        if flight is not None and flight.trip.item is not None:
-            state.holds = flight.flier
-        drone = state.carrier or state.holds
-        if drone is not None:
-            engaged.add(drone)
-            state.keep_carrier(drone)
 
     def _resume(self, state: MissionState, report: Record | None, engaged: set[Drone]) -> None:
         """Let a mission go on; add the drones that it needs."""
@@ -237,9 +206,8 @@ class Engine:
             state.keep_carrier(state.carrier)
         if state.doom is not None:  # it is to be ended at once
             return
-        resumes = core.app.resumes
-        if state.at is not None and state.at not in resumes and resumes:
-            state.at = resumes[0]  # a person has said so
+        if state.at is not None and state.at not in self.entries and self.entries:
+            state.at = self.entries[0]  # a person has said so
         status = STANDBY if mission.attempts or state.interrupted else UNEXECUTED
         if not state.goes_on:
             put(mission, status=status, reason="")
@@ -290,9 +258,9 @@ class Engine:
         self.core.log(detail + block, state.mission.name)
 
     def look_for_the_end(self) -> None:
-        """Set `done` if every mission has ended, or was suspended, or waits for others that were."""
-        if not (self.living or self._expected):
-            self.done.set(None)
+        """Note when every mission has ended, or was suspended, or waits for others that were."""
+        if not (self.living or self._expected) and self.ended_at is None:
+            self.ended_at = self.core.kernel.now
 
     def _end(
         self, state: MissionState, status: Status, reason: str, *, was_out: bool = False

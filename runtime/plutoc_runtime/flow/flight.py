@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
+from dataclasses import dataclass, field
 from math import inf
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from ..domain.status import FAILED, Status
 from ..hooks.plain_data import item_data
@@ -17,55 +17,36 @@ if TYPE_CHECKING:
     from ..time.kernel import Key, Task
 
 
+@dataclass(slots=True, eq=False)
 class Flight(Future[Status]):
     """As a future it is set to the mission's status when the trip has ended."""
 
-    __slots__ = (
-        "action",
-        "attempt",
-        "begun",
-        "beside",
-        "called_off",
-        "flier",
-        "heard",
-        "launched_at",
-        "mission",
-        "own_action",
-        "relieved",
-        "retry",
-        "round",
-        "trip",
-    )
+    mission: Mission[Any]
+    trip: Trip
+    flier: Drone
+    action: Action
+    launched_at: float
+    retry: bool
+    """Whether the mission's previous flight was of the same trip, and failed."""
+    own_action: Task[None] | None = None
+    """The task of an action of the app's own, once it has begun."""
+    called_off: str | None = None
+    """None: it flies; empty: it was broken off; else why it fails once its drone has answered."""
+    begun: bool = False
+    """Whether an action of the app's own has begun: from then on it may have been done."""
+    beside: Point | None = None
+    """Where the action is done, if that is not at the trip's target."""
+    relieved: int = 0
+    """How often another drone has taken over."""
+    heard: bool = False
+    """Whether the mission's graph has gone on from its end."""
+    round: int = field(init=False)
+    attempt: int = field(init=False)
 
-    def __init__(
-        self,
-        mission: Mission[Any],
-        trip: Trip,
-        flier: Drone,
-        action: Action,
-        launched_at: float,
-        retry: bool,
-    ) -> None:
-        super().__init__()
-        self.mission = mission
-        self.trip = trip
-        self.flier = flier
-        self.action = action
-        self.launched_at = launched_at
-        self.retry = retry  # the mission's previous flight was of the same trip, and failed
-        self.round = mission.round
-        self.attempt = trip.attempt
-        self.own_action: Task[None] | None = None
-        """The task of an action of the app's own, once it has begun."""
-        self.called_off: str | None = None
-        """None: it flies; empty: it was broken off; else why it fails once its drone has answered."""
-        self.begun = False
-        """Whether an action of the app's own has begun: from then on it may have been done."""
-        self.beside: Point | None = None
-        """Where the action is done, if that is not at the trip's target."""
-        self.relieved = 0  # how often another drone has taken over
-        self.heard = False
-        """Whether the mission's graph has gone on from its end."""
+    def __post_init__(self) -> None:
+        Future.__init__(self)
+        self.round = self.mission.round
+        self.attempt = self.trip.attempt
 
     @property
     def id(self) -> str:
@@ -106,36 +87,32 @@ class Flight(Future[Status]):
         return self._value is FAILED
 
 
-class Branch(Protocol):
-    """The branch of a mission that sets a limit; the limit is void once the branch has ended."""
-
-    key: Key
-    task: Task[Any] | None
-
-    def abort(self, reason: str) -> None:
-        """Fail the trip in flight."""
-
-
 class Limit:
     """How long a trip may take, from when on, and the reason that is given if it takes longer."""
 
-    __slots__ = ("flight", "overdue", "span", "until")
+    __slots__ = ("abort", "branch", "flight", "key", "overdue", "span", "until")
 
-    flight: Flight  # the flight that it is set for
+    flight: Flight
+    """What it is set for."""
+    branch: Task[Any] | None
+    """The coroutine that has set it: it is void once that has ended."""
+    key: Key
+    abort: Callable[[str], None]
 
     def __init__(self, since: float, span: float, overdue: Callable[[Trip, float], str]) -> None:
         self.span = span
         self.until = since + span
         self.overdue = overdue
 
-    def is_void(self, branch: Branch) -> bool:
-        """Return whether the flight has ended, or the branch that set the limit."""
-        return self.flight.is_set or (branch.task is not None and branch.task.is_set)
+    @property
+    def is_void(self) -> bool:
+        """Whether the flight has ended, or the branch that set it."""
+        return self.flight.is_set or (self.branch is not None and self.branch.is_set)
 
-    def expire(self, branch: Branch) -> None:
+    def expire(self) -> None:
         """Fail the trip in flight, unless that is over."""
-        if not self.is_void(branch):
-            branch.abort(self.overdue(self.flight.trip, self.span))
+        if not self.is_void:
+            self.abort(self.overdue(self.flight.trip, self.span))
 
 
 class Limits:
@@ -143,17 +120,14 @@ class Limits:
 
     def __init__(self, kernel: Kernel) -> None:
         self._kernel = kernel
-        self._set: dict[tuple[Branch, int], Limit] = {}
+        self._set: dict[tuple[Task[Any] | None, Key], Limit] = {}
+        """By branch, which waits for one flight at a time."""
         self._due: Timer | None = None
         self._due_at = inf
 
-    def set(self, branch: Branch, number: int, flight: Flight, limit: Limit) -> None:
-        """Fail the flight at this limit, unless it or the branch has ended by then.
-
-        A branch waits for one flight at a time; `number` counts its limits on that.
-        """
-        limit.flight = flight
-        self._set[branch, number] = limit
+    def add(self, limit: Limit) -> None:
+        """Fail its flight at a limit, unless that or the branch has ended by then."""
+        self._set[limit.branch, limit.key] = limit
         if not limit.until >= self._due_at:  # what is not a number means now
             self._wait(limit.until)
 
@@ -166,14 +140,12 @@ class Limits:
     def _look(self) -> None:
         """Expire what is due, and wait for the next."""
         now = self._kernel.now
-        self._due_at = inf
-        for (branch, number), limit in tuple(self._set.items()):
-            if limit.is_void(branch) or not limit.until > now:
-                del self._set[branch, number]
+        limits = [limit for limit in self._set.values() if not limit.is_void]
+        self._set = {(one.branch, one.key): one for one in limits if one.until > now}
+        for limit in limits:
+            if not limit.until > now:
                 # after a hook of the mission at that instant, as if it were in a branch of its own
-                key = branch.key + number
-                self._kernel.at(now, EventKind.TIMER, key, partial(limit.expire, branch))
-            else:
-                self._due_at = min(self._due_at, limit.until)
-        if self._due_at < inf:
-            self._wait(self._due_at)
+                self._kernel.at(now, EventKind.TIMER, limit.key, limit.expire)
+        self._due_at = inf
+        if self._set:
+            self._wait(min(limit.until for limit in self._set.values()))

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from operator import is_
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PICK, RELEASE
 from ..domain.errors import HookFault
@@ -13,7 +12,7 @@ from ..domain.plain import as_a
 from ..domain.status import COMPLETED, FAILED, STANDBY, Status
 from ..domain.text import class_of, shown, text_of
 from ..fleet.reach import miss_of
-from ..hooks.calls import hook_name
+from ..hooks.calls import fault_of, hook_name
 from ..hooks.context import Verdict
 from ..hooks.soundness import taken_in, unsound
 from .asking import kept_by
@@ -27,63 +26,63 @@ _CONTENT = Verdict()  # the verdict of an evaluator that asks for nothing
 
 
 def apply(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
-    """Apply a verdict; an invalid one is a fault of the evaluator."""
+    """Apply a verdict; one that cannot be followed, or even read, is a fault of the evaluator."""
+    try:
+        return _applied(run, hook, verdict)
+    except HookFault:
+        raise
+    except BaseException as error:
+        unless_by_a_person(error)
+        raise fault_of(hook, error) from error
+
+
+def _applied(run: Run[Any], hook: Callable[..., object], verdict: object) -> Status:
     mission = run.mission
     core = run.core
     name = hook_name(hook)
     who = f"evaluator {name}"
-    if not issubclass(type(verdict), Verdict):
+    if not isinstance(verdict, Verdict):
         raise HookFault(f"{who} must return a Verdict, not {class_of(verdict)}")
-    verdict = Verdict._make(tuple.__iter__(cast("Verdict", verdict)))  # a subclass may lie
-    if all(map(is_, verdict, _CONTENT)):  # as by far the most verdicts
+    if verdict == _CONTENT:  # as by far the most verdicts
         return COMPLETED
-    redo = _listed(who, "redo", verdict.redo)
-    add = _listed(who, "add", verdict.add)
+    redo = _once_each(_listed(who, "redo", verdict.redo))
+    added = _once_each(_listed(who, "add", verdict.add))
     for line in _listed(who, "log", verdict.log):
         core.log(text_of(line, f"<{class_of(line)}>"), mission.name)
-    if verdict.fail is not None or not (_is_ok(who, verdict.ok) or redo or add):
-        reason = "" if verdict.fail is None else text_of(verdict.fail, shown(verdict.fail)).strip()
+    ok = as_a(bool, verdict.ok)
+    reason = ""
+    if verdict.fail is not None:
+        reason = text_of(verdict.fail, shown(verdict.fail)).strip()
+    elif ok is None:
+        raise HookFault(f"{who} must give `ok` as True or False, not {shown(verdict.ok)}")
+    if verdict.fail is not None or not (ok or redo or added):
         core.transitions.judge_failed(mission, reason or f"{name} did not accept it")
         return FAILED
+    if not (redo or added):
+        return COMPLETED
     for trip in redo:
         if not any(trip is done for done in mission.completed_trips):
             called = trip.name if type(trip) is core.app.trip else shown(trip)
             not_done = f"a trip that mission {mission.name} has not completed: {called!r}"
             raise HookFault(f"{who} asks to redo {not_done}")
-    added = tuple(_once_each(add))
     for trip in added:
         if (problem := _problem(core, mission, trip)) is not None:
             raise HookFault(f"{who} adds a trip that cannot be flown: {problem}")
     if added:
         kept_by(mission).changed = True
-    if not (redo or added):
-        return COMPLETED
-    core.transitions.redo(mission, tuple(_once_each(redo)), added)
+    core.transitions.redo(mission, redo, added)
     return STANDBY
 
 
-def _is_ok(who: str, value: object) -> bool:
-    truth = as_a(bool, value)
-    if truth is None:
-        raise HookFault(f"{who} must give `ok` as True or False, not {shown(value)}")
-    return truth
-
-
 def _listed(who: str, field: str, value: object) -> Sequence[Any]:
-    for kind in (tuple, list):
-        if issubclass(type(value), kind):
-            return tuple(kind.__iter__(cast("Any", value)))
-    try:
-        if issubclass(type(value), Sequence) and not issubclass(type(value), (str, bytes)):
-            return tuple(cast("Sequence[Any]", value))
-    except BaseException as error:  # noqa: BLE001 - it is of a class of a hook's own
-        unless_by_a_person(error)
+    if isinstance(value, Sequence) and not isinstance(value, (str, bytes)):
+        return value
     raise HookFault(f"{who} must give `{field}` as a list or a tuple, not as {class_of(value)}")
 
 
-def _once_each(trips: Sequence[Any]) -> list[Any]:
+def _once_each(trips: Sequence[Any]) -> tuple[Any, ...]:
     """Remove duplicates by identity: what is not a trip need not be hashable."""
-    return list({id(trip): trip for trip in trips}.values())
+    return tuple({id(trip): trip for trip in trips}.values())
 
 
 def _problem(core: Core, mission: Mission[Any], trip: Trip) -> str | None:

@@ -84,8 +84,7 @@ class Core:
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""
-        if self.trace.live:
-            self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
+        self.trace.note("log", mission=mission, text=bounded(text, LONGEST_LOG))
 
 
 T = TypeVar("T")
@@ -99,8 +98,8 @@ class MissionState:
 
     core: Core
     mission: Mission[Any]
-    doomed: Callable[[MissionState], object]
-    """Called when it must end, even if its graph would continue."""
+    call_off: Callable[[MissionState], Coroutine[Any, Any, None]]
+    """Ends it, even if its graph would continue."""
     task: Task[Status] | None = None  # the coroutine that runs its flow
     at: str | None = None  # the last block reached at which it can resume after an interruption
     block: str = ""
@@ -169,7 +168,7 @@ class MissionState:
         """End it as FAILED, wherever it is in its graph; only the first reason counts."""
         if self.doom is None:
             self.doom = reason
-            self.doomed(self)
+            self.spawn(self.call_off(self), f"{self.mission.name} is doomed")
 
     @property
     def key(self) -> Key:
@@ -272,6 +271,15 @@ class MissionState:
         self.interrupted = True
         self.flight = self.question = self.answer = None
         self.core.transitions.interrupt(self.mission, flight.trip)
+
+    def keep_item(self, flight: Flight | None) -> Drone | None:
+        """Reserve the drone that has its item aboard, or may after a flight that was broken off; return it."""
+        if flight is not None and flight.trip.item is not None:
+            self.holds = flight.flier
+        drone = self.carrier or self.holds
+        if drone is not None:
+            self.keep_carrier(drone)
+        return drone
 
     def keep_carrier(self, drone: Drone) -> None:
         """Reserve the drone that has the item aboard; if it is lost, so is the item."""

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 def context_of(run: Run[Any]) -> Context:
     """Return the context that a modifier gets."""
-    core, state = run.core, run.state
+    core = run.core
     new_context = core.context or Context
-    return new_context(core.kernel, core.results, core.log, run.mission, lambda: state.flight)
+    return new_context(core.kernel, core.results, core.log, run.mission, lambda: run.state.flight)
 
 
 async def settle(
@@ -37,9 +37,8 @@ async def settle(
         raise HookFault(wrong)
     if type(returned) is not Status:
         return status
-    lie = _contradiction(run.state, returned)
-    if lie is not None:
-        raise HookFault(f"{name} returned {returned.value}, but {lie}")
+    if (why := _contradiction(run.state, returned)) is not None:
+        raise HookFault(f"{name} returned {returned.value}, but {why}")
     flight = run.state.in_flight
     if returned is Status.FAILED and flight is not None:
         run.state.abort(f"{name} failed the trip")

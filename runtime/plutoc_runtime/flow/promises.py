@@ -7,7 +7,7 @@ of which `hours` has the text are so by the clock, the others by the app's own t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from datetime import timedelta
 from functools import partial
 from math import inf, nextafter
@@ -37,8 +37,8 @@ class Promises:
         self._core = core
         self._states = states
         self._waits = waits
-        self.waiting: dict[str, Future[str]] = {}
-        """Of each mission that waits for others: set to which has ended, when it must look again."""
+        self.waiting: dict[str, Future[None]] = {}
+        """Of each mission that waits for others: set when it must look again."""
         self._waited_for: dict[str, list[str]] = {}
         core.kernel.on_drift = self._watch_all
 
@@ -83,22 +83,17 @@ class Promises:
         some = [mission.name] if mission.status is COMPLETED else [*self._waited_for]
         for name in [name for one in some for name in self._waited_for.pop(one, ())]:
             if name in self.waiting:
-                self.waiting.pop(name).set(mission.name)
+                self.waiting.pop(name).set(None)
 
     async def in_time(self, run: Run[Any]) -> Status:
         """Run a mission's flow once all that it comes after has completed, and its window has opened."""
         mission = run.mission
         names = mission.promises.get("after", ())
-        for name in names:
-            self._refuse_vain(name)
-        for name in names:
-            while not self._states[name].ended:
-                self._waited_for.setdefault(name, []).append(mission.name)
-                self.waiting[mission.name] = must_look = Future[str]()
-                self._waits()
-                if (ended := await must_look) in names:
-                    self._refuse_vain(ended)
-            self._refuse_vain(name)
+        while (name := self._first_open(names)) is not None:
+            self._waited_for.setdefault(name, []).append(mission.name)
+            self.waiting[mission.name] = must_look = Future[None]()
+            self._waits()
+            await must_look
         kernel = self._core.kernel
 
         def opens() -> float:
@@ -108,14 +103,19 @@ class Promises:
             await kernel.before(Future(), opens, EventKind.CLOCK, mission_key(mission.index))
         return await self._core.app.flow(run)
 
-    def _refuse_vain(self, name: str) -> None:
-        """Raise if it would be in vain to come after a mission."""
-        state = self._states.get(name)
-        if state is None:
-            raise MissionFailed(f"it comes after mission {quoted(name)}, which there is not")
-        if state.ended and state.mission.status is not COMPLETED:
-            became = state.mission.status.value
-            raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
+    def _first_open(self, names: Sequence[str]) -> str | None:
+        """Return the first of these that has not ended; raise if it is in vain to come after one of them."""
+        first = None
+        for name in names:
+            state = self._states.get(name)
+            if state is None:
+                raise MissionFailed(f"it comes after mission {quoted(name)}, which there is not")
+            if not state.ended:
+                first = first or name
+            elif state.mission.status is not COMPLETED:
+                became = state.mission.status.value
+                raise MissionFailed(f"it comes after mission {quoted(name)}, which is {became}")
+        return first
 
 
 def moment_of(mission: Mission[Any], which: str, drift: float) -> float | None:

@@ -56,16 +56,15 @@ def changed_rows(
     for name in changes.missions:
         if states[name].unfit is None:
             _number_trips(states[name], changes)
-    rows: list[Row] = [
-        ("mission", (name,), mission_row(app, states[name])) for name in changes.missions
-    ]
+    rows: list[Row] = []
+    for name in changes.missions:
+        rows.append(("mission", (name,), mission_row(app, states[name])))
     for trip, name in changes.trips.items():
         rows.append(("trip", (name, trip.number), trip_row(app, trip, states[name].gone)))
-    rows += [("drone", (drone.id,), drone_row(drone, fleet)) for drone in changes.drones]
-    rows += [
-        ("result", (number,), result_row(results.results[number]))
-        for number in range(changes.results, len(results.results))
-    ]
+    for drone in changes.drones:
+        rows.append(("drone", (drone.id,), drone_row(drone, fleet)))
+    for number in range(changes.results, len(results.results)):
+        rows.append(("result", (number,), result_row(results.results[number])))
     changes.clear(len(results.results))
     return rows
 
@@ -105,6 +104,9 @@ _FACTS = (
     "answer",
 )
 """What a mission's row has of its state as it is."""
+
+_FLOWN = ("round", "attempt", "retry", "begun", "heard")
+"""What a mission's row has of its flight as it is."""
 
 _PUT = ("status", "reason", "ended", "paused", "question", "held", "answer", "unfit")
 """What can change of a mission that does not fit the app; all else is kept as it is."""
@@ -261,18 +263,13 @@ def whereabouts_of(state: MissionState) -> Data:
 
 
 def _flight_row(flight: Flight) -> Data:
-    return {
-        "trip": flight.trip.name,
-        "drone": flight.drone,
-        "round": flight.round,
-        "attempt": flight.attempt,
-        "since": flight.launched_at,
-        "retry": flight.retry,
-        "begun": flight.begun,
-        "beside": flight.beside,
-        "outcome": flight.result().value if flight.is_set else None,
-        "heard": flight.heard,
-    }
+    row: Data = {fact: getattr(flight, fact) for fact in _FLOWN}
+    row["trip"] = flight.trip.name
+    row["drone"] = flight.drone
+    row["since"] = flight.launched_at
+    row["beside"] = flight.beside
+    row["outcome"] = flight.result().value if flight.is_set else None
+    return row
 
 
 def _flight_of(
@@ -284,11 +281,10 @@ def _flight_of(
     if trip is None or drone is None:
         return None
     action = core.app.actions[trip.action]
-    flight = Flight(mission, trip, drone, action, row["since"], bool(row.get("retry")))
-    flight.round = row["round"]
-    flight.attempt = row["attempt"]
-    flight.begun = bool(row.get("begun"))
-    flight.heard = bool(row.get("heard"))
+    flight = Flight(mission, trip, drone, action, row["since"], retry=False)
+    for fact in _FLOWN:
+        if fact in row:
+            setattr(flight, fact, row[fact])
     if row.get("beside") is not None:
         flight.beside = point_of(row["beside"])
     if row.get("outcome") is not None:

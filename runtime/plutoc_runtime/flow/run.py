@@ -55,10 +55,6 @@ class Run(Generic[M]):
         """The mission's trip in flight, or the next one; of the app's own class."""
         return current_of(self.mission)
 
-    def abort(self, reason: str) -> None:
-        """Fail the trip in flight."""
-        self.state.abort(reason)
-
     def fork(
         self, status: Status, branches: Sequence[Callable[[Run[M], Status], Way]]
     ) -> list[Task[Status]]:
@@ -89,7 +85,11 @@ def watch(run: Run[Any], *limits: Limit | None) -> Flight:
         raise RuntimeError(f"mission {run.mission.name} has no flight to watch")
     for number, limit in enumerate(limits, 1):
         if limit is not None:
-            run.core.limits.set(run, number, flight, limit)
+            limit.flight = flight
+            limit.branch = run.task
+            limit.key = run.key + number
+            limit.abort = run.state.abort
+            run.core.limits.add(limit)
     return flight
 
 

@@ -109,157 +109,46 @@ class Transitions:
         self._trace = trace
         self._results = results
         self._changes = changes
-        self._kept = changes.kept
+        self.noted = trace.live or changes.kept
+        """Whether anyone hears of changes: it takes longer to say them than to make them."""
+
+    def note(self, event: str, mission: Mission[Any], **facts: object) -> None:
+        """Note an event of a mission whose row has changed."""
+        if self.noted:
+            self._changes.mission(mission.name)
+            self._trace.note(event, mission=mission.name, **facts)
+
+    def _note_trip(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
+        """Note an event of a trip whose row has changed."""
+        if self.noted:
+            self._changes.trip(mission, trip)
+            self._trace.note(event, mission=mission.name, trip=trip.name, **facts)
+
+    def _note_flight(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
+        drone = trip.drone and trip.drone.id
+        flown = {"drone": drone, "round": mission.round, "attempt": trip.attempt}
+        self._note_trip(event, mission, trip, **flown, **facts)
+
+    # Missions
 
     def promise(self, mission: Mission[Any]) -> None:
         """Note what the plan promises of a mission."""
-        facts = self._plan_of(mission) if self._kept else {}
-        self.note("mission.promised", mission, **plain_again(mission.promises), **facts)
-
-    def _plan_of(self, mission: Mission[Any]) -> dict[str, object]:
-        """Return what a journal must have of a new mission, whose trips have rows from now on."""
-        for trip in trips_of(mission):
-            self._changes.trip(mission, trip)
-        return {"plan": mission_data(self._app, mission)}
+        promises = plain_again(mission.promises)
+        self.note("mission.promised", mission, **promises, **self._plan_of(mission))
 
     def create(self, mission: Mission[Any]) -> None:
         """Create a mission with the user's trips."""
         put(mission, status=UNEXECUTED)
-        facts = self._plan_of(mission) if self._kept else {}
-        if self._trace.live:
-            names = [trip.name for trip in trips_of(mission)]
-            self.note("mission.created", mission, trips=names, **facts)
+        names = [trip.name for trip in trips_of(mission)]
+        self.note("mission.created", mission, trips=names, **self._plan_of(mission))
 
-    def allocate(
-        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
-    ) -> None:
-        """Give a trip its drone; `at` is the block where it resumes after an interruption."""
-        put(trip, drone=drone)
-        if self._kept:
+    def _plan_of(self, mission: Mission[Any]) -> dict[str, object]:
+        """Return what a journal must have of a new mission, whose trips have rows from now on."""
+        if not self._changes.kept:
+            return {}
+        for trip in trips_of(mission):
             self._changes.trip(mission, trip)
-        self._changes.moved_on(mission)
-        if self._trace.live:
-            self.note(
-                "trip.allocated", mission, trip=trip.name, drone=drone.id, why=why, resumes_at=at
-            )
-
-    def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """Launch a trip."""
-        put(trip, status=_EXECUTING, drone=drone, reason="")  # a hook may have put it first since
-        put(trip, start_time=self._kernel.now, end_time=None)
-        put(mission, status=RUNNING, reason="", attempts=mission.attempts + 1)
-        put(drone, trips=drone.trips + 1)
-        if self._kept:
-            self._changes.trip(mission, trip)
-            self._changes.drone(drone)
-        if self._trace.live:
-            self._note_trip("trip.launched", mission, trip, drone)
-
-    def complete(
-        self, mission: Mission[Any], trip: Trip, value: object, *, found_out: bool = False
-    ) -> None:
-        """Complete a trip, and store its result; `found_out`: only after an interruption."""
-        now = self._kernel.now
-        put(trip, status=_COMPLETED, end_time=now)
-        drop_trip(mission, trip)
-        place = None if trip.drone is None else trip.drone.location
-        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
-        put(
-            mission,
-            completed_trips=(*mission.completed_trips, trip),
-            status=STANDBY if trips_of(mission) else COMPLETED,
-            last_result=self._results.add(result),
-        )
-        if self._kept:
-            self._changes.trip(mission, trip)
-        if not self._trace.live:
-            return
-        facts: dict[str, object] = {"value": shown(value)}
-        if self._kept:
-            facts["result"] = value_data(value)
-            facts["did"] = trip_data(self._app, trip)
-        if found_out:
-            facts["found_out"] = True
-        self._note_trip("trip.completed", mission, trip, trip.drone, **facts)
-
-    def keep(self, mission: Mission[Any], trip: Trip, value: object) -> None:
-        """Store a result of a trip that goes on."""
-        now = self._kernel.now
-        place = None if trip.drone is None else trip.drone.location
-        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
-        put(mission, last_result=self._results.add(result))
-        facts = {"result": value_data(value)} if self._kept else {}
-        self._note_trip("action.result", mission, trip, trip.drone, value=shown(value), **facts)
-
-    def set_out(self, drone: Drone) -> None:
-        """Count a flight of a drone."""
-        put(drone, trips=drone.trips + 1)
-        self._changes.drone(drone)
-
-    def hand_over(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """Give a trip in flight another drone: that is no attempt of its own."""
-        before = trip.drone
-        put(trip, drone=drone)
-        self._changes.trip(mission, trip)
-        of = None if before is None else before.id
-        self._note_trip("trip.handed_over", mission, trip, drone, of=of)
-
-    def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
-        """Fail a trip: it stays first in the list."""
-        reason = bounded(reason, LONGEST)
-        put(trip, status=_FAILED, end_time=self._kernel.now, reason=reason)
-        put(mission, status=FAILED, reason=reason)
-        self._changes.trip(mission, trip)
-        self._note_trip("trip.failed", mission, trip, trip.drone, reason=trip.reason)
-
-    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
-        """Take back a flight whose action was not done: it counts as no attempt."""
-        put(trip, status=TripStatus.WAITING, drone=None, start_time=None, end_time=None)
-        put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
-        self._changes.trip(mission, trip)
-        self._changes.moved_on(mission)
-        self.note("trip.interrupted", mission, trip=trip.name)
-
-    def _note_trip(
-        self, event: str, mission: Mission[Any], trip: Trip, drone: Drone | None, **facts: object
-    ) -> None:
-        flown = {"trip": trip.name, "drone": drone.id if drone else None}
-        self.note(event, mission, **flown, round=mission.round, attempt=trip.attempt, **facts)
-
-    def put_back(self, mission: Mission[Any]) -> None:
-        """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
-        trip = current_of(mission)
-        put_back(trip)
-        put(mission, status=STANDBY, reason="")
-        self._changes.trip(mission, trip)
-        self._changes.moved_on(mission)
-        facts = {"fields": fields_of(self._app, Entity.TRIP, trip)} if self._changes.kept else {}
-        self.note("trip.reset", mission, trip=trip.name, attempt=trip.attempt, **facts)
-
-    def skip(self, mission: Mission[Any], trip: Trip) -> None:
-        """Take away a trip that shall not be flown."""
-        drop_trip(mission, trip)
-        self._changes.leave(mission, (trip,))
-        self.note("trip.skipped", mission, trip=trip.name)
-
-    def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
-        """Set the priority of a trip."""
-        put(trip, priority=priority)
-        self._changes.trip(mission, trip)
-        self.note("trip.prioritised", mission, trip=trip.name, priority=priority)
-
-    def replan(self, mission: Mission[Any], trips: list[Trip]) -> None:
-        """Put these in place of all trips to do."""
-        names = {trip.name for trip in trips}
-        left = [trip for trip in trips_of(mission) if trip.name not in names]
-        put_trips(mission, trips)
-        for trip in trips:
-            self._changes.trip(mission, trip)
-        self._changes.leave(mission, left)
-        todo = [trip_data(self._app, trip) for trip in trips]
-        done = [trip_data(self._app, trip) for trip in mission.completed_trips]
-        fields = fields_of(self._app, Entity.MISSION, mission)
-        self.note("mission.replanned", mission, todo=todo, done=done, fields=fields)
+        return {"plan": mission_data(self._app, mission)}
 
     def redo(self, mission: Mission[Any], trips: tuple[Trip, ...], added: tuple[Trip, ...]) -> None:
         """Give a finished mission trips to repeat, and new ones."""
@@ -296,33 +185,146 @@ class Transitions:
         self._changes.moved_on(mission)
         self.note("mission.repeated", mission, round=mission.round)
 
+    def replan(self, mission: Mission[Any], trips: list[Trip]) -> None:
+        """Put these in place of all trips to do."""
+        names = {trip.name for trip in trips}
+        left = [trip for trip in trips_of(mission) if trip.name not in names]
+        put_trips(mission, trips)
+        for trip in trips:
+            self._changes.trip(mission, trip)
+        self._changes.leave(mission, left)
+        todo = [trip_data(self._app, trip) for trip in trips]
+        done = [trip_data(self._app, trip) for trip in mission.completed_trips]
+        fields = fields_of(self._app, Entity.MISSION, mission)
+        self.note("mission.replanned", mission, todo=todo, done=done, fields=fields)
+
+    def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
+        """Set the status that a modifier returned."""
+        if status in (STANDBY, UNEXECUTED):
+            self._changes.moved_on(mission)
+        self._become("mission.modified", mission, status, reason, status=status.value)
+
+    def judge_failed(self, mission: Mission[Any], reason: str) -> None:
+        """Fail a finished mission that its evaluator did not accept."""
+        self._become("mission.judged", mission, FAILED, reason)
+
+    def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
+        """End a mission."""
+        self._become("mission.ended", mission, status, reason, status=status.value)
+
+    def _become(
+        self, event: str, mission: Mission[Any], to: Status, reason: str, **facts: object
+    ) -> None:
+        put(mission, status=to, reason=bounded(reason, LONGEST))
+        self.note(event, mission, **facts, reason=mission.reason)
+
+    # Trips
+
+    def allocate(
+        self, mission: Mission[Any], trip: Trip, drone: Drone, at: str | None, why: str
+    ) -> None:
+        """Give a trip its drone; `at` is the block where it resumes after an interruption."""
+        put(trip, drone=drone)
+        self._changes.moved_on(mission)
+        if self.noted:
+            facts = {"drone": drone.id, "why": why, "resumes_at": at}
+            self._note_trip("trip.allocated", mission, trip, **facts)
+
+    def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """Launch a trip."""
+        put(trip, status=_EXECUTING, drone=drone, reason="")  # a hook may have put it first since
+        put(trip, start_time=self._kernel.now, end_time=None)
+        put(mission, status=RUNNING, reason="", attempts=mission.attempts + 1)
+        put(drone, trips=drone.trips + 1)
+        if self.noted:
+            self._changes.drone(drone)
+            self._note_flight("trip.launched", mission, trip)
+
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Record that an action of the app's own begins: from now on it may have been done."""
         self.note("action.begun", mission, trip=trip.name, drone=drone.id)
 
-    def modify(self, mission: Mission[Any], status: Status, reason: str) -> None:
-        """Set the status that a modifier returned."""
-        put(mission, status=status, reason=bounded(reason, LONGEST))
-        if status in (STANDBY, UNEXECUTED):
-            self._changes.moved_on(mission)
-        self.note("mission.modified", mission, status=status.value, reason=mission.reason)
+    def complete(
+        self, mission: Mission[Any], trip: Trip, value: object, *, found_out: bool = False
+    ) -> None:
+        """Complete a trip, and store its result; `found_out`: only after an interruption."""
+        now = self._kernel.now
+        put(trip, status=_COMPLETED, end_time=now)
+        drop_trip(mission, trip)
+        place = None if trip.drone is None else trip.drone.location
+        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
+        put(
+            mission,
+            completed_trips=(*mission.completed_trips, trip),
+            status=STANDBY if trips_of(mission) else COMPLETED,
+            last_result=self._results.add(result),
+        )
+        if not self.noted:
+            return
+        facts: dict[str, object] = {"value": shown(value)}
+        if self._changes.kept:
+            facts["result"] = value_data(value)
+            facts["did"] = trip_data(self._app, trip)
+        if found_out:
+            facts["found_out"] = True
+        self._note_flight("trip.completed", mission, trip, **facts)
 
-    def end(self, mission: Mission[Any], status: Status, reason: str) -> None:
-        """End a mission."""
-        put(mission, status=status, reason=bounded(reason, LONGEST))
-        self.note("mission.ended", mission, status=status.value, reason=mission.reason)
+    def keep(self, mission: Mission[Any], trip: Trip, value: object) -> None:
+        """Store a result of a trip that goes on."""
+        place = None if trip.drone is None else trip.drone.location
+        now = self._kernel.now
+        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
+        put(mission, last_result=self._results.add(result))
+        facts = {"result": value_data(value)} if self._changes.kept else {}
+        self._note_flight("action.result", mission, trip, value=shown(value), **facts)
 
-    def judge_failed(self, mission: Mission[Any], reason: str) -> None:
-        """Fail a finished mission that its evaluator did not accept."""
-        put(mission, status=FAILED, reason=bounded(reason, LONGEST))
-        self.note("mission.judged", mission, reason=mission.reason)
+    def relieve(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """Have another drone set out to a trip in flight."""
+        put(drone, trips=drone.trips + 1)
+        self._changes.drone(drone)
+        self._note_trip("trip.relieving", mission, trip, drone=drone.id)
 
-    def note(self, event: str, mission: Mission[Any], **facts: object) -> None:
-        """Note an event of a mission whose row has changed."""
-        if self._kept:
-            self._changes.mission(mission.name)
-        if self._trace.live:
-            self._trace.note(event, mission=mission.name, **facts)
+    def hand_over(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+        """Give a trip in flight another drone: that is no attempt of its own."""
+        before = trip.drone and trip.drone.id
+        put(trip, drone=drone)
+        self._note_flight("trip.handed_over", mission, trip, of=before)
+
+    def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
+        """Fail a trip: it stays first in the list."""
+        reason = bounded(reason, LONGEST)
+        put(trip, status=_FAILED, end_time=self._kernel.now, reason=reason)
+        put(mission, status=FAILED, reason=reason)
+        self._note_flight("trip.failed", mission, trip, reason=reason)
+
+    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
+        """Take back a flight whose action was not done: it counts as no attempt."""
+        put(trip, status=TripStatus.WAITING, drone=None, start_time=None, end_time=None)
+        put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
+        self._changes.moved_on(mission)
+        self._note_trip("trip.interrupted", mission, trip)
+
+    def put_back(self, mission: Mission[Any]) -> None:
+        """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
+        trip = current_of(mission)
+        put_back(trip)
+        put(mission, status=STANDBY, reason="")
+        self._changes.moved_on(mission)
+        facts: dict[str, object] = {"attempt": trip.attempt}
+        if self._changes.kept:
+            facts["fields"] = fields_of(self._app, Entity.TRIP, trip)
+        self._note_trip("trip.reset", mission, trip, **facts)
+
+    def skip(self, mission: Mission[Any], trip: Trip) -> None:
+        """Take away a trip that shall not be flown."""
+        drop_trip(mission, trip)
+        self._changes.leave(mission, (trip,))
+        self.note("trip.skipped", mission, trip=trip.name)
+
+    def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
+        """Set the priority of a trip."""
+        put(trip, priority=priority)
+        self._note_trip("trip.prioritised", mission, trip, priority=priority)
 
 
 _EXECUTING = TripStatus.EXECUTING

@@ -62,17 +62,6 @@ def fastest(metres: float, seconds: float) -> tuple[float, float]:
     return max(speed), max(acceleration)
 
 
-@given(smooth, speeds)
-def test_no_short_leg_takes_more_beyond_its_share_than_is_said(
-    motion: Motion, speed: float
-) -> None:
-    """And some leg takes just that: a battery is not kept for what never comes."""
-    a_metre = motion.leg(1e6, speed) / 1e6
-    lengths = (1.05**n * 1e-6 for n in range(500))
-    beyond = max(motion.leg(metres, speed) - a_metre * metres for metres in lengths)
-    assert beyond == pytest.approx(motion.shortness(speed), rel=0.01)
-
-
 @given(smooth, st.floats(0.01, 200.0), speeds)
 def test_a_smooth_leg_is_as_quick_as_its_bounds_allow(
     motion: Motion, metres: float, speed: float

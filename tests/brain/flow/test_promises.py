@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.files.promises import misplaced
+from pluto_fleet.files.missions import misplaced
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.status import FAILED, Status

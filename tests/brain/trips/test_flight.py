@@ -26,6 +26,6 @@ def test_a_limit_is_void_once_the_flight_or_the_branch_that_set_it_is_over(
     limit = Limit(0.0, 1.0, lambda trip, span: "late")
     flight: Any = SimpleNamespace(is_set=flight_is_over)
     limit.flight = flight
-    task = None if branch_is_over is None else SimpleNamespace(is_set=branch_is_over)
-    branch: Any = SimpleNamespace(task=task)
-    assert limit.is_void(branch) is void
+    branch: Any = None if branch_is_over is None else SimpleNamespace(is_set=branch_is_over)
+    limit.branch = branch
+    assert limit.is_void is void

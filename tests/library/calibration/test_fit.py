@@ -8,11 +8,11 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from msgspec import structs
 
 from pluto_fleet.calibration.commands import Command, Flights, read_flights
-from pluto_fleet.calibration.estimates import Row, chi_square, fitted, student
+from pluto_fleet.calibration.estimates import Calibration, Row, chi_square, fitted, student
 from pluto_fleet.calibration.fit import calibrated
-from pluto_fleet.calibration.found import Calibration
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, Motion, varied
 from pluto_fleet.shared.time.kernel import Kernel
@@ -106,7 +106,7 @@ def test_a_category_that_moves_otherwise_is_noted(tmp_path: Path) -> None:
             )
         )
     )
-    heavy = [replace(one, category="heavy", drone=f"{one.drone}b") for one in slow]
+    heavy = [structs.replace(one, category="heavy", drone=f"{one.drone}b") for one in slow]
     what = calibrated([of([*heavy, *fast])], CRAZYFLIE)
     first, second, *drones = what.notes
     assert first.startswith('category "heavy" takes ')
@@ -125,7 +125,7 @@ def test_short_legs_that_take_longer_than_a_settling_explains_are_noted(tmp_path
     truth = replace(EXACT, spread=0.01)
     path = surveyed(tmp_path / "J", truth, said=CRAZYFLIE, trips=60, within=4.0)
     commands = [
-        replace(one, ended_at=one.ended_at + 0.6 * (one.what == "leg" and one.metres < 1.5))
+        structs.replace(one, seconds=one.seconds + 0.6 * (one.what == "leg" and one.metres < 1.5))
         for one in read_flights(path).commands
     ]
     what = calibrated([of(commands)], CRAZYFLIE)
@@ -139,9 +139,9 @@ def test_what_was_broken_off_or_failed_is_counted_and_not_fitted(tmp_path: Path)
         read_flights(surveyed(tmp_path / "J", EXACT, said=CRAZYFLIE, trips=30)).commands
     )
     legs = [one for one in commands if one.what == "leg"]
-    halved = [replace(one, ended_at=one.began + one.seconds / 2) for one in legs[:8]]
-    bad = [replace(one, ended="broken off") for one in halved[:5]]
-    bad += [replace(one, ended="failed") for one in halved[5:]]
+    halved = [structs.replace(one, seconds=one.seconds / 2) for one in legs[:8]]
+    bad = [structs.replace(one, ended="broken off") for one in halved[:5]]
+    bad += [structs.replace(one, ended="failed") for one in halved[5:]]
     what = calibrated([of([*commands, *bad])], CRAZYFLIE)
     assert (what.broken_off, what.failed, what.far_off) == (5, 3, 0)
     assert what.found["pace"].value == pytest.approx(EXACT.pace, abs=1e-3)

@@ -7,8 +7,7 @@ from collections.abc import AsyncIterator, Mapping, Sequence
 from math import inf
 from pathlib import Path
 
-from pluto_fleet.drones.errors import LinkLost
-from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry
+from pluto_fleet.drones.protocol import DroneEvent, DroneSetup, DroneTelemetry, LinkLost
 from pluto_fleet.shared.domain.actions import Plain
 from pluto_fleet.shared.domain.model import Item, Point
 

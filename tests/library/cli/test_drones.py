@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import drone_status
+from pluto_fleet.cli import drones as drones_command
 from pluto_fleet.drones import localization
 from pluto_fleet.gateway.drone_lock import lock_drones
 from tests.library.cli import fake_drones
@@ -23,7 +23,7 @@ FLEET = (Path(__file__).parent / "sessions" / "drones" / "fleet.toml").read_text
 @pytest.fixture(autouse=True)
 def _drones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """Let some drones be there, and let those that are not there not be waited for."""
-    monkeypatch.setattr(drone_status, "CONNECT_WITHIN", 0.05)
+    monkeypatch.setattr(drones_command, "CONNECT_WITHIN", 0.05)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     RECORD.clear()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.files.fleet import load_fleet
 from tests.library.cli.conftest import Command
 from tests.library.crtp import radio
@@ -26,7 +26,7 @@ def test_crazyflies_are_found_by_radio_and_written_into_a_fleet_file(
     """With their homes where they stand. Without a dongle it is said what is missing."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    record, path = MemoryLog(), tmp_path / "fleet.toml"
+    record, path = FlightLog(), tmp_path / "fleet.toml"
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2)]
     ether = Ether(builds, record)
     words = ["drones", "--address", "E7E7E7E701", "--address", "E7E7E7E702"]
@@ -56,7 +56,7 @@ def test_all_dongles_are_scanned_and_each_drone_is_found_once(
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
     monkeypatch.setattr(radio, "_NO_ANSWER", 0.0)
     build = Build(id="cf1", home=(1.0, 1.0, 0.0), seed=1)
-    record = MemoryLog()
+    record = FlightLog()
     other = Build(id="cf2", home=(2.0, 1.0, 0.0), seed=2)
     ethers = [Ether([build], record), Ether([build, other], record)]
     words = ["drones", "--address", "E7E7E7E701", "--address", "E7E7E7E702"]

@@ -13,8 +13,8 @@ import pytest
 from pluto_fleet.journal.header import header
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Store
-from pluto_fleet.station.history.told import Told
 from tests.kit.journals import entry
+from tests.kit.told import Told
 from tests.library.cli.conftest import MISSIONS, Command
 from tests.library.files.an_app import APP
 

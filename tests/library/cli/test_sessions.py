@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.cli import drone_status, main
+from pluto_fleet.cli import drones as drones_command
+from pluto_fleet.cli import main
 from tests.kit.session import check_session, sessions
 from tests.library.cli.fake_drones import ASKED, RECORD, THERE, at
 from tests.library.files.an_app import APP
@@ -22,7 +23,7 @@ def alfalfa(words: Sequence[str]) -> int:
 @pytest.fixture(autouse=True)
 def there(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
     """Let some drones be there, and let those that are not there not be waited for."""
-    monkeypatch.setattr(drone_status, "CONNECT_WITHIN", 0.05)
+    monkeypatch.setattr(drones_command, "CONNECT_WITHIN", 0.05)
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     RECORD.clear()
     THERE.clear()

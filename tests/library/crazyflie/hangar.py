@@ -13,7 +13,7 @@ import pytest
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crazyflie.state import State
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
+from pluto_fleet.crtp.flight_log import CommandRecord, FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.protocol import DroneEvent, DroneSetup
 from pluto_fleet.shared.domain.model import Point
@@ -30,7 +30,7 @@ class Hangar:
 
     navigation: Crazyflie
     server: Server
-    record: MemoryLog
+    record: FlightLog
     id: str
     events: list[DroneEvent] = field(default_factory=list)
     heard: asyncio.Event = field(default_factory=asyncio.Event)
@@ -131,7 +131,7 @@ async def hangar(
 ) -> AsyncIterator[Hangar]:
     """Make a drone, not connected yet; in the end it is closed, and so is the simulation."""
     build = build or Build(id="cf1", home=(1.0, 2.0, 0.0))
-    record = MemoryLog()
+    record = FlightLog()
     server = Server([build], record)
     await server.start()
     flies = navigation(build, uri or server.uris[build.id], folder, options, speed)

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.equipment import camera, picture, port_of
-from pluto_fleet.drones.errors import ActionNotDone, NotReady, Rejected
+from pluto_fleet.drones.protocol import ActionNotDone, NotReady, Rejected
 from pluto_fleet.shared.domain.model import Item, Photo
 from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar
 

@@ -8,15 +8,14 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.team import Team
-from pluto_fleet.drones.vehicle import TeamDrone
 from pluto_fleet.gateway.gateway import Gateway
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.unthreaded import in_virtual_time, the_air
 from tests.library.crazyflie.hangar import FAST, navigation
 from tests.library.drones.teams import FIELD, Asked
@@ -31,21 +30,17 @@ FAILS = {"away": Failure.LINK, "tumbler": Failure.CRASH}
 
 
 async def fly(folder: Path) -> None:
-    record, asked = MemoryLog(), Asked()
+    record, asked = FlightLog(), Asked()
     builds = [Build(id=id, home=home) for id, home in HOMES.items()]
     server = Server(builds, record)
     await server.start()
     flies = {one.id: navigation(one, server.uris[one.id], folder, OPTIONS) for one in builds}
-    drones = [
-        TeamDrone(id=one.id, category=QUICK, home=one.home, navigation=flies[one.id])
-        for one in builds
-    ]
-    say, clock = asked.log.append, the_air().time
-    team = Team(asked.kernel, drones, FIELD, folder=folder, say=say, clock=clock)
     crafts = [
-        SimulatedDrone(id=one.id, category=QUICK, home=one.home, index=index)
+        FleetDrone(id=one.id, category=QUICK, home=one.home, index=index)
         for index, one in enumerate(builds)
     ]
+    say, clock = asked.log.append, the_air().time
+    team = Team(asked.kernel, crafts, flies, FIELD, folder=folder, say=say, clock=clock)
     gateway = Gateway(asked.kernel, team, crafts, FIELD, apart=0.5, slack=CRAZYFLIE.slack)
     team.begin()
     link = Commander(gateway.link(1))

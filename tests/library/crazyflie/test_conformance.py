@@ -10,9 +10,8 @@ from typing import ClassVar
 import pytest
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.faults import let
-from pluto_fleet.crtp.flight_log import MemoryLog
-from pluto_fleet.crtp.server import Server
+from pluto_fleet.crtp.flight_log import FlightLog
+from pluto_fleet.crtp.server import Server, let
 from pluto_fleet.drones.conformance.contract import NavigationContract
 from pluto_fleet.drones.conformance.recording import Truth
 from pluto_fleet.drones.protocol import DroneNavigation
@@ -35,7 +34,7 @@ class TestCrazyflie(NavigationContract):
     @staticmethod
     def loop_factory() -> asyncio.AbstractEventLoop:
         here, loop = TestCrazyflie, AirLoop()
-        here.server, here.fresh, here.flown = Server(BUILDS, MemoryLog()), [*BUILDS], {}
+        here.server, here.fresh, here.flown = Server(BUILDS, FlightLog()), [*BUILDS], {}
         loop.run_until_complete(here.server.start())
         return loop
 

@@ -6,9 +6,8 @@ from math import nan
 
 import pytest
 
-from pluto_fleet.crazyflie.health import AlarmDetector
 from pluto_fleet.crazyflie.options import LOST_BEYOND, SURE_WITHIN
-from pluto_fleet.crazyflie.state import PositionConfidence, State, state_of
+from pluto_fleet.crazyflie.state import AlarmDetector, PositionConfidence, State, state_of
 from pluto_fleet.drones.protocol import BATTERY_LOW
 from tests.library.crazyflie.hangar import state
 

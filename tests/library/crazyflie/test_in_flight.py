@@ -9,8 +9,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import Crashed, Locked, NotReady, Rejected
-from pluto_fleet.drones.protocol import CRASHED, LOCKED
+from pluto_fleet.drones.protocol import CRASHED, LOCKED, Crashed, Locked, NotReady, Rejected
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
@@ -111,7 +110,7 @@ async def test_one_that_is_still_telling_its_parameters_is_waited_for(one: Hanga
     cf = one.navigation
     await one.let("latency", 0.03)
     await cf.connect()
-    one.drone.parameters.put("posCtlPid.yVelMax", 0.5)
+    one.drone.parameters["posCtlPid.yVelMax"] = 0.5
     (reason,) = await cf.preflight()
     assert "than 0.5 m/s (posCtlPid.yVelMax)" in reason
 

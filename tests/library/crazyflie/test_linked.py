@@ -9,8 +9,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import LinkLost, NotReady
-from pluto_fleet.drones.protocol import LINK_LOST
+from pluto_fleet.drones.protocol import LINK_LOST, LinkLost, NotReady
 from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar, navigation
 

@@ -6,8 +6,7 @@ import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import NotReady
-from pluto_fleet.drones.protocol import BATTERY_LOW
+from pluto_fleet.drones.protocol import BATTERY_LOW, NotReady
 from pluto_fleet.lithium import volts_at
 from tests.kit.unthreaded import passes
 from tests.library.crazyflie.hangar import FAST, Hangar, drone

@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.crtp.flight_log import MemoryLog
-from pluto_fleet.drones.errors import LinkLost
-from pluto_fleet.drones.protocol import LINK_LOST
+from pluto_fleet.crtp.flight_log import FlightLog
+from pluto_fleet.drones.protocol import LINK_LOST, LinkLost
 from tests.kill.lives import eventually
 from tests.library.crazyflie.hangar import FAST, PATIENCE, hangar, navigation
 from tests.library.crtp.radio import Ether, plugged_in
@@ -36,7 +35,7 @@ def left() -> list[str]:
 def air() -> Ether:
     """Three drones in reach of one dongle."""
     builds = [Build(id=id, home=(2.0 * at, 1.0, 0.0)) for at, id in enumerate(IDS)]
-    return Ether(builds, MemoryLog())
+    return Ether(builds, FlightLog())
 
 
 def test_closing_in_the_air_lands_first_cuts_nothing_and_ends_all_threads(tmp_path: Path) -> None:

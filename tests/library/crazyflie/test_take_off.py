@@ -7,10 +7,10 @@ import asyncio
 import pytest
 
 from pluto_fleet.crazyflie.navigation import Crazyflie
+from pluto_fleet.crtp.commander import Supervisor
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.packets import Port, unpacked
-from pluto_fleet.crtp.supervisor import Supervisor
-from pluto_fleet.drones.errors import NotReady, Rejected
+from pluto_fleet.drones.protocol import NotReady, Rejected
 from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar
 

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.crazyflie import trajectory
+from pluto_fleet.crazyflie import flying as trajectory
+from pluto_fleet.crazyflie.flying import SpeedLimits
 from pluto_fleet.crazyflie.state import State
-from pluto_fleet.crazyflie.trajectory import SpeedLimits
 from pluto_fleet.crtp.body import AxisState as Start
 from pluto_fleet.crtp.body import Body, profile
 from pluto_fleet.shared.domain.motion import PEAK

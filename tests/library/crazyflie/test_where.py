@@ -7,11 +7,10 @@ from math import dist
 
 import pytest
 
-from pluto_fleet.crazyflie import messages
+from pluto_fleet.crazyflie import preflight
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.drone import Build
-from pluto_fleet.drones.errors import PositionLost
-from pluto_fleet.drones.protocol import POSITION_LOST
+from pluto_fleet.drones.protocol import POSITION_LOST, PositionLost
 from tests.kit.unthreaded import passes, the_air
 from tests.library.crazyflie.hangar import FAST, Hangar, drone
 
@@ -76,7 +75,7 @@ async def test_after_an_emergency_stop_it_does_not_say_that_it_does_not_know_its
     await one.let("unsure")
     await passes(2.0)
     assert await up.preflight() == ["it has locked its motors: switch it off and on"]
-    assert "0.00 m" not in messages.uncertain(0.0, 0.07)
+    assert "0.00 m" not in preflight._uncertain(0.0, 0.07)
 
 
 @drone(options={"measure": {"temperature": "bme.temp"}, "measure_seconds": 0.2})

@@ -6,9 +6,9 @@ import struct
 from random import Random
 
 from pluto_fleet.crtp.drone import Build, SimulatedCrazyflie
-from pluto_fleet.crtp.faults import Value, let
-from pluto_fleet.crtp.flight_log import CommandRecord, MemoryLog
+from pluto_fleet.crtp.flight_log import CommandRecord, FlightLog
 from pluto_fleet.crtp.packets import LossyChannel, Packet, Port, packed, unpacked
+from pluto_fleet.crtp.server import Value, let
 
 CF1 = Build(id="cf1", home=(1.0, 2.0, 0.0))
 _TICK = 0.01
@@ -20,7 +20,7 @@ class Bench:
     """One drone, what it was sent, and what it has sent."""
 
     def __init__(self, build: Build = CF1) -> None:
-        self.record = MemoryLog()
+        self.record = FlightLog()
         self.sent: list[Packet] = []
         self.drone = SimulatedCrazyflie(
             build, self.record, lambda raw: self.sent.append(unpacked(raw))
@@ -40,7 +40,7 @@ class Bench:
         return self.sent[before].data if len(self.sent) > before else None
 
     def let(self, fault: str, value: Value = True) -> None:
-        """Let something go wrong, as in `pluto_fleet.crtp.faults`."""
+        """Let something go wrong, as in `pluto_fleet.crtp.server`."""
         let(self.drone, LossyChannel(Random(1)), fault, value)
 
     def arm(self) -> bool:

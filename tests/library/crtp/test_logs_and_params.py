@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from pluto_fleet.crtp.logs import MOST_BLOCKS
 from pluto_fleet.crtp.packets import Errno, Port, packed
-from pluto_fleet.crtp.params import parameters
 from tests.library.crtp.bench import Bench
 
 CREATE, APPEND, START, STOP, DELETE, RESET = 6, 7, 3, 4, 2, 5
@@ -38,17 +37,6 @@ def test_a_block_holds_26_bytes_and_there_are_16_of_them() -> None:
     assert created(bench, 99, "stateEstimate.x") == Errno.ENOMEM
     bench.told(Port.LOG, 1, bytes([RESET]))
     assert created(bench, 99, "stateEstimate.x") == Errno.OK
-
-
-def number_of(name: str) -> bytes:
-    return struct.pack("<H", [one.name for one in parameters()].index(name))
-
-
-def test_a_parameter_set_by_its_name_is_told_to_all_that_listen() -> None:
-    bench = Bench()
-    answer = bench.told(Port.PARAMETERS, 3, b"\0led\0bitmask\0\x08\xff")
-    assert answer == b"\0led\0bitmask\0\0"
-    assert bench.sent[-1].data == b"\1" + number_of("led.bitmask") + b"\xff"
 
 
 @given(st.integers(0, 15), st.integers(0, 3), st.binary(max_size=30))

@@ -126,14 +126,14 @@ def test_a_tumbled_one_flies_again_once_it_stands_upright_and_has_recovered() ->
 
 def test_a_battery_sags_in_the_air_is_low_after_five_seconds_and_empty_some_time_later() -> None:
     bench = Bench()
-    rest = bench.drone.battery.volts
+    rest = bench.drone.carried.volts
     bench.up()
-    assert rest - bench.drone.battery.volts == pytest.approx(0.3, abs=0.05)
+    assert rest - bench.drone.carried.volts == pytest.approx(0.3, abs=0.05)
     bench.let("volts", 3.19)
     bench.passes(4.0)
-    assert bench.drone.battery.state == 0
+    assert bench.drone.carried.state == 0
     bench.passes(2.0)
-    assert bench.drone.battery.state == 3
+    assert bench.drone.carried.state == 3
     bench.passes(60.0)
     assert not bench.drone.on and bench.z == 0.0
     assert bench.told(15, 0, b"hello") is None
@@ -191,6 +191,6 @@ def test_one_without_a_pad_does_not_charge_at_home() -> None:
     for charge in CHARGE, inf:
         bench = Bench(replace(CF1, level=0.5, charge=charge))
         bench.passes(60.0)
-        levels[charge] = bench.drone.battery.level
+        levels[charge] = bench.drone.carried.battery_level
     assert levels[CHARGE] > 0.5
     assert levels[inf] == 0.5

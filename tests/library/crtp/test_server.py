@@ -13,7 +13,7 @@ from pluto_fleet.crtp import process
 from pluto_fleet.crtp.body import AxisState, profile
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.equipment import frames
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.packets import NULL
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.shared.domain.errors import BadInput
@@ -43,7 +43,7 @@ async def answered(uri: str, said: bytes = ECHO) -> list[bytes] | None:
 
 def test_each_drone_has_a_port_and_its_own_faults() -> None:
     async def whole() -> None:
-        server = Server([Build(id=id, home=home) for id, home in HOMES.items()], MemoryLog())
+        server = Server([Build(id=id, home=home) for id, home in HOMES.items()], FlightLog())
         await server.start()
         uri, other = server.uris.values()
         assert await answered(uri) == [ECHO]

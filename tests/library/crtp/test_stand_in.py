@@ -10,7 +10,7 @@ import pytest
 from pluto_fleet.crazyflie.options import options_of
 from pluto_fleet.crtp.drone import EMPTY_WORLD, Build, SimulatedCrazyflie
 from pluto_fleet.crtp.equipment import fitted
-from pluto_fleet.crtp.flight_log import MemoryLog
+from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.logs import quantities
 from pluto_fleet.crtp.process import GATEWAY_LOCK
 from pluto_fleet.gateway.process import LOCK
@@ -66,7 +66,7 @@ def test_it_measures_what_simulated_drones_of_a_gateway_measure() -> None:
     dust = Source(quantity="pm10", at=(1.0, 2.0), peak=80.0, radius=2.0)
     world = World(3, Airspace(), WorldData(sources=(dust,)))
     drone = SimulatedCrazyflie(
-        Build(id="cf1", home=(1.0, 2.0, 0.0)), MemoryLog(), lambda _: None, world
+        Build(id="cf1", home=(1.0, 2.0, 0.0)), FlightLog(), lambda _: None, world
     )
     drone.step(100.0)
     measured = {

@@ -12,10 +12,9 @@ from typing import Any, TypeVar
 import pytest
 
 from pluto_fleet.drones.localization import LocalizationFeed
-from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction
 from pluto_fleet.drones.team import Team
-from pluto_fleet.drones.vehicle import TeamDrone
-from pluto_fleet.jobs.controls import TakeOff
+from pluto_fleet.jobs.controls import FleetDrone, TakeOff
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
@@ -81,22 +80,23 @@ class Flown(Asked):
         super().__init__()
         self.drones = {drone.id: drone for drone in drones}
         self.crafts = [
-            TeamDrone(
-                id=drone.id,
-                category=category,
-                home=drone.home,
-                navigation=drone,
-                parameters=parameters or {},
-            )
-            for drone in drones
+            FleetDrone(id=drone.id, category=category, home=drone.home) for drone in drones
         ]
         self.team = Team(
             self.kernel,
             self.crafts,
+            self.drones,
             FIELD,
             folder=folder,
             say=self.log.append,
-            wanted=wanted,
+            real=RealFleet(
+                drones=tuple(
+                    RealDrone(id=id, navigation="", uri=None, options={}, parameters=parameters)
+                    for id in self.drones
+                    if parameters
+                ),
+                wanted=tuple(wanted),
+            ),
             feeding=feeding,
             clock=the_loop().time,
         )

@@ -8,8 +8,7 @@ from random import Random
 
 import pytest
 
-from pluto_fleet.drones.errors import NavigationError
-from pluto_fleet.drones.protocol import BATTERY_LOW, LINK_LOST, LOCKED
+from pluto_fleet.drones.protocol import BATTERY_LOW, LINK_LOST, LOCKED, NavigationError
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.reports import Down
 from tests.kit.draws import draws

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.drones.commands import result_of
-from pluto_fleet.drones.errors import Rejected
+from pluto_fleet.drones.protocol import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
 from pluto_fleet.jobs.controls import Act, Cut, GoTo, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed

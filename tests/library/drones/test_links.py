@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.errors import Rejected
+from pluto_fleet.drones.protocol import Rejected
 from pluto_fleet.jobs.controls import GoTo, Hold, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure
 from tests.kit.drones import FakeDrone, the_loop

@@ -14,12 +14,11 @@ from pluto_fleet.drones import localization
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import make_team
-from pluto_fleet.jobs.controls import Hold, TakeOff
+from pluto_fleet.jobs.controls import FleetDrone, Hold, TakeOff
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput, Failure
 from pluto_fleet.shared.domain.model import Point
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.drones import FakeDrone, run, the_loop
 from tests.library.drones.teams import SCOUT, flying
 
@@ -193,7 +192,7 @@ def test_a_drone_that_cannot_be_told_is_refused_before_anything_flies(tmp_path: 
             localization=localization,
             localization_options={},
         )
-        drones = [SimulatedDrone(id="cf1", category=SCOUT, home=(1, 1, 0))]
+        drones = [FleetDrone(id="cf1", category=SCOUT, home=(1, 1, 0))]
         make_team(RealTime(), drones, real, Airspace(), tmp_path, print)
 
     ours = "tests.library.drones.test_localization:Simple"

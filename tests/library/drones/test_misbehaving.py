@@ -9,8 +9,7 @@ from typing import cast
 
 import pytest
 
-from pluto_fleet.drones.errors import NavigationError
-from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent
+from pluto_fleet.drones.protocol import BATTERY_LOW, DroneEvent, NavigationError
 from pluto_fleet.jobs.controls import Act, Cut, GoTo, Hold, Land, Read, TakeOff, Write
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from tests.kit.drones import FakeDrone, the_loop

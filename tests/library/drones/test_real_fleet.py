@@ -12,9 +12,7 @@ import msgspec
 import pytest
 
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction, real_fleet
-from pluto_fleet.files.crtp_fleet import as_crtp_fleet
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile, as_crtp_fleet
 from pluto_fleet.flight.config import FlightSetup
 from pluto_fleet.flight.lives import aloft, may_hover
 from pluto_fleet.shared.alone.world import Faults

@@ -14,11 +14,10 @@ from pluto_fleet.drones.real_fleet import RealFleet
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.process import LINGERS, Ending
 from pluto_fleet.gateway.server import Server
-from pluto_fleet.jobs.controls import TakeOff
+from pluto_fleet.jobs.controls import FleetDrone, TakeOff
 from pluto_fleet.process.ipc import line
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.time.kernel import Future
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.kit.drones import FakeDrone, the_loop
 from tests.library.drones.teams import FIELD, Flown, flying
 from tests.library.gateway.flights import Commander, Task
@@ -36,7 +35,7 @@ async def commanded(
     drones = [FakeDrone(f"cf{i}", (float(i), 1.0, 0.0)) for i in range(1, count + 1)]
     async with flying(folder, *drones) as flown:
         crafts = [
-            SimulatedDrone(id=one.id, category=one.category, home=one.home, index=index)
+            FleetDrone(id=one.id, category=one.category, home=one.home, index=index)
             for index, one in enumerate(flown.crafts)
         ]
         gateway = Gateway(

@@ -8,8 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.drones.errors import Rejected
-from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST
+from pluto_fleet.drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, Rejected
 from pluto_fleet.drones.safety import outside_area
 from pluto_fleet.drones.team import Team
 from pluto_fleet.jobs.controls import GoTo, Hold, Land, TakeOff

@@ -14,10 +14,8 @@ import pytest
 
 from pluto_fleet.cli.preflight import check_real
 from pluto_fleet.crazyflie.navigation import Crazyflie
-from pluto_fleet.drones.errors import NotReady
-from pluto_fleet.drones.protocol import DroneSetup
-from pluto_fleet.files.addresses import address_of
-from pluto_fleet.files.drones import which
+from pluto_fleet.drones.protocol import DroneSetup, NotReady
+from pluto_fleet.files.addresses import address_of, which
 from pluto_fleet.files.fleet import fleet_of, shared_by_air
 from pluto_fleet.files.reading import parsed
 from pluto_fleet.shared.domain.errors import BadInput

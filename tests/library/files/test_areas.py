@@ -11,8 +11,8 @@ import pytest
 
 from pluto_fleet.files import areas
 from pluto_fleet.files.missions import load_missions, missions_of
-from pluto_fleet.files.missions_text import missions_text
 from pluto_fleet.files.reading import read
+from pluto_fleet.files.writing import missions_text
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.areas import ENOUGH, drawn, judged

@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from pluto_fleet.app import App
-from pluto_fleet.files.drones import DroneEntry
 from pluto_fleet.files.fleet import (
+    DroneEntry,
     FleetFile,
     default_fleet,
     load_fleet,
@@ -15,8 +15,8 @@ from pluto_fleet.files.fleet import (
     not_real,
     options_of,
 )
-from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.landmarks import NO_LANDMARKS, Landmarks, Picture
+from pluto_fleet.files.writing import fleet_text
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import AfterTrip

@@ -13,12 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile, fleet_of, load_fleet
-from pluto_fleet.files.fleet_text import fleet_text
-from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Picture, Zone
-from pluto_fleet.files.landmarks_text import with_landmarks
+from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Picture, Zone, crossing
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.files.outline import crossing
 from pluto_fleet.files.reading import parsed
+from pluto_fleet.files.writing import fleet_text, with_landmarks
 from pluto_fleet.shared.domain.errors import BadInput
 from tests.library.files.an_app import APP
 

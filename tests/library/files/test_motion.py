@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import FleetFile, default_fleet, load_fleet
-from pluto_fleet.files.fleet_text import fleet_text
+from pluto_fleet.files.writing import fleet_text
 from pluto_fleet.shared.alone import files
 from pluto_fleet.shared.alone.simulate import default_fleet as default_fleet_alone
 from pluto_fleet.shared.domain.errors import BadInput

@@ -7,8 +7,7 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.files.plan_check import endless, look_alikes, problems, uncharged
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Item, Point

@@ -10,7 +10,7 @@ import pytest
 
 from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.files.promise_check import impossible
+from pluto_fleet.files.plan_check import impossible
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import AfterTrip, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from pluto_fleet.gateway.settings import joining_data
+from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.simulation.body import simulated
 from pluto_fleet.trials.invariants import violations
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
@@ -24,7 +24,7 @@ def join(living: Living, entry: dict[str, Any] = NEW) -> str:
     """Have a drone join, as a flight does: the gateway has it first."""
     life = living.life
     fleet = life.control.fleet_with(entry)
-    joining = joining_data(simulated(living.app, fleet)[-1], None)
+    joining = joining_data(fleet_drones(living.app, fleet)[-1], None)
     assert living.gateway.join(joining) == ""
     return life.control.join(entry)
 

@@ -12,11 +12,13 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.fleet import FleetFile
-from pluto_fleet.flight.config import FlightConfig, FlightResult, Stops
-from pluto_fleet.flight.fly import live
-from pluto_fleet.flight.lives import flight_of
+from pluto_fleet.flight.access import GatewayAccess
+from pluto_fleet.flight.config import FlightResult, FlightSetup, Stops
+from pluto_fleet.flight.live_flight import FlightObserver
+from pluto_fleet.flight.lives import flight_of, live
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.jobs.link import Link
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal import header
@@ -30,7 +32,6 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.simulation.body import simulated
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
 
@@ -48,7 +49,7 @@ class Tried:
         )
         self.fleet = apps.fleet(airspace=AIRSPACE)
         self.told: list[Event] = []
-        self.drones = simulated(self.app, self.fleet)
+        self.drones = fleet_drones(self.app, self.fleet)
         self.ledger = Ledger()
         self.gateway: Gateway | None = None
         self.watch: Callable[[Event], object] = lambda event: None
@@ -63,15 +64,6 @@ class Tried:
         )
         return [apps.mission("m", *trips)]
 
-    async def connect(
-        self, kernel: RealTime, _: FleetFile, epoch: int, lost: Callable[[], object]
-    ) -> Link:
-        """Let new drones stand where they stand: of each life they are new."""
-        world = World(0, AIRSPACE, None)
-        navigation = SimulatedNavigation(kernel, self.drones, world, Faults(), 0)
-        self.gateway = Gateway(kernel, navigation, self.drones, AIRSPACE, ledger=self.ledger)
-        return self.gateway.link(epoch, lost)
-
     def tell(self, event: Event) -> None:
         self.told.append(event)
         self.watch(event)
@@ -79,8 +71,8 @@ class Tried:
     async def live(self, stops: Stops | None = None) -> FlightResult:
         with closing(Store.open(self.path)) as store:
             flight = flight_of(self.app, store, self.missions, self.fleet, 1000.0)
-            setting = FlightConfig(flight=flight, connect=self.connect, tell=self.tell)
-            return await live(setting, store, stops or Stops())
+            observer = FlightObserver(tell=self.tell, say=lambda _: None)
+            return await live(flight, store, stops or Stops(), observer, HereAccess(flight, self))
 
     def on(self, kind: str, call: Callable[[], object]) -> None:
         """Call this, once, as soon as there is such an event, from outside of the kernel."""
@@ -100,6 +92,24 @@ class Tried:
     def journal(self) -> list[dict[str, Any]]:
         with closing(Reader(self.path)) as reader:
             return [event for _, event in reader.events()][1:]
+
+
+class HereAccess(GatewayAccess):
+    """A gateway in this process, another one in each life."""
+
+    def __init__(self, flight: FlightSetup, tried: Tried) -> None:
+        super().__init__(flight)
+        self._tried = tried
+
+    async def link(
+        self, kernel: RealTime, fleet: FleetFile, epoch: int, lost: Callable[[], object]
+    ) -> Link:
+        """Let new drones stand where they stand: of each life they are new."""
+        tried = self._tried
+        world = World(0, AIRSPACE, None)
+        navigation = SimulatedNavigation(kernel, tried.drones, world, Faults(), 0)
+        tried.gateway = Gateway(kernel, navigation, tried.drones, AIRSPACE, ledger=tried.ledger)
+        return tried.gateway.link(epoch, lost)
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from pluto_fleet.app import App
-from pluto_fleet.files.plan_waits import LONG
+from pluto_fleet.files.plan_check import LONG
 from pluto_fleet.flight.waits import Waits
 from pluto_fleet.jobs.reports import SILENCE, Down
 from pluto_fleet.report.sentences import line_of

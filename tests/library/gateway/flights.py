@@ -8,6 +8,7 @@ from typing import Any
 
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.gateway.ledger import Ledger
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.link import Link, Message, Order
 from pluto_fleet.shared.alone.world import Faults, World
@@ -19,7 +20,6 @@ from pluto_fleet.shared.fleet.orders import failure_of
 from pluto_fleet.shared.hooks.plain_data import item_data, value_of
 from pluto_fleet.shared.time.kernel import FLEET, Future
 from pluto_fleet.shared.time.told import VirtualTime
-from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 
 SCOUT = Category(name="scout", speed=0.5, flight_time=420, charge_time=1200)
@@ -157,7 +157,7 @@ class Field:
         self.airspace = airspace or Airspace()
         self.kernel = VirtualTime()
         self.drones = [
-            SimulatedDrone(id=f"cf{i + 1}", category=category, home=(x, y, 0.0), index=i)
+            FleetDrone(id=f"cf{i + 1}", category=category, home=(x, y, 0.0), index=i)
             for i, (x, y) in enumerate(homes)
         ]
         world = World(1, self.airspace)

@@ -21,13 +21,13 @@ from pluto_fleet.gateway.process import LOCK, NOTE, run
 from pluto_fleet.gateway.settings import Settings
 from pluto_fleet.gateway.starting import connect
 from pluto_fleet.gateway.wire import MAX_REPORT
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.jobs.link import Link
 from pluto_fleet.process import ipc
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.time.kernel import FLEET, Future
-from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.world_store import DEEDS
 from tests.kit import drones
 from tests.library.gateway.flights import SCOUT, Commander, Task
@@ -46,7 +46,7 @@ COMMAND = (sys.executable, "-c", PROGRAM)
 def settings(**other: Any) -> Settings:
     """Return settings for two drones at (1, 1) and (2, 1)."""
     drones = tuple(
-        SimulatedDrone(id=f"cf{i + 1}", category=SCOUT, home=(1.0 + i, 1.0, 0.0), index=i)
+        FleetDrone(id=f"cf{i + 1}", category=SCOUT, home=(1.0 + i, 1.0, 0.0), index=i)
         for i in range(2)
     )
     given: dict[str, Any] = {

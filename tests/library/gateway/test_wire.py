@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from pluto_fleet.gateway.settings import data_of, settings_of
 from pluto_fleet.gateway.wire import order_of
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.jobs.reports import (
     DroneReport,
     Entry,
@@ -28,7 +29,6 @@ from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import Category, Photo
 from pluto_fleet.shared.fleet.orders import failure_of
 from pluto_fleet.shared.hooks.plain_data import value_of
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import Task
 from tests.library.gateway.processes import settings
 
@@ -120,7 +120,7 @@ def test_settings_are_read_as_they_were_written() -> None:
     """All that the process must know, and nothing of the app."""
     category = Category(name="scout", actions=frozenset({"measure", "take_photo"}))
     whole = settings(
-        drones=(SimulatedDrone(id="a", category=category, home=(1.0, 2.0, 0.0), index=3),),
+        drones=(FleetDrone(id="a", category=category, home=(1.0, 2.0, 0.0), index=3),),
         airspace=Airspace(size=(5.0, 6.0), no_fly=(((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)),)),
         world=WorldData(
             features=(Feature(kind="bloom", at=(1.0, 2.0)),),

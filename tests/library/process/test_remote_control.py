@@ -10,6 +10,7 @@ import socket
 import stat
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -100,7 +101,7 @@ def note(tmp_path: Path) -> Path:
 def test_each_command_reaches_the_app(
     request_: dict[str, object], call: tuple[object, ...]
 ) -> None:
-    told = Told()
+    told: Any = Told()
     assert perform(told, request_) == f"did {call[0]}"
     assert told.calls == [call]
 
@@ -118,7 +119,7 @@ def test_each_command_reaches_the_app(
     ],
 )
 def test_what_makes_no_sense_is_refused(request_: dict[str, object]) -> None:
-    told = Told()
+    told: Any = Told()
     with pytest.raises(BadInput, match="does not know that command"):
         perform(told, request_)
     assert told.calls == []
@@ -135,7 +136,7 @@ def test_what_makes_no_sense_is_refused(request_: dict[str, object]) -> None:
 )
 def test_a_strangers_line_is_answered_and_does_no_harm(line: bytes, note: Path) -> None:
     """The next one is heard as well."""
-    told = Told()
+    told: Any = Told()
 
     def client() -> str:
         address = address_in(note)

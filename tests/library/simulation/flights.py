@@ -6,14 +6,13 @@ from collections.abc import Coroutine
 from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
-from pluto_fleet.jobs.controls import TakeOff
+from pluto_fleet.jobs.controls import FleetDrone, TakeOff
 from pluto_fleet.shared.alone.world import Faults, World, draw
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.time.kernel import FLEET, Kernel
 from pluto_fleet.shared.time.told import VirtualTime
-from pluto_fleet.simulation.body import SimulatedDrone
 from pluto_fleet.simulation.drones import SimulatedNavigation
 
 T = TypeVar("T")
@@ -33,7 +32,7 @@ class Team(SimulatedNavigation):
     def __init__(
         self,
         kernel: Kernel,
-        drones: list[SimulatedDrone],
+        drones: list[FleetDrone],
         faults: Faults,
         seed: int,
         space: Airspace,
@@ -62,7 +61,7 @@ def team(
 ) -> Team:
     """Two drones, cf1 at (1, 1) and cf2 beside it."""
     drones = [
-        SimulatedDrone(
+        FleetDrone(
             id=f"cf{i + 1}",
             category=category,
             home=(HOME[0] + i, HOME[1], 0.0),

@@ -7,7 +7,7 @@ from collections import defaultdict
 import pytest
 
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.sizing.bounds import Rule, least_runs, lower, upper, usual_runs
+from pluto_fleet.sizing.tries import Rule, least_runs, lower, upper, usual_runs
 
 
 def test_the_bounds_are_wilsons() -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from itertools import combinations
 from math import dist
 
-from pluto_fleet.files.drones import DroneEntry
+from pluto_fleet.files.fleet import DroneEntry
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.sizing.fleets import Stock
 from tests.kit.apps import fleet, mission, pick, release, trip

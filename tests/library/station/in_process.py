@@ -24,8 +24,7 @@ from pluto_fleet.journal.reader import Reader
 from pluto_fleet.process import wall_clock
 from pluto_fleet.process.realtime import RealTime
 from pluto_fleet.shared.domain.app import moving
-from pluto_fleet.simulation.body import SimulatedBody
-from pluto_fleet.simulation.drones import SimulatedNavigation
+from pluto_fleet.simulation.drones import SimulatedBody, SimulatedNavigation
 from pluto_fleet.simulation.world_store import Moment
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.plan.plan import MissionPlan
@@ -203,7 +202,6 @@ class Flown(Asked):
         async def leave() -> None:
             self.life.leave()
             await self.life.leaves.wait()
-            await self.life.recorded()
 
         self.world.run(leave())
 

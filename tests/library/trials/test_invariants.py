@@ -8,19 +8,23 @@ from functools import partial
 import pytest
 
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.trials.delay_rule import DelaysAreWaited
-from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
-from pluto_fleet.trials.invariants import RULES, Invariants, violations
-from pluto_fleet.trials.promise_rule import PromisesAreKept
-from pluto_fleet.trials.rules import (
+from pluto_fleet.trials.invariants import (
+    RULES,
     AttemptsCountUp,
     CompletedDidEverything,
+    DelaysAreWaited,
     EndsOnce,
+    Invariants,
+    ItemsStayAboard,
     LimitsAreKept,
     NothingAfterTheEnd,
+    PromisesAreKept,
     Rule,
     Say,
+    ServesOneMission,
+    StaysDown,
     TripsDoNotOverlap,
+    violations,
 )
 
 Trace = Sequence[Event]

@@ -12,11 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pluto_fleet.files.fleet import default_fleet, load_fleet
-from pluto_fleet.files.fleet_text import fleet_text
 from pluto_fleet.files.missions import load_missions
-from pluto_fleet.files.missions_text import missions_text
+from pluto_fleet.files.writing import fleet_text, missions_text
 from pluto_fleet.gateway.gateway import Gateway
-from pluto_fleet.trials import command, explore, world
+from pluto_fleet.trials import command, explore, lives
 from pluto_fleet.trials.case import (
     FAIR,
     Case,
@@ -28,10 +27,9 @@ from pluto_fleet.trials.case import (
     weather_of,
     weather_text,
 )
-from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions
+from pluto_fleet.trials.explore import Tally, explored, random_case, random_missions, shrunk
 from pluto_fleet.trials.lives import TrialRun, tried
 from pluto_fleet.trials.record import TrialResult
-from pluto_fleet.trials.shrink import shrunk
 from tests.trials.examples import WAITING, app_of, example, fleet_of
 
 APP = example("drugs_distribution_retry")
@@ -155,7 +153,7 @@ def test_a_plan_of_many_days_does_not_go_on_for_ever() -> None:
 
 def _measured(seed: int, monkeypatch: pytest.MonkeyPatch) -> TrialResult:
     with monkeypatch.context() as patch:
-        patch.setattr(world, "Gateway", partial(Gateway, measures=True))
+        patch.setattr(lives, "Gateway", partial(Gateway, measures=True))
         return tried(APP, random_case(APP, FLEET, seed))
 
 

@@ -1,4 +1,4 @@
-"""The flights of the kit, each flown once and recorded; the checks examine the records.
+"""What the author of a navigation provides to the kit, and its flights, each flown once and recorded for the checks.
 
 A command that raises ends a flight, which then lands and closes; it is recorded up to then.
 """
@@ -10,37 +10,65 @@ from collections.abc import Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from functools import partial
 from math import dist, nan
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
+from ...shared.domain.model import Point
+from ..protocol import DroneNavigation
 from .recording import FlightRecord, Sample, Step, Truth
 
 if TYPE_CHECKING:
     from collections.abc import AsyncIterator
-
-    from ...shared.domain.model import Point
-    from ..protocol import DroneNavigation
 
 LOOK = 0.02
 """The sampling interval of the drone, in seconds."""
 _MISTAKES: tuple[type[Exception], ...] = (Exception,)
 
 
-class Subject(Protocol):
-    """The navigation under test."""
+class Author:
+    """The settings of `NavigationContract`, which an author may override."""
 
-    height: float
-    away: float
-    speed: float
-    rest: float
-    connect_limit: float
+    height = 0.5
+    """The height to take off to, in metres."""
+    away = 1.0
+    """Metres to fly, along x from where the drone stands: there must be room."""
+    speed = 0.5
+    """Metres per second: the limit that is given with each command."""
+    rest = 0.4
+    """Seconds to observe a drone after a command, while it should stay where it is."""
+    tolerance = 0.1
+    """The accuracy that is required of its position and of its arrival, in metres."""
+    connect_limit = 15.0
+    """The time-out of `connect` in seconds, as in a flight."""
+    may_fall = False
+    """Whether the motors may be switched off ten centimetres above the ground."""
+
+    together = False
+    """Whether the flights may run concurrently, as with simulated drones."""
+
+    loop_factory: Callable[[], asyncio.AbstractEventLoop] | None = None
+    """What makes the event loops on which to fly: one of a simulator whose time is not the clock's."""
+
+    # Provided by the author
 
     def make(self) -> DroneNavigation:
-        """Return a fresh navigation of a drone that is ready to fly."""
-        ...
+        """Return a fresh navigation of a drone that stands on the ground, ready to fly."""
+        raise NotImplementedError("give the kit a navigation: def make(self) -> DroneNavigation")
+
+    def make_unreachable(self) -> DroneNavigation:
+        """Return a navigation of a drone that does not exist."""
+        raise NotImplementedError
+
+    def silence(self, navigation: DroneNavigation) -> None:
+        """Make its drone fall silent."""
+        raise NotImplementedError
+
+    def crash(self, navigation: DroneNavigation) -> None:
+        """Make its drone crash."""
+        raise NotImplementedError
 
     def truth(self, navigation: DroneNavigation) -> Truth | None:
-        """Return the true state of its drone, if it is known."""
-        ...
+        """Return the true state of its drone, if a simulator or cameras know it."""
+        return None
 
 
 def now() -> float:
@@ -55,13 +83,12 @@ class Ended(Exception):
 class Flight:
     """One flight in progress."""
 
-    def __init__(self, subject: Subject, navigation: DroneNavigation) -> None:
+    def __init__(self, subject: Author, navigation: DroneNavigation) -> None:
         self.subject, self.navigation = subject, navigation
         self.record = FlightRecord(made=type(navigation))
         self.during = "before"
 
     def look(self) -> Sample:
-        """Take a sample of the drone."""
         told, true = self.navigation.telemetry, self.subject.truth(self.navigation)
         sample = Sample(at=now(), during=self.during, telemetry=told, truth=true)
         self.record.samples.append(sample)
@@ -109,7 +136,6 @@ class Flight:
         )
 
     async def rests(self) -> None:
-        """Observe for a moment."""
         await asyncio.sleep(self.subject.rest)
         self.look()  # on a busy machine it may be the only sample
 
@@ -130,7 +156,7 @@ class Flight:
 
 
 @asynccontextmanager
-async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
+async def flying(subject: Author, make: Callable[[], DroneNavigation]) -> AsyncIterator[Flight]:
     """Make a navigation; land and close it, however its flight ends."""
     flight = Flight(subject, make())
     drone = flight.navigation
@@ -152,8 +178,7 @@ async def flying(subject: Subject, make: Callable[[], DroneNavigation]) -> Async
                 await task
 
 
-async def tour(subject: Subject) -> FlightRecord:
-    """Everything that a healthy drone must do."""
+async def tour(subject: Author) -> FlightRecord:
     async with flying(subject, subject.make) as flight:
         drone, speed, height = flight.navigation, subject.speed, subject.height
         await flight.does("connect", drone.connect, subject.connect_limit)
@@ -210,7 +235,7 @@ async def _cancelled(flight: Flight, target: Point) -> None:
     await flight.does("go_to that is cancelled", broken_off, flight.limit(2 * half))
 
 
-async def closed_in_the_air(subject: Subject) -> FlightRecord:
+async def closed_in_the_air(subject: Author) -> FlightRecord:
     """Close a navigation while its drone hovers, as a program does that ends too early."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -219,7 +244,7 @@ async def closed_in_the_air(subject: Subject) -> FlightRecord:
     return flight.record
 
 
-async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
+async def struck(subject: Author, strike: Callable[[DroneNavigation], object]) -> FlightRecord:
     """Cause a fault while a drone flies."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
@@ -244,14 +269,14 @@ async def struck(subject: Subject, strike: Callable[[DroneNavigation], object]) 
     return flight.record
 
 
-async def unreachable(subject: Subject, make: Callable[[], DroneNavigation]) -> FlightRecord:
+async def unreachable(subject: Author, make: Callable[[], DroneNavigation]) -> FlightRecord:
     """Connect to a drone that does not exist."""
     async with flying(subject, make) as flight:
         await flight.tries("connect", flight.navigation.connect, subject.connect_limit)
     return flight.record
 
 
-async def cut(subject: Subject) -> FlightRecord:
+async def cut(subject: Author) -> FlightRecord:
     """Switch the motors off, ten centimetres above the ground."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()

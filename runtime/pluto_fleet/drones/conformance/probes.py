@@ -101,7 +101,6 @@ class Resources:
 
 
 def resources() -> Resources:
-    """Return the present resources."""
     return Resources(
         threads=frozenset(
             thread

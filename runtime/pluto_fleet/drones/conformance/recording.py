@@ -4,17 +4,14 @@ them: how far it moved, how fast, how often it sent telemetry.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from math import cos, dist, hypot, isfinite, sin
-from typing import TYPE_CHECKING
 
 from ...shared.domain.errors import Failure
-
-if TYPE_CHECKING:
-    from ...shared.domain.model import Point
-    from ..protocol import DroneEvent, DroneTelemetry
+from ...shared.domain.model import Point
+from ..protocol import DroneEvent, DroneTelemetry
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -87,19 +84,11 @@ class FlightRecord:
         raise AssertionError(f"the flight never came to {name}{why}") from self.failed
 
     def during(self, *names: str) -> list[Sample]:
-        """Return the samples during some steps, in order."""
         return [sample for sample in self.samples if sample.during in names]
 
 
 def described(error: BaseException) -> str:
-    """Format an error."""
     return f"{type(error).__name__}: {error}"
-
-
-def ensure(holds: object, sentence: str | Callable[[], str]) -> None:
-    """Fail with this sentence unless something holds."""
-    if not holds:
-        raise AssertionError(sentence if isinstance(sentence, str) else sentence())
 
 
 WINDOW = 0.5

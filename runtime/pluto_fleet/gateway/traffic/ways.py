@@ -106,8 +106,6 @@ _PARTS = (0.5, 0.25, 0.75)
 """At which share of the length a route is farthest from the straight one."""
 _ASIDE = (0.6, -0.6, 1.2, -1.2)
 """Sideways offsets in metres; negative: to the right."""
-_SLOPES = (4.0, 1.5, 0.0)
-"""Metres forward for each metre up or down; 0: straight up, and straight down."""
 
 
 def ways_home(
@@ -126,10 +124,9 @@ def ways_home(
         if height <= airspace.ceiling + 1e-9:
             over = ((x, y, height), *((px, py, height) for px, py, _ in route))
             if len(route) == 1 and level:
-                ways.append((start, _along(over[0], over[1], 0.5, 1.0), end))
-            ways += [
-                way for slope in _SLOPES if (way := _sloping(start, over, end, slope)) is not None
-            ]
+                (ax, ay, _), (bx, by, _) = over
+                ways.append((start, ((ax + bx) / 2, (ay + by) / 2, height), end))
+            ways.append((start, *over, end))
     if len(route) == 1:
         ways += _around(airspace, start, end)
     ground = (end[0], end[1], 0.0)
@@ -155,23 +152,6 @@ def _around(airspace: Airspace, start: Point, end: Point) -> Iterator[tuple[Poin
                 and leg_problem(airspace, turn, end) is None
             ):
                 yield start, turn, end
-
-
-def _sloping(
-    start: Point, over: tuple[Point, ...], end: Point, slope: float
-) -> tuple[Point, ...] | None:
-    """Return a route that rises, crosses, and sinks; None: it is too short for these slopes."""
-    up, down = slope * abs(over[0][2] - start[2]), slope * abs(over[-1][2] - end[2])
-    first, last = dist(over[0], over[1]), dist(over[-2], over[-1])
-    if up > first or down > last or (len(over) == 2 and up + down > first):
-        return None
-    risen, sinks = _along(over[0], over[1], up, first), _along(over[-1], over[-2], down, last)
-    return (start, risen, *over[1:-1], sinks, end)
-
-
-def _along(a: Point, b: Point, metres: float, length: float) -> Point:
-    part = metres / length if length else 0.0
-    return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]), a[2]
 
 
 def _without_repeats(points: tuple[Point, ...]) -> tuple[Point, ...]:

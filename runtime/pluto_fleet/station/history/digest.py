@@ -71,7 +71,6 @@ def digest_of(id: str, text: JournalText, app: App) -> Digest:
             "results": results,
             "drones": [drone for drone, one in work.drones.items() if one.launched],
             "lost": [drone for drone, one in work.drones.items() if one.lost],
-            "recorded": False,
             "said": said,
         },
         work=work.drones,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
@@ -12,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 from ...journal.lock import holder
 from ...journal.place import written
 from ...process.untrusted import fits, parsed
+from ...process.whole_file import write_whole
 from ..wire import FlightSummary
 from .airborne import Work
 from .digest import Digest, digest_of
-from .folder import journals_in, recording_of
-from .reading import JournalText
+from .reading import JournalText, journals_in
 
 if TYPE_CHECKING:
     from ...app import App
@@ -70,11 +69,10 @@ class KeptDigests:
         return stamp, digest_of(id, JournalText(path), self._app)
 
     def _present(self, digest: Digest, path: Path) -> Digest:
-        """Add what the journal itself does not tell: whether it flies now, and was recorded."""
+        """Add what the journal itself does not tell: whether it flies now."""
         summary = digest.summary.copy()
         if summary["end"] != "unknown" and holder(path) is not None:
             summary["end"], summary["ended_at"] = "flying", None
-        summary["recorded"] = recording_of(path).exists()
         return Digest(summary=summary, work=digest.work)
 
     def _read(self) -> dict[str, tuple[Stamp, Digest]]:
@@ -98,9 +96,7 @@ class KeptDigests:
         self._in_file = found.copy()
         text = json.dumps({"format": FORMAT, "app": self._app.name, "flights": flights})
         with suppress(OSError):  # then the next station reads the journals again
-            part = self._file.with_name(f"{self._file.name}.{os.getpid()}.part")
-            part.write_text(text, encoding="utf-8")
-            part.replace(self._file)
+            write_whole(self._file, text)
 
 
 def _when(stamp: Stamp, digest: Digest) -> tuple[int, str]:

@@ -13,7 +13,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 from ...shared.domain.errors import BadInput
-from .frames import Frame
+from ..shown import Frame
 from .logbook import Logbook
 from .replay import Past
 
@@ -48,7 +48,7 @@ def mcap_of(past: Past, book: Logbook) -> bytes:
     writer.start(profile="", library="pluto-fleet")
     begun_at = past.begun_at
     _Writing(writer, file, begun_at or 0).write(past, book)
-    writer.add_metadata("flight", {"id": past.id, "said": past.said})
+    writer.add_metadata("flight", {"id": past.id, "said": book.said})
     writer.finish()  # type: ignore[no-untyped-call] # of that library
     return file.getvalue()
 

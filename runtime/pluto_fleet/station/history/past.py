@@ -9,13 +9,11 @@ from typing import TYPE_CHECKING
 from ...shared.domain.errors import BadInput
 from ..results.rows import NameOf, nowhere
 from .digest import Digest
-from .folder import found, recording_of, rehearsal
 from .hours import hours_of
 from .kept_digests import KeptDigests
 from .logbook import Logbook, logbook
 from .mcap_file import mcap_of
-from .reading import JournalText
-from .recorded import Recorded
+from .reading import JournalText, found, rehearsal
 from .replay import Past
 from .report import report_of
 
@@ -26,9 +24,6 @@ if TYPE_CHECKING:
 
 DIGESTS_FILE = "flights.json"
 """The file with the digests of all flights, in the station's own folder."""
-
-RECORDINGS_OPEN = 4
-"""How many recordings are kept in mind, each by where its keyframes are."""
 
 
 class PastFlights:
@@ -44,7 +39,6 @@ class PastFlights:
         self._app, self._config, self._name_of = app, config, name_of
         file = config.own_folder / DIGESTS_FILE
         self._digests = KeptDigests(app, config.folder, file)
-        self._recordings: dict[Path, Recorded] = {}
 
     def flights(self) -> list[FlightSummary]:
         """Return a line for each flight, the newest first."""
@@ -78,10 +72,7 @@ class PastFlights:
         return self._book(id).feed.brought()
 
     def _book(self, id: str) -> Logbook:
-        path = found(self._config.folder, id)
-        recorded, _ = self._recorded(recording_of(path))
-        said = recorded.said if recorded is not None else ()
-        return logbook(self._app, JournalText(path), said, self._name_of)
+        return logbook(self._app, JournalText(found(self._config.folder, id)), self._name_of)
 
     def _past(self, id: str) -> Past:
         try:
@@ -90,38 +81,15 @@ class PastFlights:
             rehearsed = rehearsal(self._config.own_folder, id)
             if rehearsed is None:
                 raise
-            recorded, trouble = self._recorded(rehearsed)
-            if recorded is None:
-                raise BadInput(f"the rehearsal cannot be read: {trouble}") from None
-            return Past(id=id, app=self._app, read=None, digest=None, recorded=recorded)
-        recorded, trouble = self._recorded(recording_of(path))
+            return Past(id=id, app=self._app, read=lambda: rehearsed, summary=None)
         return Past(
             id=id,
             app=self._app,
             read=partial(JournalText, path),
-            digest=digest,
-            recorded=recorded,
-            trouble=trouble,
+            summary=digest.summary,
             name_of=self._name_of,
         )
 
     def _digest(self, id: str) -> tuple[Path, Digest]:
         path = found(self._config.folder, id)
         return path, self._digests.of(id, path)
-
-    def _recorded(self, path: Path) -> tuple[Recorded | None, str]:
-        """Return a recording as far as it is written now, and what is wrong with it."""
-        try:
-            known = self._recordings.pop(path, None)
-            if known is None:
-                known = Recorded(path)
-            else:
-                known.refresh()
-        except FileNotFoundError:
-            return None, ""
-        except (OSError, ValueError) as error:
-            return None, f"{path}: this recording cannot be read: {error}"
-        self._recordings[path] = known
-        while len(self._recordings) > RECORDINGS_OPEN:
-            del self._recordings[next(iter(self._recordings))]
-        return known, ""

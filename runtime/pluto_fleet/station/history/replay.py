@@ -7,20 +7,22 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ...shared.domain.text import counted
+from ...journal.facts import SHOWN
 from ..results.rows import NameOf, nowhere
-from .folded import folded_frames
-from .frames import Frame, opened_at
+from ..shown import changed
+from .frames import frames_of, opened_at
 from .logbook import logbook
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ...app import App
-    from ..wire import Replay
-    from .digest import Digest
-    from .reading import JournalText
-    from .recorded import Recorded
+    from ..shown import Frame
+    from ..wire import FlightSummary, Replay
+    from .reading import Event, JournalText
+
+BATTERY_STEP, BATTERY_EVERY = 0.01, 60.0
+"""A level is told that differs by so much from the one before, or is so many seconds later."""
 
 LARGEST_PART = 1_000_000
 """Characters of a part's frames as JSON, about; the frames of one instant are never parted."""
@@ -28,89 +30,52 @@ LARGEST_PART = 1_000_000
 LINES, RESULTS = 5_000, 2_000
 """The most lines of the console and results in a replay, the last ones: the files have all."""
 
-SOON = 1.0
-"""Seconds from the beginning of a flight within which a recording of it begins."""
-
-NOT_RECORDED = (
-    "what was seen of this flight was not recorded: this is what its journal tells,"
-    " and the drones' ways are straight from one measurement to the next"
-)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Past:
-    """One flight of the past, or a rehearsal, which has no journal."""
+    """One flight of the past, or a rehearsal."""
 
     id: str
     app: App
-    read: Callable[[], JournalText] | None
+    read: Callable[[], JournalText]
     """Begins to read its journal."""
-    digest: Digest | None
-    """That of its journal."""
-    recorded: Recorded | None
-    trouble: str = ""
-    """What is wrong with its recording; empty: nothing."""
+    summary: FlightSummary | None
+    """None: it is a rehearsal."""
     name_of: NameOf = nowhere
     """What a place of the map is called."""
 
     def frames(self, start: float = 0.0) -> Iterator[Frame]:
         """Yield a keyframe of what was shown at `start`, and what changed since."""
-        begins = None if self.recorded is None else self.recorded.begins
-        unrecorded = self.read is not None and (
-            begins is None or (start < begins and begins > SOON)
-        )
-        if unrecorded and self.read is not None:
-            folded = opened_at(folded_frames(self.app, self.read), start)
-            for frame in folded:
-                if begins is not None and frame["t"] >= begins:
-                    break
-                yield frame
-        if self.recorded is not None and begins is not None:
-            yield from self.recorded.frames(max(start, begins) if unrecorded else start)
+        return self._frames(self.read, start)
 
-    @property
-    def seconds(self) -> float:
-        """The length of the replay."""
-        recorded = self.recorded.seconds if self.recorded is not None else 0.0
-        if recorded or self.digest is None:
-            return recorded
-        return self.digest.summary["seconds"]
-
-    @property
-    def said(self) -> str:
-        """What is missing of it; empty: nothing."""
-        said = [self.trouble] if self.trouble else []
-        begins = None if self.recorded is None else self.recorded.begins
-        if begins is None:
-            said.append(NOT_RECORDED)
-        elif begins > SOON and self.read is not None:
-            said.append(f"up to {begins:.0f} s {NOT_RECORDED}")
-        if self.recorded is not None and self.recorded.holes:
-            places = ", ".join(f"{t:.0f} s" for t in self.recorded.holes)
-            said.append(f"a part of the recording is damaged, and left out, after {places}")
-        if self.recorded is not None and self.recorded.left_out:
-            lines = counted(self.recorded.left_out, "line")
-            said.append(f"{lines} of the recording say nothing that can be shown, and are left out")
-        if self.digest is not None and self.digest.summary["said"]:
-            said.append(self.digest.summary["said"])
-        return "; ".join(said)
+    def _frames(self, read: Callable[[], JournalText], start: float) -> Iterator[Frame]:
+        end = None if self.summary is None else self.summary["end"]
+        phase = end if end in ("over", "stopped", "interrupted") else None
+        return opened_at(frames_of(read, phase), start)
 
     def part(self, start: float) -> Replay:
         """Return the part that begins with what was shown at `start`."""
         frames: list[Any] = []
         size, following = 0, None
-        for frame in self.frames(start):
+        texts: list[JournalText] = []
+
+        def read() -> JournalText:
+            texts.append(self.read())
+            return texts[-1]
+
+        for frame in self._frames(read, start):
             size += len(json.dumps(frame, separators=(",", ":"), default=str))
             if frames and size > LARGEST_PART and frame["t"] > frames[-1]["t"]:
                 following = frame["t"]
                 break
             frames.append(frame)
+        summary = self.summary
+        said = [text.damaged for text in texts] + ([summary["said"]] if summary else [])
         whole: Replay = {
             "flight": self.id,
             "begun_at": self.begun_at,
-            "recorded": self.recorded is not None and self.recorded.begins is not None,
-            "said": self.said,
-            "seconds": self.seconds,
+            "said": "; ".join(dict.fromkeys(filter(None, said))),
+            "seconds": summary["seconds"] if summary is not None else _seconds(self.read()),
             "frames": frames,
             "next": following,
             "log": [],
@@ -124,38 +89,48 @@ class Past:
 
     def _add_whole_flight(self, whole: Replay) -> None:
         """Add what only the first part has."""
-        recorded = self.recorded
-        said = recorded.said if recorded is not None else ()
-        if self.read is not None:
-            book = logbook(self.app, self.read(), said, self.name_of)
-            log, results = book.lines, book.results
-            if book.said and book.said not in whole["said"]:
-                whole["said"] = "; ".join(filter(None, (whole["said"], book.said)))
-        else:
-            log, results = [line for line, _ in said], [*recorded.results] if recorded else []
-        whole["log"], whole["results"] = log[-LINES:], results[-RESULTS:]
-        if recorded is not None and recorded.begins is not None:
-            alerts: list[Any] = [*recorded.alerts]
-            whole["alerts"], whole["batteries"] = alerts, recorded.batteries
-        elif self.read is not None:
-            whole["batteries"] = measured_levels(self.read())
+        book = logbook(self.app, self.read(), self.name_of)
+        if book.said and book.said not in whole["said"]:
+            whole["said"] = "; ".join(filter(None, (whole["said"], book.said)))
+        whole["log"], whole["results"] = book.lines[-LINES:], book.results[-RESULTS:]
+        alerts: dict[str, Any] = {}
+        for _, events in self.read().instants():
+            for event in events:
+                for id, change in (
+                    event.get("alerts", {}).items() if event["event"] == SHOWN else ()
+                ):
+                    alerts[id] = {**changed(alerts.get(id), change), "id": id}
+                for drone, level in _levels(event):
+                    _add_level(whole["batteries"].setdefault(drone, []), event["t"], level)
+        whole["alerts"] = [*alerts.values()]
 
     @property
     def begun_at(self) -> int | None:
         """When the instant 0 was, in milliseconds since 1970, if that is known."""
-        if self.digest is not None and self.digest.summary["begun_at"] is not None:
-            return self.digest.summary["begun_at"]
-        return self.recorded.begun_at if self.recorded is not None else None
+        if self.summary is not None:
+            return self.summary["begun_at"]
+        return round(self.read().path.stat().st_mtime * 1000)
 
 
-def measured_levels(journal: JournalText) -> dict[str, list[list[float]]]:
-    """Return pairs of time and level of each drone, at the ends of its commands."""
-    found: dict[str, list[list[float]]] = {}
-    for _, events in journal.instants():
-        for event in events:
-            level = event.get("battery") if event["event"].startswith("drone.") else None
-            if isinstance(level, list):
-                level = level[-1]
-            if isinstance(level, (int, float)) and "drone" in event:
-                found.setdefault(event["drone"], []).append([event["t"], level])
-    return found
+def _seconds(rehearsal: JournalText) -> float:
+    return max((float(event["t"]) for _, some in rehearsal.instants() for event in some), default=0)
+
+
+def _levels(event: Event) -> Iterator[tuple[str, float]]:
+    """Yield the drones of whose batteries an event tells, with their levels."""
+    level = event.get("battery") if event["event"].startswith("drone.") else None
+    if isinstance(level, list):
+        level = level[-1]
+    if isinstance(level, (int, float)) and "drone" in event:
+        yield event["drone"], level
+    if event["event"] == SHOWN:
+        for drone, row in event.get("drones", {}).items():
+            if isinstance(level := row.get("battery"), (int, float)):
+                yield drone, level
+
+
+def _add_level(pairs: list[list[float]], t: float, level: float) -> None:
+    """Add a level to those of a drone, if it tells more than the last one."""
+    if pairs and abs(level - pairs[-1][1]) < BATTERY_STEP and t - pairs[-1][0] < BATTERY_EVERY:
+        return
+    pairs.append([t, level])

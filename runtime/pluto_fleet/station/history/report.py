@@ -59,7 +59,7 @@ def report_of(
     return {
         "flight": digest.summary,
         "missions": [_mission(name, record, trips) for name, record in in_order(records)],
-        "results": _results(logbook(app, again, ()).feed.brought()),
+        "results": _results(logbook(app, again).feed.brought()),
         "drones": _drones(digest),
         "incidents": incidents,
         "commands": commands_of(digest.summary, commanded, own_folder),

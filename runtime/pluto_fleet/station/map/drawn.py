@@ -1,4 +1,4 @@
-"""The map that users draw on: shared by all pages, and kept in the fleet file itself."""
+"""The map that users draw on, shared by all pages and kept in the fleet file itself; and the ways over it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,13 @@ from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...files.areas import read_places
 from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
-from ...files.landmarks_text import landmark_tables, with_landmarks
 from ...files.reading import Document, PlanTable, parsed, text_of
+from ...files.writing import landmark_tables, with_landmarks
 from ...process.whole_file import write_whole
 from ...shared.alone.files import read_map
+from ...shared.domain import values
 from ...shared.domain.airspace import EPSILON, distance, inside
 from ...shared.domain.errors import BadInput, PlutoError
 from ...shared.domain.text import printable
@@ -26,8 +28,69 @@ from .pictures import floor_plan, safe_name
 
 if TYPE_CHECKING:
     from ...shared.domain.airspace import Airspace, Corner, Polygon
-    from ..wire import MapData, Place, Zone
+    from ...shared.domain.model import Point
+    from ..wire import MapData, Place, Swept, Ways, Zone
     from ..wire import Picture as PictureData
+
+
+class DrawnWays:
+    """Answers one question after another in a thread, as each may take seconds."""
+
+    def __init__(self, airspace: Airspace) -> None:
+        self._airspace = replace(airspace)  # its cache of routes must not be shared by threads
+        self._one_at_a_time = asyncio.Lock()
+
+    async def ways(self, pairs: list[list[Any]]) -> Ways:
+        """Return the shortest permitted ways: of each pair [from, to] of places [x, y] or [x, y, z].
+
+        A place without z is at the cruise height. Raises `BadInput`.
+        """
+        read = [self._pair(one, number) for number, one in enumerate(pairs, 1)]
+        async with self._one_at_a_time:
+            return await asyncio.to_thread(self._find, read)
+
+    async def sweep(self, area: dict[str, object]) -> Swept:
+        """Return the targets of an area's trips: those that `[[mission.area]]` of a missions file has.
+
+        `area` has its `polygon` and `spacing`, and may have a `height`, and `before`, the place from which
+        the drones come. Raises `BadInput` with all that is wrong.
+        """
+        async with self._one_at_a_time:
+            return await asyncio.to_thread(self._sweep, area)
+
+    def _find(self, pairs: list[tuple[Point, Point]]) -> Ways:
+        found: list[list[list[float]] | None] = []
+        for start, end in pairs:
+            route = self._airspace.route(start, end)
+            found.append(None if route is None else [_rounded([*one]) for one in (start, *route)])
+        return {"ways": found}
+
+    def _pair(self, given: list[Any], number: int) -> tuple[Point, Point]:
+        if len(given) != 2:
+            raise BadInput(f"way {number} is no pair of places")
+        return self._point(given[0], f"way {number}"), self._point(given[1], f"way {number}")
+
+    def _point(self, given: object, who: str) -> Point:
+        try:
+            x, y, *height = values.point(given)
+        except ValueError as error:
+            raise BadInput(f"{who}: {values.shown(given)} {error}") from None
+        return x, y, height[0] if height else self._airspace.cruise_height
+
+    def _sweep(self, area: dict[str, object]) -> Swept:
+        before = area.pop("before", None)
+        come = None if before is None else self._point(before, "before")
+        document = Document("", {"area": area})
+        table = PlanTable(document, area, ("area",), "the area")
+        table.read({"polygon": None, "spacing": None}, {"height": None})
+        places = read_places(table, self._airspace, come)
+        document.refuse_if_bad()
+        [made] = document.areas
+        return {
+            "targets": [[*place] for place in places],
+            "metres": made.metres,
+            "forbidden": made.forbidden,
+        }
 
 
 NEAR = 0.5
@@ -94,16 +157,13 @@ def picture_of(picture: Picture, address: str) -> PictureData:
     }
 
 
-def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspace) -> Landmarks:
+def landmarks_from(given: Mapping[str, Any], was: Landmarks, airspace: Airspace) -> Landmarks:
     """Return what a page has drawn; what it does not send stays. Raises `BadInput` with all that is wrong."""
-    for key in given:
-        if key not in ("places", "zones", "north", "image"):
-            raise BadInput(f"the map has no {key}: it has places, zones, north and image")
     data: dict[str, object] = {"north": was.north, **landmark_tables(was)}
-    if "places" in given:
-        data["places"] = [_place(one) for one in _list(given["places"], "places")]
-    if "zones" in given:
-        data["zones"] = [_rounded(one) for one in _list(given["zones"], "zones")]
+    if given.get("places") is not None:
+        data["places"] = [_place(one) for one in given["places"]]
+    if given.get("zones") is not None:
+        data["zones"] = _rounded(given["zones"])
     if "north" in given:
         data["north"] = _rounded(given["north"])
     if given.get("image") is not None:
@@ -114,34 +174,24 @@ def landmarks_from(given: Mapping[str, object], was: Landmarks, airspace: Airspa
     return landmarks if "image" in given else replace(landmarks, picture=was.picture)
 
 
-def _place(given: object) -> object:
+def _place(given: Mapping[str, Any]) -> object:
     """Return a place as in a file."""
-    if not isinstance(given, dict):
-        return given
     at = [given[key] for key in ("x", "y") if key in given]
     at += [given["z"]] if given.get("z") is not None else []
     rest = {key: value for key, value in given.items() if key not in ("x", "y", "z")}
     return {**rest, "at": _rounded(at)}
 
 
-def _image(given: object, known: Picture | None) -> dict[str, object]:
+def _image(given: Mapping[str, Any], known: Picture | None) -> dict[str, object]:
     """Return the floor plan as in a file: a page says where it lies, and not which it is."""
     if known is None:
         raise BadInput("the map has no floor plan yet: send its picture first")
-    if not isinstance(given, dict):
-        raise BadInput("image must be null, or say where the floor plan lies")
     x, y, width, height = (given.get(key) for key in ("x", "y", "width", "height"))
     of_file = {"at": [x, y], "size": [width, height], "turn": given.get("turn", 0.0)}
     return {"file": known.file, **{key: _rounded(value) for key, value in of_file.items()}}
 
 
-def _list(given: object, name: str) -> list[Any]:
-    if not isinstance(given, list) or not all(isinstance(one, dict) for one in given):
-        raise BadInput(f"{name} must be a list of objects")
-    return given
-
-
-def _rounded(given: object) -> object:
+def _rounded(given: Any) -> Any:
     match given:
         case float():
             return round(given, _DIGITS) + 0.0
@@ -251,7 +301,6 @@ WITHOUT_A_FLEET_FILE = "map.toml"
 """The file of landmarks where there is no fleet file, in the station's own folder."""
 
 ADDRESS = "/map"
-"""The address of the floor plan."""
 
 
 class StaleMap(PlutoError):
@@ -271,9 +320,7 @@ class DrawnMap:
         self._airspace, self._file = airspace, MapFile(file)
         self.revision = round(now() * 1000)  # from the clock: after a restart it is another
         self.image: Path | None = None
-        """The floor plan."""
         self.changed: Callable[[], object] = _ignore
-        """Called after each change."""
         self._one_at_a_time = asyncio.Lock()
         self._file.read()
         self._find_image()
@@ -306,7 +353,7 @@ class DrawnMap:
         """Return what a point is called: by the nearest named place, or the zone that it is in."""
         return name_of(self.landmarks, point)
 
-    async def change(self, revision: object, given: Mapping[str, object]) -> None:
+    async def change(self, revision: int, given: Mapping[str, Any]) -> None:
         """Take what a page has drawn; what it does not send stays.
 
         Raises `StaleMap` if that was drawn on an old map, be it that the file was changed by hand
@@ -316,7 +363,7 @@ class DrawnMap:
             await self._check_current(revision)
             await self._keep(landmarks_from(given, self.landmarks, self._airspace))
 
-    async def take_picture(self, revision: object, name: str, content: bytes) -> None:
+    async def take_picture(self, revision: int, name: str, content: bytes) -> None:
         """Take a picture as the floor plan, as large as the map until it is laid where it belongs.
 
         It is kept beside the file, under a name of its own. Raises as `change` does.
@@ -340,7 +387,7 @@ class DrawnMap:
                 why = error.strerror or error
                 raise BadInput(f"the floor plan cannot be kept: {why}") from None
 
-    async def _check_current(self, revision: object) -> None:
+    async def _check_current(self, revision: int) -> None:
         if await asyncio.to_thread(self._file.read):
             self._announce()
         if revision != self.revision:

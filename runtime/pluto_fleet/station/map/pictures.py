@@ -22,7 +22,6 @@ PICTURES = {
 """The types of pictures that are shown, by the ends of their names."""
 
 LARGEST = 20 * 1024 * 1024
-"""The largest picture in bytes."""
 
 _SVG = "{http://www.w3.org/2000/svg}svg"
 _DECLARES = re.compile(rb"<!ENTITY", re.IGNORECASE)

@@ -174,8 +174,6 @@ export interface FlightSummary {
   results: number;
   drones: string[];
   lost: string[];
-  /** Whether what the pages showed was recorded, so that the replay is what was seen. */
-  recorded: boolean;
   /** What is wrong with its journal; empty: nothing. */
   said: string;
 }
@@ -197,11 +195,11 @@ export interface Forecast {
   assumed: Words[];
   /** Why a Start would be refused, and which promises cannot be kept. */
   problems: Words[];
-  /** The id of a recording of the median run, to be replayed. */
+  /** The id under which the median run can be replayed. */
   rehearsal: string | null;
 }
 
-/** What changed on the pages at an instant of a recording; a keyframe has every row. */
+/** What changed on the pages at an instant of a flight; a keyframe has every row. */
 export interface Frame {
   t: number;
   state: State;
@@ -481,15 +479,13 @@ export interface Readiness {
   assumed: Words | null;
 }
 
-/** A part of a recording, from a keyframe on. */
+/** A part of a replay, from a keyframe on. */
 export interface Replay {
   flight: string;
   begun_at: number | null;
-  /** Whether these frames are what was seen; else they are made of the journal's events. */
-  recorded: boolean;
   /** What is missing, or not known; empty: nothing. */
   said: string;
-  /** The length of the whole recording. */
+  /** The length of the whole replay. */
   seconds: number;
   frames: Frame[];
   /** Where the next part begins. */

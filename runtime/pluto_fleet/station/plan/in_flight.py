@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import count
 from typing import TYPE_CHECKING, Any
 
-from ...files.missions_text import trip_table
+from ...files.writing import trip_table
 from ...flight.changing import flying, left
 from ...shared.domain.actions import PICK, RELEASE
 from ...shared.domain.errors import BadInput
@@ -42,7 +42,6 @@ class DrawnChange:
     trips: list[Shape]
     """The mission's trips in the plan from now on, those that have flown first."""
     is_one: bool
-    """Whether it changes the flight."""
 
 
 def named(fixed: Shape, trips: Sequence[Shape]) -> list[Shape]:

@@ -37,7 +37,6 @@ class KeptPlan:
     missions: Sequence[Shape] = ()
     revision: int = 0
     said: str = ""
-    """A message about it for users."""
 
 
 class _Head(msgspec.Struct):

@@ -9,10 +9,8 @@ from copy import deepcopy
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from ...files.missions import read_missions
-from ...files.plan_check import unflyable
-from ...files.promise_check import impossible
-from ...files.promises import moment
+from ...files.missions import moment, read_missions
+from ...files.plan_check import impossible, unflyable
 from ...files.reading import Document
 from ...shared.domain.values import shown
 from ...shared.time.hours import Hours
@@ -251,7 +249,6 @@ class FlyabilityCache:
 
 
 MOST = 10
-"""The most sentences that are told at once."""
 
 
 def promised(missions: Sequence[Mission[Any]]) -> Sequence[Mission[Any]]:

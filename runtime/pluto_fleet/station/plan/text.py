@@ -8,11 +8,10 @@ from itertools import chain, count
 from typing import TYPE_CHECKING, Any
 
 from ...files.landmarks import NO_LANDMARKS
-from ...files.missions import missions_of
-from ...files.missions_text import mission_table, trip_table
-from ...files.promises import KEYS
+from ...files.missions import KEYS, missions_of
 from ...files.reading import parsed
 from ...files.toml import toml_value
+from ...files.writing import mission_table, trip_table
 from ...shared.domain.errors import BadInput
 from ...shared.domain.fields import Entity
 from ...shared.domain.values import point

@@ -12,7 +12,7 @@ from ...flight.simulate import has_traffic
 from ...shared.domain.actions import PICK
 from ...shared.domain.text import counted, duration, mass, percent
 from ...shared.fleet.reach import docked
-from ..words import words
+from ..rows import words
 from .question import UNTIL
 from .runs import Flown, Needs, Rehearsed, Run, telling
 

@@ -19,16 +19,16 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.status import TripStatus
 from ...shared.domain.text import duration
 from ...trials.case import fresh
-from ..history.folder import rehearsals_in
-from ..history.recording import SUFFIX
+from ..history.reading import REHEARSAL, rehearsals_in
 from ..plan.problems import broken, promised
-from ..words import words
+from ..rows import words
 from .forecast import forecast, without_runs
 from .question import Present, Question, at_rest, in_flight
 from .runs import MOST, Flown, found
 
 if TYPE_CHECKING:
     from ...app import App
+    from ...files.fleet import FleetFile
     from ...shared.domain.model import Mission
     from ..between_flights import FleetHistory
     from ..config import StationConfig
@@ -44,7 +44,6 @@ FIRST_WITHIN = 12.0
 """Seconds after which a forecast whose first run has not ended is made in a simpler world, or not at all."""
 
 KEPT = 4
-"""How many rehearsals are kept, the newest."""
 
 
 class Newer(BadInput):
@@ -94,7 +93,7 @@ class Preflight:
         self, question: Question, keys: Sequence[str], problems: list[Words]
     ) -> Forecast:
         id = f"rehearsal-{secrets.token_hex(8)}"
-        path = self._folder / f"{id}{SUFFIX}"
+        path = self._folder / f"{id}{REHEARSAL}"
         rehearsed = None
         try:
             flown = await self._flown(question, path)
@@ -137,7 +136,7 @@ class Preflight:
 
     def _tidy(self) -> None:
         """Delete all rehearsals but the newest."""
-        there = sorted(self._folder.glob(f"*{SUFFIX}"), key=lambda path: path.stat().st_mtime)
+        there = sorted(self._folder.glob(f"*{REHEARSAL}"), key=lambda path: path.stat().st_mtime)
         for path in there[:-KEPT]:
             path.unlink(missing_ok=True)
 
@@ -164,9 +163,13 @@ class StartForecasts:
         config: StationConfig,
         plan: MissionPlan,
         history: FleetHistory,
+        fleet_now: Callable[[], FleetFile],
         refuse: Callable[[], object],
     ) -> None:
-        """`refuse` raises `BadInput` if a Start of any plan would be refused."""
+        """`fleet_now` returns the fleet with the drones that have joined it; `refuse` raises `BadInput` if a
+        Start of any plan would be refused.
+        """
+        self._fleet_now = fleet_now
         self._app = moving(app, config.fleet.motion, charges=config.fleet.charges_at_home)
         self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
         self.preflight = Preflight(config.own_folder)
@@ -192,12 +195,8 @@ class StartForecasts:
                 words("preflight.refused", text, why=text) for text in str(error).split("\n")
             ]
             return without_runs(asked.revision, problems)
-        fleet = replace(
-            self._config.fleet,
-            airspace=replace(self._config.fleet.airspace),
-            began=time.time(),
-            zone="",
-        )
+        fleet = self._fleet_now()
+        fleet = replace(fleet, airspace=replace(fleet.airspace), began=time.time(), zone="")
         beside = list(_left_of(session))
         names = {mission.name for mission in (*beside, *missions)}
         for index, mission in enumerate([*beside, *missions]):
@@ -224,7 +223,7 @@ class StartForecasts:
 
     def _present(self, session: FlightSession | None) -> Iterator[Present]:
         """Yield the drones as a Start would find them now."""
-        fleet, config = self._config.fleet, self._config
+        fleet, config = self._fleet_now(), self._config
         life = session.life if session is not None else None
         if life is not None and life.is_set_out:
             entries = {entry.id: entry for entry in fleet.drones}

@@ -12,13 +12,12 @@ from ...flight.simulate import has_traffic
 from ...shared.domain.text import duration, percent
 from ...shared.fleet.reach import docked
 from ..between_flights import BACK, FRESH_FOR, HOVERED, NEVER
+from ..rows import words
 from ..wait_reasons import level_after, ready_in
-from ..words import words
 
 if TYPE_CHECKING:
     from ...app import App
-    from ...files.drones import DroneEntry
-    from ...files.fleet import FleetFile
+    from ...files.fleet import DroneEntry, FleetFile
     from ...flight.driver import Stands
     from ...gateway.sightings import Sighting
     from ...journal.standing import Standing

@@ -1,8 +1,7 @@
-"""The recording of one run: what pages would be shown of it, and for what its missions wait."""
+"""One run, written down as a journal would: what pages would be shown of it, and for what its missions wait."""
 
 from __future__ import annotations
 
-import time
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
@@ -11,13 +10,13 @@ from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...report.sentences import sentence_of
+from ...journal.event_line import exact
+from ...journal.facts import SHOWN
 from ...shared.domain.actions import PICK
 from ...shared.fleet.reach import Reach, chain_of
 from ...shared.hooks.plain_data import trip_of
 from .. import rows
-from ..feed import kind_of
-from ..history.recording import MOVES_EVERY, Recording
+from ..shown import Noted
 from ..wait_reasons import WaitReasons
 from ..wire import DroneRow, MissionRow
 
@@ -61,45 +60,31 @@ class Waits:
 
 
 class Rehearsal:
-    """Records one run while it is flown."""
+    """Writes one run down while it is flown."""
 
     def __init__(self, question: Question, path: Path, every: float) -> None:
         """`every`: the seconds between two looks."""
-        self._question, self._every = question, every
+        self._question = question
         self._now = 0.0
-        self._recording = Recording(
-            path,
-            begun_at=round(time.time() * 1000),
-            speed=max(1.0, every / MOVES_EVERY),
-        )
+        self._file = path.open("w", encoding="utf-8")
+        self._noted = Noted()
         app = question.app
         self._reasons = WaitReasons(app, question.flown, lambda: self._now)
         self._fit = _Fit(question)
-        self._lines = 0
         looks = max(1, MISSIONS_IN_ALL // max(1, len(question.all)))
         self._missions_every = max(every, every * FRAMES / looks)
         self._looked_at = -self._missions_every
         self._missions: list[MissionRow] = []
         self._out = [_out_row(one.id, one.out) for one in question.present if one.out is not None]
         self.waits = Waits()
+        self.take({"t": 0.0, "event": "rehearsal.begun", "sim": True})
 
     def take(self, event: Event) -> None:
-        """Record what a console would say of an event."""
-        said = sentence_of(event)
-        if said is not None:
-            self._lines += 1
-            self._recording.tell(
-                {
-                    "number": self._lines,
-                    "time": event["t"],
-                    "mission": event.get("mission"),
-                    "text": said,
-                    "kind": kind_of(event),
-                }
-            )
+        """Write an event down."""
+        self._file.write(f"[{exact(event)}]\n")
 
     def look(self, brain: Brain, now: float, drones: Mapping[str, Telemetry]) -> None:
-        """Record how everything stands."""
+        """Write down how everything stands."""
         since, self._now = now - self._now, now
         where, stand = brain.whereabouts(), brain.drones()
         over = not where
@@ -108,22 +93,23 @@ class Rehearsal:
             self._looked_at = now
             self._missions = self._rows_of(brain, where, stand, passed)
         self.waits.seconds += since
-        self._recording.write(
-            round(now, 3),
-            {
-                "phase": "over" if over else "flying",
-                "plan": self._question.revision,
-                "said": "",
-                "how": None,
-                "busy": "",
-            },
-            self._missions,
-            [*self._drone_rows(where, stand, drones), *self._out],
-        )
+        state = {
+            "phase": "over" if over else "flying",
+            "plan": self._question.revision,
+            "map": 0,
+            "fleet": len(stand),
+            "said": "",
+            "how": None,
+            "busy": "",
+        }
+        rows_now = [*self._drone_rows(where, stand, drones), *self._out]
+        changes = self._noted.changes(state, {"missions": self._missions, "drones": rows_now})
+        if changes:
+            self.take({"t": round(now, 3), "event": SHOWN, **changes})
 
     def finish(self) -> None:
-        """End the recording."""
-        self._recording.finish()
+        """End it."""
+        self._file.close()
 
     def _rows_of(
         self,

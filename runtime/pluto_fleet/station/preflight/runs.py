@@ -52,7 +52,6 @@ class Run(NamedTuple):
     seed: int
     seconds: float
     ends: Mapping[str, End]
-    """By mission."""
     battery: float | None
     """The lowest level of a battery at a landing; None: no drone flew."""
     given_up: str
@@ -78,11 +77,11 @@ OTHER = "hooks.py remembers earlier runs, and flies another one"
 
 
 class Rehearsed(NamedTuple):
-    """What was recorded of the median run."""
+    """What came of the median run when it was flown once more, to be watched."""
 
     waits: Waits
     trouble: str = ""
-    """Why there is no recording of it; empty: there is."""
+    """Why it could not be written down; empty: it was."""
 
 
 Found = Needs | Run | Rehearsed
@@ -107,12 +106,12 @@ class Flown:
 
     @property
     def is_recorded(self) -> bool:
-        """Whether there is a recording of the median run."""
+        """Whether the median run was written down, to be watched."""
         return self.rehearsed is not None and not self.rehearsed.trouble
 
 
 def found(question: Question, recording: Path | None) -> Iterator[Found]:
-    """Yield what drones need, and each run; record the median one."""
+    """Yield what drones need, and each run; write the median one down, to be watched."""
     yield needs(question)
     runs: list[Run] = []
     for seed in _seeds(question):

@@ -5,20 +5,42 @@ from __future__ import annotations
 import asyncio
 import json
 import shutil
+import tempfile
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
+from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 from ...shared.domain.errors import BadInput
-from ..json_text import json_text
 from . import pictures
-from .archive import write_archive
-from .tables import cells, csv_text, geojson
+from .tables import cells, csv_text, geojson, picture_name
 
 if TYPE_CHECKING:
     from ...process.apart import Answers
-    from .flights import ResultsOfFlights
+    from .flights import FlightResults, ResultsOfFlights
+
+INDEX, MISSING = "results.csv", "missing.txt"
+
+
+def json_text(data: object) -> str:
+    """Return data as JSON in ASCII; numbers that JSON lacks become texts."""
+    try:
+        return json.dumps(data, separators=(",", ":"), allow_nan=False)
+    except ValueError:  # a hook returned NaN or infinity
+        return json.dumps(_finite(data), separators=(",", ":"), allow_nan=False)
+
+
+def _finite(data: object) -> object:
+    if isinstance(data, float) and not isfinite(data):
+        return str(data)
+    if isinstance(data, Mapping):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, (list, tuple)):
+        return [_finite(value) for value in data]
+    return data
+
 
 AT_ONCE = 2
 """The pictures that are read or made small at once, each in a thread."""
@@ -149,3 +171,26 @@ def _archive(files: Files, flight: str, folder: Path) -> Path:
 
 def _picture(files: Files, flight: str, number: int, cache: Path | None) -> tuple[bytes, str]:
     return pictures.shown(files.results.of(flight), number, cache)
+
+
+def write_archive(flight: FlightResults, folder: Path) -> Path:
+    """Write the archive into a new file of a folder, and return it; whoever asked deletes it.
+
+    It has `results.csv`, whose column `picture` names the files beside it, and `missing.txt` with a
+    sentence for each picture that could not be read, if there are any.
+    """
+    folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+    descriptor, name = tempfile.mkstemp(suffix=".zip", dir=folder)
+    missing = []
+    with open(descriptor, "wb") as file, ZipFile(file, "w", ZIP_STORED) as archive:
+        archive.writestr(INDEX, csv_text(cells(flight)), compress_type=ZIP_DEFLATED)
+        for number, named in flight.pictures.items():
+            try:
+                content, _ = pictures.picture(flight, number)
+            except BadInput as why:
+                missing.append(f"{why}\n")
+            else:
+                archive.writestr(picture_name(number, named), content)
+        if missing:
+            archive.writestr(MISSING, "".join(missing))
+    return Path(name)

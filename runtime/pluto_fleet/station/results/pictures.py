@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from ...drones.team import FILES
 from ...journal.place import gateway_folder
+from ...process.whole_file import write_whole
 from ...shared.domain.errors import BadInput
 from ...shared.domain.text import quoted
 
@@ -126,9 +127,7 @@ def small(flight: Taken, number: int, cache: Path) -> bytes:
         return kept.read_bytes()
     made = _smaller(content, number)
     cache.mkdir(mode=0o700, parents=True, exist_ok=True)
-    beside = kept.with_suffix(f".{os.getpid()}.new")
-    beside.write_bytes(made)
-    beside.replace(kept)
+    write_whole(kept, made)
     _forget_the_oldest(cache)
     return made
 

@@ -114,11 +114,6 @@ def _cell(value: str | float | bool | None) -> str | int | float:
             return value
 
 
-def from_cell(text: str) -> str:
-    """Return the text of a CSV cell as it was before it was made safe."""
-    return text.removeprefix("'")
-
-
 def geojson(flight: FlightResults, app: str) -> dict[str, object]:
     """Return the results that have a place: photos as the ground that they show, others as points."""
     return {

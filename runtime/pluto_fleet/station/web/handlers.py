@@ -22,10 +22,9 @@ from ...shared.domain.errors import BadInput
 from ...shared.domain.text import cut_off, printable
 from ..flight_files import FlightFiles
 from ..interface import Interface
-from ..json_text import json_text
 from ..operation import JSON, Operation, operations_of
 from ..preflight.preflight import PlannedStart
-from ..results.exports import Exports
+from ..results.exports import Exports, json_text
 from ..wire import MapData, Role, SavedPlans
 from ..wire_app import PlanData
 from .audit import who
@@ -287,7 +286,6 @@ def _download(content: bytes, name: str, kind: str) -> Response:
 
 
 OPERATIONS = operations_of(Interface)
-"""All that can be asked, by name."""
 
 HANDLERS: Mapping[str, Handler] = {
     **{name: command for name, one in OPERATIONS.items() if one.is_command},

@@ -26,22 +26,18 @@ if TYPE_CHECKING:
     from ..station import Station
 
 
-_LONGEST = {"id": 32, "name": LONGEST_WHO, "page": 40, "touches": 64}
-"""Characters of each text; what is longer is cut off."""
-
-
 def shortened(me: Me) -> Me:
     """Return what a page says of itself, sanitized."""
     return {
-        "id": _short(me["id"], "id"),
-        "name": _short(me["name"], "name"),
-        "page": _short(me["page"], "page"),
-        "touches": _short(me["touches"], "touches"),
+        "id": _short(me["id"], 32),
+        "name": _short(me["name"], LONGEST_WHO),
+        "page": _short(me["page"], 40),
+        "touches": _short(me["touches"], 64),
     }
 
 
-def _short(text: str, what: str) -> str:
-    return cut_off(printable(text.strip()), _LONGEST[what])
+def _short(text: str, most: int) -> str:
+    return cut_off(printable(text.strip()), most)
 
 
 class People:
@@ -50,7 +46,6 @@ class People:
     def __init__(self) -> None:
         self._here: dict[object, Person] = {}
         self.version = 0
-        """It grows with every change."""
 
     def enter(self, page: object, role: Role, me: Me) -> None:
         """Note what a connected page says of itself."""
@@ -109,7 +104,6 @@ class WaitingPlaces:
 
 
 LIVE = "/api/live"
-"""The address for WebSockets."""
 
 _MOST_PAGES = 32
 """The most connected pages of those who may command, and as many of those who watch."""

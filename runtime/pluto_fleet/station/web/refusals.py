@@ -47,7 +47,6 @@ WATCHES = Refusal(
     "this browser may watch and not command: to command, open the address with the other token,"
     " which the station printed first",
 )
-"""The token is that for watching."""
 NO_SUCH_PAGE = Refusal(404, "there is nothing at this address")
 TWO_LENGTHS = Refusal(
     400, "a request says its length once: by Content-Length, or by Transfer-Encoding", HANG_UP
@@ -58,14 +57,12 @@ CUT_OFF = Refusal(400, "the connection ended before the request did: nothing was
 TOO_MANY = Refusal(
     429, "that is too much at once: nothing was changed; try again in a second", _SOON
 )
-"""Too many requests from one client."""
 TOO_BUSY = Refusal(
     503,
     "too many requests at once: nothing was changed; try again in a second."
     " A Stop is always taken",
     _SOON,
 )
-"""Too many requests from all clients."""
 READER_ENDED = Refusal(
     503, "the process that reads flights of the past has ended before it answered: ask again", _SOON
 )

@@ -13,8 +13,13 @@ from typing import ClassVar
 
 from pluto_fleet.drones.conformance.contract import NavigationContract
 from pluto_fleet.drones.conformance.recording import Truth
-from pluto_fleet.drones.errors import LinkLost, Rejected
-from pluto_fleet.drones.protocol import DroneEvent, DroneNavigation, DroneTelemetry
+from pluto_fleet.drones.protocol import (
+    DroneEvent,
+    DroneNavigation,
+    DroneTelemetry,
+    LinkLost,
+    Rejected,
+)
 from pluto_fleet.shared.domain.model import Point
 from tests.kit.drones import YAW, FakeDrone, JumpingLoop
 

@@ -8,6 +8,7 @@ from math import dist, inf
 from random import Random
 from typing import Any, TypeVar
 
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.actions import PICK
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
@@ -16,7 +17,6 @@ from pluto_fleet.shared.fleet.reach import docked
 from pluto_fleet.shared.fleet.telemetry import resting
 from pluto_fleet.shared.time.kernel import FLEET, EventKind, Future
 from pluto_fleet.shared.time.kernel import Task as Coroutine
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import Commander, Field, Task
 
 T = TypeVar("T")
@@ -176,7 +176,7 @@ class Restless:
                 self.sky.navigation.strike(drone, what)
 
 
-def is_home(sky: Sky, drone: SimulatedDrone) -> bool:
+def is_home(sky: Sky, drone: FleetDrone) -> bool:
     """Return whether a drone stands in its dock."""
     telemetry = sky.navigation.telemetry[drone.id]
     return telemetry.landed and docked(telemetry.location, drone.home)

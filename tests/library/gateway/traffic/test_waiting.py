@@ -7,12 +7,12 @@ from math import dist, hypot
 
 import pytest
 
+from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.time.kernel import FLEET, Task
-from pluto_fleet.simulation.body import SimulatedDrone
 from tests.library.gateway.flights import PILLS
 from tests.library.gateway.traffic.skies import ENDURING, Sky
 
@@ -268,7 +268,7 @@ def test_who_joins_may_fly_beside_all_others_where_no_limit_is_set(
     traffic = sky.gateway.traffic
     assert traffic is not None
     assert not traffic.is_limited
-    traffic.join(SimulatedDrone(id="cf3", category=ENDURING, home=(7.0, 1.0, 0.0), index=2))
+    traffic.join(FleetDrone(id="cf3", category=ENDURING, home=(7.0, 1.0, 0.0), index=2))
     assert traffic.is_limited is limited
 
 

@@ -25,8 +25,8 @@ from pluto_fleet.station.attention import (
     of_results,
     of_waiting,
 )
+from pluto_fleet.station.rows import words
 from pluto_fleet.station.wire import Alert, DroneRow, MissionRow, Result, Words
-from pluto_fleet.station.words import words
 
 
 def drone(

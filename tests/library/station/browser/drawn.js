@@ -1,5 +1,5 @@
 // The rows of missions as they are drawn, and how the drones on the map stand, at one instant.
-// Batteries are left out: a recording has what only moves four times a second.
+// Batteries are left out: a replay has them between what was measured.
 async () => {
   const drawn = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
   const { world } = await import("/pages/core/station.js");

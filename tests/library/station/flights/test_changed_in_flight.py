@@ -89,6 +89,9 @@ def test_a_drone_joins_and_stays(serve: Serve) -> None:
     station.tell("cancel", mission=None)
     station.comes_to("over")
     assert station.drone("cf9")["status"] in ("FREE", "LANDED", "CHARGING")
+    asked = {"revision": station.get("/api/plan")["revision"], "missions": None, "runs": 1}
+    _, told = station.post("/api/preflight", asked)
+    assert [one["id"] for one in told["drones"]] == [one["id"] for one in drones] + ["cf9"]
     station.tell("start")
     station.until(lambda: station.now()["missions"], "it flies again")
     assert station.drone("cf9")["id"] == "cf9"

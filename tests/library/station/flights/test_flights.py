@@ -135,7 +135,6 @@ def test_a_broken_reserve_is_told_until_somebody_has_seen_it_and_beside_its_resu
     station.tell("acknowledge", alert=alert["id"])
     station.until(lambda: alerts(station, "drained")[0]["over"], "it is over")
     station.comes_to("over")
-    station.world.run(station.life.recorded())
     station.start()
     replay = station.get("/api/flights/replay", flight=seen["flight"])
     assert any(one["id"] == alert["id"] for one in replay["alerts"])

@@ -11,9 +11,8 @@ import pytest
 from pluto_fleet.flight.simulation import Simulation
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.time.told import VirtualTime
-from pluto_fleet.station.rows import blocks_of, living_row, recorded_row
+from pluto_fleet.station.rows import blocks_of, living_row, recorded_row, words
 from pluto_fleet.station.wire import MissionRow, Words
-from pluto_fleet.station.words import words
 from plutoc.compile import analyse
 from plutoc.source import Source
 from tests.kit.apps import EXAMPLES, example

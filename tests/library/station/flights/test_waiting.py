@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -30,8 +31,9 @@ def far(name: str, **more: Any) -> apps.Mission:
 
 
 def looking(fleet: Living) -> WaitReasons:
-    """Return the reasons at the beginning of a sample."""
-    waiting = WaitReasons(fleet.app, fleet.fleet, lambda: 0.0)
+    """Return the reasons at the beginning of a sample; the last drone has joined since the flight began."""
+    at_first = replace(fleet.fleet, drones=fleet.fleet.drones[:-1])
+    waiting = WaitReasons(fleet.app, at_first, lambda: 0.0)
     waiting.look(fleet.life.brain, fleet.fleet)
     return waiting
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import shutil
 import time
 from collections import Counter
@@ -20,11 +19,9 @@ from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
-from pluto_fleet.station.history.folder import recording_of
 from pluto_fleet.station.history.past import PastFlights
-from pluto_fleet.station.history.recording import Recording
-from pluto_fleet.station.history.told import Told
 from tests.kit.journals import entry
+from tests.kit.told import Told
 from tests.library.files.an_app import APP, POLLINATE
 from tests.library.station.plan.drawing import FLEET
 
@@ -91,7 +88,7 @@ def test_what_is_told_of_a_flight_is_what_its_journal_tells(tmp_path: Path, upda
             "results": [json.dumps(one) for one in past.results(id)],
             "frames": [*frames[:40:4], *frames[-3:]],
         }
-        assert len(part["results"]) == len(told[id]["results"]) and part["recorded"] is False
+        assert len(part["results"]) == len(told[id]["results"])
     text = json.dumps(told, indent=1, ensure_ascii=False) + "\n"
     if update:
         TOLD.write_text(text, "utf-8")
@@ -228,47 +225,19 @@ def test_an_mcap_file_is_read_by_its_own_library(tmp_path: Path) -> None:
     assert counts["pluto.Mission"] > 0
 
 
-def test_a_recording_that_begins_later_is_preceded_by_what_the_journal_tells(
-    tmp_path: Path,
-) -> None:
-    """As of a flight that `fly` began, and a station went on with."""
-    journal = kept(tmp_path, NEW)
-    end = past_of(tmp_path).flights()[0]["seconds"]
-    recording = Recording(recording_of(journal), begun_at=0)
-    row = {"id": "scout1", "x": 1.0, "y": 1.0, "z": 1.0, "status": "BUSY"}
-    recording.write(end / 2, {"phase": "flying"}, [], [row])
-    recording.write(end, {"phase": "over"}, [], [row])
-    recording.finish()
-    past = past_of(tmp_path)
-    frames = frames_of(past, NEW)
-    assert frames[-1]["state"]["phase"] == "over"
-    assert [frame["t"] for frame in frames if frame["t"] >= end / 2] == [end / 2, end]
-    assert len(frames) > 2
-    assert past.replay(NEW, 0.0)["recorded"]
-    assert "was not recorded" in past.replay(NEW, 0.0)["said"]
-
-
-def test_a_damaged_recording_leaves_the_journal(tmp_path: Path) -> None:
-    journal = kept(tmp_path, NEW)
-    recording_of(journal).write_bytes(os.urandom(1000))
-    part = past_of(tmp_path).replay(NEW, 0.0)
-    assert part["recorded"] is False
-    assert "not recorded" in part["said"]
-    assert part["frames"]
-
-
 def test_a_part_of_a_long_replay_is_no_larger_than_it_may_be(tmp_path: Path) -> None:
     """And the parts together are all of it."""
     journal = kept(tmp_path, NEW)
-    recording = Recording(recording_of(journal), begun_at=0)
-    for t in range(600):
-        rows = [{"id": f"cf{n}", "x": t / 7 + n, "why": "x" * 100} for n in range(50)]
-        recording.write(float(t), {"phase": "flying"}, [], rows)
-    recording.finish()
+    store = Store.open(journal)
+    for t in range(1_000, 1_600):
+        drones = {f"cf{n}": {"id": f"cf{n}", "trips": t, "why": "x" * 100} for n in range(50)}
+        store.append([Entry(json.dumps([{"t": t, "event": "shown", "drones": drones}]))])
+    store.close()
     parts = list(parts_of(past_of(tmp_path), NEW))
     assert len(parts) > 2
     assert max(len(json.dumps(part)) for part in parts) < 1_200_000
-    assert [frame["t"] for part in parts for frame in part] == [float(t) for t in range(600)]
+    late = [frame["t"] for part in parts for frame in part if 1_000 <= frame["t"] < 1_599]
+    assert late == [float(t) for t in range(1_000, 1_599)]
 
 
 def test_the_journal_that_is_being_written_is_read_beside_its_writer(tmp_path: Path) -> None:

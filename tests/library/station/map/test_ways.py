@@ -12,8 +12,7 @@ from pluto_fleet.files.landmarks import Landmarks, NamedPlace, Zone
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.map.drawn import name_of
-from pluto_fleet.station.map.ways import MOST_WAYS, DrawnWays
+from pluto_fleet.station.map.drawn import DrawnWays, name_of
 from tests.library.files.an_app import APP
 
 LIFT = ((4.0, 0.0), (6.0, 0.0), (6.0, 6.0), (4.0, 6.0))
@@ -50,8 +49,6 @@ def test_an_area_is_swept_as_that_of_a_file(tmp_path: Path) -> None:
 def test_an_area_that_is_closed_cannot_be_swept() -> None:
     with pytest.raises(BadInput, match="nothing that may be flown over"):
         asyncio.run(DrawnWays(MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
-    with pytest.raises(BadInput):
-        asyncio.run(DrawnWays(MAP).ways([[]] * (MOST_WAYS + 1)))
 
 
 WARD = Landmarks(

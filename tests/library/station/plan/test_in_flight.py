@@ -9,9 +9,9 @@ import pytest
 from pluto_fleet.journal.standing import Record
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.hooks.plain_data import mission_data
-from pluto_fleet.station.history.told import Told
 from pluto_fleet.station.plan.in_flight import DrawnChange, drawn_change
 from pluto_fleet.station.plan.plan import MissionPlan
+from tests.kit.told import Told
 from tests.library.files.an_app import APP
 from tests.library.station.plan.drawing import Json, drawn, mission, trip
 

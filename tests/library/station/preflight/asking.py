@@ -10,15 +10,14 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.files.drones import DroneEntry
-from pluto_fleet.files.fleet import FleetFile, default_fleet
+from pluto_fleet.files.fleet import DroneEntry, FleetFile, default_fleet
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.station.preflight import preflight
 from pluto_fleet.station.preflight.preflight import Preflight
 from pluto_fleet.station.preflight.question import Present, Question
+from pluto_fleet.station.rows import words
 from pluto_fleet.station.wire import Forecast, Words
-from pluto_fleet.station.words import words
 from tests.library.files.an_app import APP
 from tests.library.station.in_process import in_this_process
 from tests.library.station.plan.drawing import Json, drawn, mission, trip

@@ -15,7 +15,7 @@ from PIL import Image
 
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.shared.domain.errors import BadInput
-from pluto_fleet.station.results.archive import write_archive
+from pluto_fleet.station.results.exports import write_archive
 from pluto_fleet.station.results.flights import FlightResults
 from pluto_fleet.station.results.pictures import picture, small
 

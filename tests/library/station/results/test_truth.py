@@ -15,10 +15,10 @@ import pytest
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.station.config import layers
 from pluto_fleet.station.results.flights import ResultsOfFlights
-from pluto_fleet.station.results.heat import Sample, heat_at, newest
-from pluto_fleet.station.results.mosaic import on_top, stacked
 from tests.kit.apps import example
 from tests.library.station.conftest import Serve
+from tests.library.station.results.heat import Sample, heat_at, newest
+from tests.library.station.results.mosaic import on_top, stacked
 
 SEED = 3
 PLACES = 100

@@ -1,4 +1,4 @@
-// What a heat map shows between the places of measurements: the formula of station/results/heat.py, of which
+// What a heat map shows between the places of measurements: the formula of tests/library/station/results/heat.py, of which
 // tests/library/station/results/vectors.json has examples for both; and its colours, viridis, which keeps its
 // order for the colour-blind and in grey. Pure.
 

@@ -1,4 +1,4 @@
-"""Which photo is seen at a point of the ground, where several show it."""
+"""Which photo is seen at a point of the ground, where several show it: what pages must agree with."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..wire import PhotoValue
+    from pluto_fleet.station.wire import PhotoValue
 
 Shot = tuple[int, "PhotoValue"]
 """The number of a result, and its photo."""

@@ -1,4 +1,4 @@
-"""What a heat map shows between the places of measurements: the one formula of pages and files.
+"""What a heat map shows between the places of measurements: the formula that pages must agree with.
 
 Shepard's inverse distance weighting with a bounded reach (Franke and Little). docs/station.md says it
 in words, and tests/library/station/results/vectors.json by examples, which the pages' own must give as well.

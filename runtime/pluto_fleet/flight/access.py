@@ -1,0 +1,96 @@
+"""How a flight reaches the gateway of its drones, or starts one."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from ..drones.real_fleet import real_fleet
+from ..files.fleet import not_real
+from ..gateway.settings import Settings, joining_data, settings_for
+from ..gateway.starting import connect
+from ..journal.place import gateway_folder
+from ..process import respawn
+from ..shared.domain.errors import BadInput
+
+if TYPE_CHECKING:
+    from ..drones.real_fleet import RealFleet
+    from ..files.fleet import FleetFile
+    from ..jobs.link import Link
+    from ..process.realtime import RealTime
+    from .config import FlightSetup
+
+
+class GatewayAccess:
+    """The gateway of a flight, which may be another one in each of its runs."""
+
+    def __init__(self, flight: FlightSetup, records: Sequence[Mapping[str, Any]] = ()) -> None:
+        """`records` are the missions of an earlier run, whose actions the drones must be capable of, too."""
+        self._flight, self._records = flight, records
+        self._folder = gateway_folder(flight.journal)
+
+    async def link(
+        self, kernel: RealTime, fleet: FleetFile, epoch: int, lost: Callable[[], object]
+    ) -> Link:
+        """Connect to the gateway, or start it; `lost` is called if it dies."""
+        command = respawn.library("gateway", beside=self._flight.app.package)
+        settings = await self._settings(fleet)
+        return await connect(self._folder, settings, kernel, epoch, lost, command)
+
+    async def joining(self, fleet: FleetFile) -> Mapping[str, object]:
+        """Return the last drone of a fleet, as the gateway takes it in; raise `BadInput` if it cannot fly."""
+        flight = self._flight
+        if not flight.sim and not flight.crtp and (why := not_real(fleet)):
+            raise BadInput(why)
+        settings = await self._settings(fleet)
+        real = None if settings.real is None else settings.real.drones[-1]
+        return joining_data(settings.drones[-1], real)
+
+    async def _settings(self, fleet: FleetFile) -> Settings:
+        flight = self._flight
+        return settings_for(
+            flight.app,
+            fleet,
+            seed=flight.seed,
+            faults=flight.faults,
+            real=None if flight.sim else await self._real(fleet),
+            speed=flight.speed,
+        )
+
+    async def _real(self, fleet: FleetFile) -> RealFleet:
+        """Return the gateway's arguments for real drones; starts simulated Crazyflies if needed."""
+        flight = self._flight
+        real = real_fleet(fleet, flight.missions, records=self._records)
+        if not flight.crtp:
+            return real
+        from ..crtp.equipment import fitted, settable
+        from ..crtp.process import Surroundings, start, told  # rarely needed
+        from ..shared.alone.world import invented
+
+        homes = {drone.id: drone.home for drone in fleet.drones}
+        kinds = {one.name: one for one in flight.app.categories}
+        batteries = {
+            drone.id: (
+                kind.flight_time / flight.fleet.motion.drain,
+                kind.charge_time if flight.charges else inf,
+            )
+            for drone in fleet.drones
+            for kind in (kinds[drone.category],)
+        }
+        data = invented(flight.seed, fleet.airspace) if fleet.world is None else fleet.world
+        around = Surroundings(seed=flight.seed, data=data)
+        uris = await asyncio.to_thread(start, self._folder, homes, None, batteries, around)
+        camera = await asyncio.to_thread(told, self._folder, "camera")
+        drones = (
+            replace(
+                drone,
+                uri=uris[drone.id],
+                options=fitted(drone.options, camera, around.world),
+                parameters=settable(drone.parameters),
+            )
+            for drone in real.drones
+        )
+        return replace(real, drones=tuple(drones))
