@@ -238,4 +238,3 @@ def test_a_mission_of_an_event_begins_again_where_it_entered() -> None:
     later.go_on({"chase person": {}}, {"cf1": {}}, 0.0)
     orders = settled(later, 0.0)
     assert [order["do"] for order in orders] == ["fly"]
-    assert "mission.created" in kinds(later)
