@@ -112,13 +112,19 @@ def _operation(one: Operation) -> Schema:
         **({"description": more} if more else {}),
         "security": [{"fly": []}, *([{"watch": []}] if one.role == "watch" else [])],
         "parameters": [
-            {
-                "name": name,
-                "in": "query",
-                "required": name not in one.defaults,
-                "schema": _schema(kind),
-            }
-            for name, kind in one.query.items()
+            *(
+                {"name": name, "in": "path", "required": True, "schema": {"type": "string"}}
+                for name in one.in_path
+            ),
+            *(
+                {
+                    "name": name,
+                    "in": "query",
+                    "required": name not in one.defaults,
+                    "schema": _schema(kind),
+                }
+                for name, kind in one.query.items()
+            ),
         ],
         "responses": answers,
     }

@@ -37,7 +37,7 @@ COMMANDS = {
 
 ACTIONS = (
     *("stop", "pause", "go-on", "skip", "cancel", "prioritise", "change-trips"),
-    *("retire", "bring-back", "join", "mishap", "cut-motors"),
+    *("retire", "bring-back", "join", "mishap", "event", "cut-motors"),
 )
 """The commands of `tell`."""
 
@@ -85,6 +85,7 @@ class Options:
     action: str = ""
     mission: str | None = None
     trip: str | None = None
+    more: Sequence[str] = ()
     priority: int | None = None
     given: Path | None = None
     kind: str | None = None
@@ -190,16 +191,18 @@ TABLE = (
         "tell",
         "mission MISSION",
         "which one; default: all, where that makes sense. For retire, bring-back, join, mishap and"
-        " cut-motors: the drone",
+        " cut-motors: the drone. For event: its name",
         nargs="?",
     ),
     row("decide", "mission MISSION", "which one waits", nargs="?"),
     row(
         "tell",
         "trip TRIP",
-        "which one to skip, default: the next; or to give a priority",
+        "which one to skip, default: the next; or to give a priority. For event: FIELD=VALUE, as id=,"
+        " at=X,Y, track=, or one of its own",
         nargs="?",
     ),
+    row("tell", "more FIELD=VALUE", "event: more of its fields", nargs="*"),
     row(
         "decide",
         "answer ANSWER",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from datetime import time as time_of_day
 from pathlib import Path
@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..files.reading import listed, read
 from ..flight import offline
+from ..flight.control import OF_AN_EVENT
 from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
 from ..gateway.starting import cut_directly, stop_directly
@@ -109,8 +110,39 @@ def _request(app: App, options: Options) -> dict[str, object]:
             return {"command": action, "mission": mission, "trips": trips}
         case "join" if options.given is not None:
             return {**drone_in(options.given, str(mission)), "command": action, "drone": mission}
+        case "event":
+            return {"command": "raise-event", "event": mission, **_facts((trip, *options.more))}
         case _:
             return {"command": action, "mission": mission}
+
+
+def _facts(given: Iterable[str | None]) -> dict[str, object]:
+    """Return what is said of an event, as `at=3,4 level=0.7`; raise `BadInput` if that is nothing."""
+    facts: dict[str, object] = {}
+    fields: dict[str, object] = {}
+    for one in filter(None, given):
+        name, equals, text = one.partition("=")
+        if not equals:
+            raise BadInput(f"{quoted(one)} is no fact of an event: write it like level=0.7")
+        if name == "at":
+            facts[name] = [_value(part) for part in text.split(",")]
+        elif name in OF_AN_EVENT:
+            facts[name] = text
+        else:
+            fields[name] = _value(text)
+    return {**facts, "fields": fields}
+
+
+def _value(text: str) -> object:
+    """Return a number, a truth, or a text, such as a number with its unit."""
+    truths = {"true": True, "false": False}
+    if text in truths:
+        return truths[text]
+    with suppress(ValueError):
+        return int(text)
+    with suppress(ValueError):
+        return float(text)
+    return text
 
 
 def _wrong(options: Options) -> str:
@@ -145,7 +177,9 @@ def _wrong(options: Options) -> str:
             return f"mishap needs the name of a drone, and --kind: {', '.join(MISHAPS)}"
         case "prioritise" if mission is None or trip is None or options.priority is None:
             return "prioritise needs a mission, a trip of it, and --to N"
-        case _ if trip is not None and action not in ("skip", "prioritise"):
+        case "event" if mission is None:
+            return "event needs the name of an event"
+        case _ if trip is not None and action not in ("skip", "prioritise", "event"):
             return f"{action} takes no trip; only skip and prioritise do"
     return ""
 

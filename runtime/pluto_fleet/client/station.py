@@ -116,6 +116,9 @@ class Station(Interface):
     def ask(self, operation: Operation, given: Mapping[str, Any]) -> Any:
         """Ask an address, and return its answer, which anyone may give there."""
         query = {name: given[name] for name in operation.query if name in given}
+        path = operation.path.format(
+            **{name: quote(str(given[name]), safe="") for name in operation.in_path}
+        )
         kind = JSON
         sent: str | bytes | None = None
         if operation.takes:
@@ -129,6 +132,7 @@ class Station(Interface):
         is_json = operation.media == JSON
         content = self._answer(
             operation,
+            path,
             query,
             sent.encode() if isinstance(sent, str) else sent,
             kind,
@@ -165,12 +169,13 @@ class Station(Interface):
     def _answer(
         self,
         operation: Operation,
+        path: str,
         query: Mapping[str, object],
         body: bytes | None,
         kind: str,
         largest: int,
     ) -> bytes:
-        where = f"{operation.path}?{urlencode(query)}" if query else operation.path
+        where = f"{path}?{urlencode(query)}" if query else path
         headers = self._headers if body is None else {**self._headers, "Content-Type": kind}
         try:
             with closing(self._new(self._host, self._port, timeout=self._timeout)) as line:

@@ -11,13 +11,13 @@ from collections.abc import Mapping
 from math import dist, inf, isfinite
 from typing import Any, SupportsFloat
 
-from ..jobs.controls import Act, Command, Cut, GoTo, Hold, Land, Read, TakeOff, Write
+from ..jobs.controls import Act, Command, Cut, GoTo, Hold, Land, Read, See, TakeOff, Trigger, Write
 from ..jobs.reports import motors_cut
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
-from ..shared.domain.model import Item, Photo, Point
+from ..shared.domain.model import Item, Photo, Point, Sighting
 from ..shared.domain.text import percent, place, shown
-from .protocol import Acts, Readable
+from .protocol import Acts, ActsOnTheWay, Readable, Sees
 from .telemetry import RISING
 from .timeouts import shortened
 from .vehicle import LAND, RISE, SLOWEST_PLANNED, TIME_MARGIN, Vehicle
@@ -71,6 +71,10 @@ async def do(vehicle: Vehicle, command: Command) -> object:
             await vehicle.does("hover", hold)
         case Act(action, parameters, item):
             return await vehicle.does(action, act, action, parameters, item)
+        case Trigger(action, parameters):
+            return await trigger(vehicle, action, parameters)
+        case See():
+            return await sees(vehicle)
         case Read(name):
             return await read(vehicle, name)
         case Write(name, value):
@@ -202,6 +206,39 @@ def why_not(vehicle: Vehicle, action: str, parameters: Mapping[str, Plain]) -> s
     )
     why = vehicle.calls.ask("why_not", lambda: navigation.why_not(action, parameters), believed)
     return why if why is None else shortened(str(why))
+
+
+async def trigger(vehicle: Vehicle, action: str, parameters: Mapping[str, Plain]) -> object:
+    """Do a built-in action at once, on the way."""
+    vehicle.check()
+    check_airborne(vehicle)
+    navigation = vehicle.navigation
+    if not isinstance(navigation, ActsOnTheWay):
+        raise FlightFailed(Failure.ACTION, f"{vehicle.id} cannot {action} on its way")
+    what = f"{action} on its way"
+    value = await vehicle.calls.call(what, READ_LIMIT, navigation.trigger, action, parameters)
+    return result_of(vehicle.id, action, value)
+
+
+async def sees(vehicle: Vehicle) -> tuple[Sighting, ...]:
+    """Return what moves in the view of its camera: nothing, on the ground."""
+    vehicle.check()
+    navigation = vehicle.navigation
+    if not isinstance(navigation, Sees):
+        raise FlightFailed(Failure.ACTION, f"{vehicle.id} has no camera that tells what moves")
+    if vehicle.telemetry.landed:
+        return ()
+    seen = await vehicle.calls.call("see", READ_LIMIT, navigation.sees)
+    try:
+        return tuple(_sighting(one) for one in seen)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise vehicle.calls.mistake("sees", error) from error
+
+
+def _sighting(gave: Any) -> Sighting:
+    """Convert a sighting of any copy of the class."""
+    x, y, z = gave.at
+    return Sighting(str(gave.track), str(gave.kind), (_number(x), _number(y), _number(z)))
 
 
 async def read(vehicle: Vehicle, name: str) -> float:

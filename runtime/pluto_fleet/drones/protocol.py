@@ -269,6 +269,27 @@ class Acts(Protocol):
 
 
 @runtime_checkable
+class ActsOnTheWay(Protocol):
+    """A drone that can do some of the built-in actions while it flies, such as `take_photo`."""
+
+    async def trigger(self, action: str, parameters: Mapping[str, Plain]) -> object:
+        """Do an action at once, without a stop, and return its result as `act` does.
+
+        Called during other commands. Raises `ActionNotDone`, also for an action that needs a stop.
+        """
+        ...
+
+
+@runtime_checkable
+class Sees(Protocol):
+    """A drone whose camera tells what moves in its view."""
+
+    async def sees(self) -> Sequence[Sighting]:
+        """Return what moves in its view now, each with the id by which it is tracked; called as it flies."""
+        ...
+
+
+@runtime_checkable
 class Readable(Protocol):
     """A drone with sensors, variables or parameters that an app's own actions may use."""
 

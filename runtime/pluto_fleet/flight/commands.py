@@ -55,6 +55,8 @@ def perform(control: Control, request: Mapping[str, object]) -> str:
             return control.bring_back(drone)
         case {"command": "mishap", "drone": str(drone), "kind": str(kind)} if kind in MISHAPS:
             return control.mishap(drone, kind)
+        case {"command": "raise-event", "event": str(event), **facts}:
+            return control.raise_event(event, facts)
         case {"command": "join"} if (entry := joining_in(request)) is not None:
             return control.join(entry)
         case _:

@@ -16,6 +16,7 @@ from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
+from ..shared.events.raising import EventsOf
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
@@ -173,6 +174,17 @@ class Control(Suspending):
         _trip_to_do(mission, record, trip)
         self._run.command("prioritise", mission=mission, trip=trip, priority=priority)
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
+
+    def raise_event(self, event: str, facts: Mapping[str, object]) -> str:
+        """Raise an event of the app; one whose id has happened does not happen again."""
+        self._refuse_after_stop()
+        if not any(isinstance(part, EventsOf) for part in self._run.app.parts):
+            raise BadInput(f"{self._run.app.name} has no events")
+        given = {name: facts[name] for name in OF_AN_EVENT if facts.get(name) is not None}
+        if given.get("id") in self._run.records.happenings:
+            return f"event {quoted(str(given['id']))} has happened already"
+        self._run.command("raise", event=event, **given)
+        return f"event {quoted(event)} has happened"
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
@@ -346,6 +358,9 @@ def _named(those: Sequence[tuple[str, Record]]) -> str:
 
 
 _ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)
+
+OF_AN_EVENT = ("id", "at", "track", "mission", "trip", "drone", "fields")
+"""What may be said of an event that is raised."""
 
 _HOW = {
     Down.HOME: "all drones fly home and land",

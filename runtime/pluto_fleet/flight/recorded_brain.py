@@ -82,7 +82,7 @@ class RecordedBrain:
         """The telemetry that the brain was told last, by drone."""
         self._heard = 0
         """How many events the brain has said."""
-        self._held: dict[str, Order] = {}
+        self._held: dict[str, dict[str, Any]] = {}
         """The flights that wait for the journal, by drone."""
         self.patient = False
         """Whether the flight goes on while missions wait for the user's decision."""
@@ -206,13 +206,16 @@ class RecordedBrain:
     def _obey(self, order: Order) -> None:
         """Carry out an order; a flight only once its launch is durable."""
         drone = order["drone"]
-        self.told_to[drone] = order["do"]
+        if order["do"] not in _BESIDE:
+            self.told_to[drone] = order["do"]
         if order["do"] == "land":
             self.to_land.add(drone)
         match order["do"]:
             case "fly":
-                self._held[drone] = order
-                self.recorder.when_durable(partial(self._let_fly, order))
+                self._held[drone] = waits = dict(order)
+                self.recorder.when_durable(partial(self._let_fly, waits))
+            case "redirect" if drone in self._held:
+                self._held[drone].update(stops=order["stops"])
             case "break_off":
                 held = self._held.pop(drone, None)
                 self.link.send(order)
@@ -266,6 +269,10 @@ class RecordedBrain:
                 self._seen[entry.id] = now
                 news[entry.id] = {"at": now[0], "battery": now[1], "landed": now[2]}
         return news
+
+
+_BESIDE = frozenset({"read", "write", "sees", "act", "redirect", "cancel"})
+"""Orders that a drone obeys beside what it does."""
 
 
 def _ignore(*_: object) -> None:

@@ -8,12 +8,12 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from errno import EDQUOT, EFBIG, ENOSPC
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..jobs.controls import FleetDrone
 from ..jobs.reports import Down
@@ -172,7 +172,10 @@ async def run(folder: Path, settings: Settings) -> None:
             simulated.join(drone)
             keeper.watch(drone.id)
 
-        await _command(folder, settings, kernel, simulated, seen, take_in, simulated.mishap)
+        moving = settings.world is not None and bool(settings.world.movers)
+        tracker = simulated.tracks if moving else None
+        rehearse = simulated.mishap
+        await _command(folder, settings, kernel, simulated, seen, take_in, rehearse, tracker)
         return
     from ..drones.team import make_team  # not needed in a simulation
 
@@ -226,8 +229,12 @@ async def _command(
     seen: Sightings,
     take_in: TakeIn,
     rehearse: Rehearse | None = None,
+    tracker: Callable[[], Mapping[str, Any]] | None = None,
 ) -> None:
-    """Serve brains; `take_in` gives drones that join to the controls, `rehearse` has mishaps happen."""
+    """Serve brains; `take_in` gives drones that join to the controls, `rehearse` has mishaps happen.
+
+    `tracker` says where things are that move.
+    """
     gateway = Gateway(
         kernel,
         controls,
@@ -241,7 +248,9 @@ async def _command(
         leaving=seen.leaving,
         measures=True,
     )
-    gateway.take_in, gateway.rehearse = take_in, rehearse
+    gateway.take_in = take_in
+    gateway.rehearse = rehearse
+    gateway.tracker = tracker
     over: Future[None] = Future()
     ending = Ending(gateway, over, settings)
     server = Server(gateway, _say, ending.goodbye)

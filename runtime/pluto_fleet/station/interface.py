@@ -50,6 +50,7 @@ OnlyFailed = Annotated[
 ]
 Mission = Annotated[str, Meta(description="The name of a mission.")]
 Missing = Annotated[str | None, Meta(description="The name of a mission; null: all.")]
+EventName = Annotated[str, Meta(description="The name of an event that the app declares.")]
 Drone = Annotated[str, Meta(description="The id of a drone.")]
 PlanName = Annotated[str, Meta(description="The name of a plan that is kept.")]
 FlightId = Annotated[Flight, Meta(description="The id of a flight, as the list of flights has it.")]
@@ -305,6 +306,21 @@ class Interface:
         self, *, mission: Mission, trip: str, priority: Priority, id: str | None = None
     ) -> str:
         """Change the priority of a trip."""
+
+    @_command("/api/events/{event}")
+    def raise_event(
+        self,
+        *,
+        event: EventName,
+        at: list[float] | None = None,
+        track: str | None = None,
+        mission: str | None = None,
+        trip: str | None = None,
+        drone: str | None = None,
+        fields: dict[str, Any] | None = None,
+        id: str | None = None,
+    ) -> str:
+        """Raise an event of the app, with the fields that it declares; with one `id` it happens once."""
 
     @_command("/api/retire")
     def retire(self, *, drone: Drone, id: str | None = None) -> str:

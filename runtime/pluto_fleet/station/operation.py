@@ -59,6 +59,8 @@ class Operation:
     media: str = JSON
     """The media type of the answer."""
     role: Role = "fly"
+    in_path: tuple[str, ...] = ()
+    """The names that stand in the path, each in braces."""
     query: Mapping[str, Any]
     body: Mapping[str, Any] | None
     """The types of the fields of a body in JSON; None: it has none."""
@@ -223,6 +225,7 @@ def operation(
             hints["id"] = CommandId
             answers = Said
         hints = {name: kind for name, kind in hints.items() if name not in ("body", "media")}
+        in_path = tuple(re.findall(r"{(\w+)}", path))
         all_in_query = method in ("GET", "DELETE") or bool(takes)
         query = {name: kind for name, kind in hints.items() if all_in_query or name in in_query}
         described = Operation(
@@ -232,7 +235,12 @@ def operation(
             says=inspect.getdoc(declared) or "",
             answers=answers,
             query=query,
-            body=None if all_in_query else {n: k for n, k in hints.items() if n not in query},
+            in_path=in_path,
+            body=(
+                None
+                if all_in_query
+                else {n: k for n, k in hints.items() if n not in query and n not in in_path}
+            ),
             takes=takes,
             defaults=defaults,
             **about,

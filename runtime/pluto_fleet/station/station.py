@@ -396,6 +396,8 @@ class Station:
 
     async def _of_the_flight(self, name: str, id: str, given: Mapping[str, Any]) -> str:
         request = {"command": name, **given}
+        if name == "raise-event":
+            request["id"] = id  # with it the event, and not only the command, happens once
         await self._commandable().prepare(request)
         return await self._carry_out(id, name, lambda life: perform(life.control, request))
 

@@ -157,6 +157,7 @@ class Api(Starlette):
         body = b""
         try:
             given = operation.asked(request.query_params)
+            given |= request.path_params
             if operation.body is not None or operation.takes:
                 body = await _body(operation, request)
             if operation.body is not None:

@@ -80,7 +80,7 @@ async def description(_: Asked) -> Response:
 
 async def command(asked: Asked, id: str, **given: Any) -> str:
     """Carry out the command that the address names."""
-    name = asked.request.scope["path"].removeprefix("/api/")
+    name = asked.operation.name.replace("_", "-")
     return await asked.station.command(name, id, given, who(asked.request))
 
 
