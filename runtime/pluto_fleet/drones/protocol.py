@@ -36,7 +36,7 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 from ..jobs.reports import SILENCE
 from ..shared.domain.actions import Plain
-from ..shared.domain.model import Item, Point
+from ..shared.domain.model import Item, Point, Sighting
 
 
 class NavigationError(Exception):

@@ -182,7 +182,7 @@ class RecordedBrain:
     def _hear(self, event: Event) -> None:
         self._heard += 1
         self._take(event)
-        if event["event"] == "action.begun":  # all that a brain waits for
+        if event["event"] in ("action.begun", "event.raised"):  # all that a brain waits for
             self.recorder.when_durable(partial(self._tell_durable, self._heard))
 
     def hook_ended(self, number: int) -> None:

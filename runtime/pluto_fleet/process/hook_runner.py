@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from concurrent.futures import Future
+from threading import get_ident
+from typing import TypeVar
 
 from ..shared.time.kernel import Watcher
 from .hook_calls import End, end_at_once, end_of, never_waits
 from .realtime import RealTime
+
+T = TypeVar("T")
 
 
 class RealHooks:
@@ -15,6 +20,7 @@ class RealHooks:
 
     def __init__(self, kernel: RealTime) -> None:
         self._kernel, self._loop = kernel, asyncio.get_running_loop()
+        self._thread = get_ident()
         self.ended: Callable[[int], object] = _ignore
         """Called within the kernel with the number of a hook that has ended."""
         self.stir: Callable[[], object] = _ignore
@@ -54,6 +60,21 @@ class RealHooks:
     def stirred(self) -> None:
         """Called when a hook has made something due."""
         self._kernel.post(self.stir)
+
+    def deliver(self, call: Callable[[], T]) -> T:
+        """Make a call of a hook in the brain's own time, whichever thread the hook runs in."""
+        if get_ident() == self._thread:
+            return call()
+        made: Future[T] = Future()
+
+        def make() -> None:
+            try:
+                made.set_result(call())
+            except BaseException as error:  # noqa: BLE001 - it is raised in the hook
+                made.set_exception(error)
+
+        self._loop.call_soon_threadsafe(make)
+        return made.result()
 
     async def _run(
         self, number: int, hook: Callable[..., object], call: Callable[[], object]

@@ -6,6 +6,7 @@ In virtual time it jumps to the next event by itself, so a day is simulated in a
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
+from functools import partial
 from typing import Any, Protocol, TypeVar
 
 from .hours import Hours
@@ -32,6 +33,7 @@ class HookRunner(Protocol):
     def cancel(self, number: int) -> None: ...
     def offer(self, watch: Callable[[Watcher], object]) -> Awaitable[object] | None: ...
     def stirred(self) -> None: ...
+    def deliver(self, call: Callable[[], T]) -> T: ...
 
 
 class ToldTime(Kernel):
@@ -113,8 +115,12 @@ class ToldTime(Kernel):
         """Make a call within the kernel, for a hook that runs outside of it."""
         if self._inside or self.runner is None:
             return call(*args)
+        return self.runner.deliver(partial(self._posted, call, *args))
+
+    def _posted(self, call: Callable[..., T], *args: object) -> T:
         returned = self.call(self.time(), ONLY_WHAT_IS_READY, lambda _: call(*args))
-        self.runner.stirred()
+        if self.runner is not None:
+            self.runner.stirred()
         return returned
 
     def hook_ended(self, message: Mapping[str, Any]) -> None:
