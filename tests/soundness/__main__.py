@@ -2,6 +2,7 @@
 
     python -m tests.soundness
     python -m tests.soundness --random 2000 --seed 7
+    python -m tests.soundness --events 2000
     python -m tests.soundness --loops 5000 --fly 50
 
 Prints a table and every disagreement, with the app and a run that shows it; exits with 1 if there
@@ -13,7 +14,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import chain
 from random import Random
 
@@ -24,14 +25,21 @@ from tests.soundness.app import App, thesis_graphs
 from tests.soundness.compare import Compared, compare
 from tests.soundness.endings import End, endings
 from tests.soundness.mutants import mutants
-from tests.soundness.randoms import looping_app, random_app
+from tests.soundness.randoms import event_app, looping_app, random_app
 from tests.soundness.table import Tally, lines
+
+DRAWN: dict[str, Callable[[Random], App]] = {
+    "random": random_app,
+    "events": event_app,
+    "loops": looping_app,
+}
 
 
 def main() -> int:
     """Compare, and print."""
     campaign = Campaign("tests.soundness", __doc__)
     campaign.option("--random", type=int, default=0, metavar="N", help="random apps instead")
+    campaign.option("--events", type=int, default=0, metavar="N", help="apps with events instead")
     campaign.option("--loops", type=int, default=0, metavar="N", help="apps full of loops instead")
     campaign.option(
         "--fly", type=int, metavar="N", help="fly what is accepted, N as in real flights, too"
@@ -43,9 +51,12 @@ def main() -> int:
     campaign.in_time()
     options = campaign.parse()
     apps = edited()
-    if options.random or options.loops:
-        randoms, loops = (min(n, 1) if options.only else n for n in (options.random, options.loops))
-        apps = chain(drawn("random", randoms, options.seed), drawn("loops", loops, options.seed))
+    wanted = {kind: getattr(options, kind) for kind in DRAWN}
+    if any(wanted.values()):
+        apps = chain.from_iterable(
+            drawn(kind, min(number, 1) if options.only else number, options.seed)
+            for kind, number in wanted.items()
+        )
     tallies: dict[str, Tally] = {}
     ends: Counter[End] = Counter()
     left = options.fly or 0
@@ -78,10 +89,9 @@ def edited() -> Iterator[tuple[str, str, App]]:
 
 
 def drawn(kind: str, number: int, seed: int) -> Iterator[tuple[str, str, App]]:
-    """Yield random apps, each with a seed of its own: some of any kind, or some full of loops."""
+    """Yield random apps, each with a seed of its own."""
     for one in range(seed, seed + number):
-        app = random_app(Random(one)) if kind == "random" else looping_app(Random(f"loops/{one}"))
-        yield kind, f"seed {one}", app
+        yield kind, f"seed {one}", DRAWN[kind](Random(one if kind == "random" else f"{kind}/{one}"))
 
 
 def flown(app: App, seed: int, *, real: bool = False) -> tuple[End, ...]:

@@ -12,13 +12,21 @@ from itertools import pairwise, product
 from pathlib import Path
 
 from tests.paths import EXAMPLES
-from tests.soundness.kinds import ACCEPTS, END_ACCEPTS, FIVE, GUARDED, Status
+from tests.soundness.kinds import (
+    ACCEPTS,
+    BUILT_IN_EVENTS,
+    END_ACCEPTS,
+    FIVE,
+    GUARDED,
+    Status,
+)
 
 START = "start"
 END = "end"
 
 OTHERWISE = "otherwise"
 MODIFIER = re.compile(r"modifier (\w+).*?(?: emits ([A-Z, ]+))?(?: writes [a-z_, ]+)?")
+EVENT = re.compile(r"event (\w+)(?:\(.*\))?")
 BLOCK = re.compile(r"(\w+) = (\w+)(\(.*\))?")
 FLOW = re.compile(r"(.+?)(?: when ([A-Z, ]+)| (otherwise))?")
 
@@ -35,6 +43,9 @@ class Block:
     """What a modifier's hook declares; empty: the status stays."""
     limit: int
     """How often a trip is flown before its failure goes on; 0: as often as it takes."""
+    event: str = ""
+    """What a monitor of events waits for."""
+    hook: str = ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +72,13 @@ class App:
     """Declarations that are no blocks."""
     blocks: tuple[Block, ...]
     arrows: tuple[Arrow, ...]
+
+    @property
+    def sources(self) -> tuple[str, ...]:
+        """Where missions come from: `start`, and the events that no block hides."""
+        declared = [match[1] for line in self.rest if (match := EVENT.fullmatch(line))]
+        names = {block.name for block in self.blocks}
+        return (START, *(event for event in (*declared, *BUILT_IN_EVENTS) if event not in names))
 
     @property
     def text(self) -> str:
@@ -154,6 +172,8 @@ def _block(name: str, kind: str, written: str, emits: dict[str, tuple[Status, ..
         written=written,
         emits=emits.get(hook[1], ()) if hook else (),
         limit=int(limit[1]) if limit else 3,
+        event=event[1] if (event := re.search(r"event: (\w+)", written)) else "",
+        hook=hook[1] if hook else "",
     )
 
 

@@ -64,7 +64,11 @@ class Hooks:
 
     def module(self) -> SimpleNamespace:
         """Return a module `hooks` for the app."""
-        makers = {HookKind.MODIFIER: self._modifier, HookKind.EVALUATOR: self._evaluator}
+        makers = {
+            HookKind.MODIFIER: self._modifier,
+            HookKind.EVALUATOR: self._evaluator,
+            HookKind.CREATOR: self._creator,
+        }
         return SimpleNamespace(**{h.name: makers[h.kind](h) for h in self.graph.hooks})
 
     def _modifier(self, hook: Hook) -> Callable[..., object]:
@@ -84,6 +88,13 @@ class Hooks:
 
         modifier.__name__ = hook.name
         return modifier
+
+    def _creator(self, hook: Hook) -> Callable[..., object]:
+        def creator(event: object, context: object) -> None:
+            return None
+
+        creator.__name__ = hook.name
+        return creator
 
     def _evaluator(self, hook: Hook) -> Callable[..., object]:
         async def evaluator(mission: Mission[Any], results: Results[Any, Any]) -> Verdict:

@@ -6,9 +6,20 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 
 from tests.soundness.app import END, START, App, Arrow, takes
-from tests.soundness.kinds import BADNESS, END_ACCEPTS, FUNNEL, GATES, LIMITS, WATCHES, R, Status, U
+from tests.soundness.kinds import (
+    BADNESS,
+    END_ACCEPTS,
+    EVENT_MONITOR,
+    FUNNEL,
+    GATES,
+    LIMITS,
+    WATCHES,
+    R,
+    Status,
+    U,
+)
 from tests.soundness.state import Branch, Stack, State, Token, Verdict, Wrong
-from tests.soundness.steps import MOST_TRIPS, hooks_fail, landed, outcomes
+from tests.soundness.steps import MOST_TRIPS, broken_off, hooks_fail, landed, outcomes
 from tests.soundness.walk import Run, Walk
 
 ENOUGH = 2_000
@@ -31,6 +42,8 @@ class Seen:
     """Where a limit was set to a flight: the block, and the branches that it stood in."""
     beside: set[tuple[str, Stack]] = field(default_factory=set)
     """Those of them beside which a TripMonitor was seen."""
+    waited: dict[tuple[str, Status], set[tuple[str, str]]] = field(default_factory=dict)
+    """The events that were waited for within each fork, and the blocks that did so."""
     states: int = 0
     cut: bool = False
     """There were too many runs to wait for."""
@@ -49,14 +62,16 @@ class Explorer:
         self.patient = patient
         """No gate calls a branch off: shows branches that would never have closed."""
         self.most_flights = max((block.limit for block in app.blocks), default=0)
+        self.interrupts = any(block.kind == EVENT_MONITOR for block in app.blocks)
         self.seen = Seen()
 
-    def explore(self, first: str) -> Seen:
-        """Return what all runs show, from the block that makes the mission."""
+    def explore(self, firsts: Iterable[str]) -> Seen:
+        """Return what all runs show, from each block that makes missions."""
         walk = Walk()
-        for trips in range(1, MOST_TRIPS + 1):
-            state = State((Token(first, U, ()),), trips, 0, False, None)
-            walk.come(None, state, f"{trips} trips")
+        for first in firsts:
+            for trips in range(1, MOST_TRIPS + 1):
+                state = State((Token(first, U, ()),), trips, 0, False, None)
+                walk.come(None, state, f"{trips} trips at {first}")
         wrong = self.seen.wrong
         while walk.queue and len(walk.came) < (ENOUGH if wrong else TOO_MANY):
             state = walk.queue.popleft()
@@ -91,6 +106,10 @@ class Explorer:
         for token, kind in zip(state.tokens, kinds, strict=True):
             if kind in LIMITS:
                 self.seen.limited.add((token.block, token.stack))
+                if kind == EVENT_MONITOR:
+                    waits = (self.blocks[token.block].event, token.block)
+                    for branch in token.stack:
+                        self.seen.waited.setdefault(branch[:2], set()).add(waits)
                 if WATCHES in kinds:
                     self.seen.beside.add((token.block, token.stack))
 
@@ -108,6 +127,9 @@ class Explorer:
         if state.flight == R:
             for then in landed(state):
                 yield f"the trip ends {then.flight}", then, False
+            for token in state.tokens:
+                if self.blocks[token.block].kind == EVENT_MONITOR:
+                    yield f"{token.block} breaks it off", broken_off(state), False
         for place, token in enumerate(state.tokens):
             if token.phase == "waits":
                 continue
@@ -126,6 +148,8 @@ class Explorer:
                     yield f"{token.block} is at fault", with_tokens(state, ()), False
                 failing = hooks_fail(state, token, block, ways)
                 for status, then in ways:
+                    if not self.interrupts:
+                        then = then._replace(before=0)
                     if status is None:
                         yield f"{token.block} ends it", with_tokens(then, ()), False
                         continue
@@ -215,11 +239,15 @@ def with_tokens(state: State, tokens: Iterable[Token]) -> State:
     return state._replace(tokens=tuple(sorted(tokens)))
 
 
-def first_block(app: App) -> str | None:
-    """Return where missions begin, if that is well said."""
-    makers = [block.name for block in app.blocks if block.kind == "MissionCreator"]
+def first_blocks(app: App) -> list[str]:
+    """Return where missions begin, those of users first; none, where that is not well said."""
+    makers = [block for block in app.blocks if block.kind == "MissionCreator"]
+    plain = [block.name for block in makers if not block.hook]
+    hooked = [block.name for block in makers if block.hook]
     starts = [arrow.target for arrow in app.arrows if arrow.source == START]
-    return makers[0] if len(makers) == 1 and starts == makers else None
+    led = [a.target for a in app.arrows if a.source in app.sources and a.source != START]
+    well = len(plain) == 1 and starts == plain and {*led} == {*hooked}
+    return [*plain, *hooked] if well else []
 
 
 def unlike_bounds(app: App) -> bool:

@@ -21,6 +21,8 @@ BADNESS = (U, R, C, S, F)
 """Of the statuses that meet at a funnel the last of these wins."""
 END_ACCEPTS = (C, F)
 
+BUILT_IN_EVENTS = ("late", "lost")
+
 ACCEPTS: dict[str, tuple[Status, ...]] = {
     "MissionCreator": (),
     "Clock": (U, S),
@@ -29,21 +31,24 @@ ACCEPTS: dict[str, tuple[Status, ...]] = {
     "TripMonitor": (R,),
     "TimerMonitor": (R,),
     "GapMonitor": (R,),
+    "EventMonitor": (R,),
     "GateFIFO": FIVE,
     "GateFunnel": FIVE,
     "MissionRepeater": (C,),
     "MissionEvaluator": (C,),
     "MissionModifier": FIVE,
     "PriorityManager": (F,),
+    "TripSkipper": (F,),
 }
 GUARDED: dict[str, tuple[Status, ...]] = {"DroneAllocator": (F,)}
 """What a kind accepts besides, where a guard says so."""
 
-NEED_A_TRIP = ("DroneAllocator", "PriorityManager")
+NEED_A_TRIP = ("DroneAllocator", "PriorityManager", "TripSkipper")
 """A mission that comes there with no trip left ends."""
 
 WATCHES = "TripMonitor"
-LIMITS = ("TimerMonitor", "GapMonitor")
+EVENT_MONITOR = "EventMonitor"
+LIMITS = ("TimerMonitor", "GapMonitor", EVENT_MONITOR)
 MONITORS = (WATCHES, *LIMITS)
 FUNNEL = "GateFunnel"
 GATES = ("GateFIFO", FUNNEL)

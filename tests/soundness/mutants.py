@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from tests.soundness.app import END, START, App, Arrow, Block, allowed
-from tests.soundness.kinds import GATES
+from tests.soundness.app import END, App, Arrow, Block, allowed
+from tests.soundness.kinds import BUILT_IN_EVENTS, GATES
 
 EDITS = (
     "arrow removed",
@@ -16,6 +16,7 @@ EDITS = (
     "guard widened",
     "guard narrowed",
     "arrow redirected",
+    "event changed",
 )
 
 
@@ -36,6 +37,7 @@ def mutants(app: App) -> Iterator[Mutant]:
         *_swapped(app),
         *_guarded(app),
         *_redirected(app),
+        *_events(app),
     ):
         yield Mutant(edit=edit, what=what, app=mutant)
 
@@ -51,12 +53,12 @@ def _removed(app: App) -> _Edited:
 def _added(app: App) -> _Edited:
     """Yield an arrow more: one without a guard, and one with each status that it could take."""
     names = [block.name for block in app.blocks]
-    for source in (START, *names):
+    for source in (*app.sources, *names):
         for target in (*names, END):
             plain = Arrow(source=source, target=target, guard=(), otherwise=False)
             guarded = [replace(plain, guard=(status,)) for status in allowed(app, target)]
-            # the start sends one status only: it has no guards
-            for arrow in (plain, *guarded) if source != START else (plain,):
+            # a source sends one status only: it has no guards
+            for arrow in (plain, *guarded) if source in names else (plain,):
                 if arrow not in app.arrows:
                     yield "arrow added", str(arrow), _with(app, None, arrow)
 
@@ -91,6 +93,19 @@ def _redirected(app: App) -> _Edited:
             if target != arrow.target:
                 other = replace(arrow, target=target)
                 yield "arrow redirected", f"{arrow} to {target}", _with(app, arrow, other)
+
+
+def _events(app: App) -> _Edited:
+    """Yield each block that waits for an event with another one."""
+    for block in app.blocks:
+        for event in dict.fromkeys((*app.sources[1:], *BUILT_IN_EVENTS)) if block.event else ():
+            if event != block.event:
+                written = block.written.replace(f"event: {block.event}", f"event: {event}")
+                other = replace(block, event=event, written=written)
+                blocks = tuple(other if b is block else b for b in app.blocks)
+                yield "event changed", f"{block.name} waits for {event}", _of(
+                    app, blocks, app.arrows
+                )
 
 
 def _with(app: App, old: Arrow | None, *new: Arrow) -> App:

@@ -6,10 +6,11 @@ order in which clones move. It knows what a graph means and nothing of how the c
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 
-from tests.soundness.app import START, App, is_rest
-from tests.soundness.explore import Explorer, Seen, first_block, unlike_bounds
+from tests.soundness.app import App, is_rest
+from tests.soundness.explore import Explorer, Seen, first_blocks, unlike_bounds
 from tests.soundness.kinds import NEED_A_TRIP
 from tests.soundness.state import Verdict
 from tests.soundness.walk import Run
@@ -35,8 +36,8 @@ class Judgement:
 
 def judge(app: App) -> Judgement:
     """Fly an app's missions in every way that they can go."""
-    first = first_block(app)
-    if first is None:
+    first = first_blocks(app)
+    if not first:
         return Judgement(runs={}, faults=("missions begin nowhere",), doubtful=False, states=0)
     strict = _judged(app, first, strict=True)
     if unlike_bounds(app) or any(block.emits for block in app.blocks):
@@ -46,12 +47,19 @@ def judge(app: App) -> Judgement:
     return strict
 
 
-def _judged(app: App, first: str, *, strict: bool) -> Judgement:
+def _judged(app: App, first: list[str], *, strict: bool) -> Judgement:
     seen = _seen(app, first, strict=strict)
     faults = (
         ()
         if seen.cut
-        else (*_dead(app, seen, first), *_spent(app, seen), *_scattered(seen), *_unwatched(seen))
+        else (
+            *_dead(app, seen, first),
+            *_spent(app, seen),
+            *_scattered(seen),
+            *_unwatched(seen),
+            *_waited_twice(seen),
+            *_along_nothing(app),
+        )
     )
     return Judgement(
         runs=seen.wrong,
@@ -61,7 +69,7 @@ def _judged(app: App, first: str, *, strict: bool) -> Judgement:
     )
 
 
-def _seen(app: App, first: str, *, strict: bool) -> Seen:
+def _seen(app: App, first: list[str], *, strict: bool) -> Seen:
     seen = Explorer(app, strict=strict, patient=False).explore(first)
     if not seen.wrong and any(block.kind == "GateFIFO" for block in app.blocks):
         patient = Explorer(app, strict=strict, patient=True).explore(first)
@@ -71,12 +79,14 @@ def _seen(app: App, first: str, *, strict: bool) -> Seen:
     return seen
 
 
-def _dead(app: App, seen: Seen, first: str) -> tuple[str, ...]:
+def _dead(app: App, seen: Seen, first: list[str]) -> tuple[str, ...]:
     """Return the arrows that no run takes, and the blocks that no run comes to."""
     taken = {arrow for arrow, _ in seen.taken}
-    come = {arrow.target for arrow in taken} | {first}
+    come = {arrow.target for arrow in taken} | {*first}
     # an arrow that takes what is left is worth a warning only, when nothing is
-    dead = [a for a in app.arrows if a not in taken and a.source != START and not is_rest(a)]
+    dead = [
+        a for a in app.arrows if a not in taken and a.source not in app.sources and not is_rest(a)
+    ]
     arrows = [f"nothing takes {arrow}" for arrow in dead]
     blocks = [f"nothing comes to {b.name}" for b in app.blocks if b.name not in come]
     return (*blocks, *arrows)
@@ -105,3 +115,21 @@ def _unwatched(seen: Seen) -> tuple[str, ...]:
     """Return the limits that somewhere have no TripMonitor beside them."""
     alone = {block for block, _ in seen.limited - seen.beside}
     return tuple(f"{block} has no TripMonitor beside it" for block in sorted(alone))
+
+
+def _waited_twice(seen: Seen) -> tuple[str, ...]:
+    """Return the events for which two blocks wait in one fork."""
+    return tuple(
+        f"in the fork of {block} {status} both {one} and {other} wait for {event}"
+        for (block, status), waits in sorted(seen.waited.items())
+        for event, one in sorted(waits)
+        for again, other in sorted(waits)
+        if event == again and one < other
+    )
+
+
+def _along_nothing(app: App) -> tuple[str, ...]:
+    """Return the actions on the way of an app in which nothing flies."""
+    if any(block.kind == "TripLauncher" for block in app.blocks):
+        return ()
+    return tuple(line for line in app.rest if re.fullmatch(r"action .*\balong\b.*", line))

@@ -54,6 +54,8 @@ class State(NamedTuple):
     each retry that gives up after as many, or fewer, does so."""
     spent: bool = False
     """An evaluator has failed it, so that no trip is left; a modifier's hook may have put one back."""
+    before: int = 0
+    """How often the trip in flight had been flown before, where an event may break it off."""
 
     @property
     def idle(self) -> bool:

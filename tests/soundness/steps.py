@@ -46,6 +46,9 @@ def outcomes(
             for status in retried(state, block, by_count=strict):
                 bound = max(state.given_up, block.limit) if status == F else state.given_up
                 yield status, state._replace(given_up=bound)
+        case "TripSkipper":
+            left = max(state.trips, 1) - 1
+            yield (S if left else C), with_trips(state, left)
         case "MissionModifier" if block.emits:
             for status, after in modified(state, token, block, strict):
                 # of a mission that another branch has failed it knows nothing
@@ -84,6 +87,7 @@ def launched(state: State, block: Block, most_flights: int) -> State:
         given_up=0,
         spent=False,
         flown=tried(state, most_flights),
+        before=state.flown,
     )
 
 
@@ -97,6 +101,11 @@ def landed(state: State) -> Iterator[State]:
     left = state.trips - 1
     yield state._replace(flight=S if left else C, trips=left, flown=0)
     yield state._replace(flight=F)
+
+
+def broken_off(state: State) -> State:
+    """Return the state when an event has broken the flight off: its trip is next, and was not charged."""
+    return state._replace(flight=S, flown=state.before)
 
 
 def with_trips(state: State, trips: int) -> State:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from random import Random
 
 import pytest
 
-from tests.soundness.app import thesis_graphs
+from tests.soundness.app import App, thesis_graphs
 from tests.soundness.compare import compare, refused
 from tests.soundness.mutants import EDITS, Mutant, mutants
 from tests.soundness.oracle import judge
-from tests.soundness.randoms import looping_app, random_app
+from tests.soundness.randoms import event_app, looping_app, random_app
 from tests.soundness.state import Verdict
 from tests.soundness.table import SOUND, UNSOUND, Tally
 
@@ -43,10 +44,11 @@ def test_compiler_and_oracle_agree_on_what_is_one_edit_away(name: str) -> None:
         assert compared.agrees, (mutant.edit, mutant.what, compared)
 
 
-def test_compiler_and_oracle_agree_on_random_apps() -> None:
+@pytest.mark.parametrize("draw", [random_app, event_app])
+def test_compiler_and_oracle_agree_on_random_apps(draw: Callable[[Random], App]) -> None:
     tally = Tally()
     for seed in range(60):
-        app = random_app(Random(seed))
+        app = draw(Random(seed))
         compared = compare(app)
         tally.add(compared)
         assert compared.agrees, (seed, app.text, compared)
