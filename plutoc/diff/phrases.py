@@ -47,6 +47,11 @@ def named(names: Iterable[str], last: str = "and") -> str:
     return listed([f"`{name}`" for name in names], last)
 
 
+def a_kind(kind: str) -> str:
+    """`an `EventMonitor``, `a `Clock``."""
+    return f"{'an' if kind[:1] in 'AEIOU' else 'a'} `{kind}`"
+
+
 def listed(words: Sequence[str], last: str = "and") -> str:
     """Write words one after the other; of many, the first and how many more there are."""
     if len(words) > _MOST_WORDS:

@@ -15,6 +15,7 @@ from plutoc.registry import STD, Blocks, RegistryError
 from plutoc.service.symbols import DECLARED, Occurrence, Role
 from plutoc.source import Source
 from plutoc.syntax.tree import BlockDecl, Bool, File, Name
+from plutoc_runtime.domain.actions import BUILT_IN
 from plutoc_runtime.domain.status import Status
 
 
@@ -87,6 +88,11 @@ class Known:
         """What drones can do: built in, and of the app's own."""
         return (*self.hooks(HookKind.ACTION), *ACTIONS)
 
+    @property
+    def usual(self) -> tuple[str, ...]:
+        """Those of them that drones of any app may well do."""
+        return (*self.hooks(HookKind.ACTION), *BUILT_IN)
+
     @cached_property
     def events(self) -> tuple[str, ...]:
         """The events that a block can wait for: the app's own, and built in."""
@@ -119,7 +125,7 @@ class Known:
 
     def _wanted(self) -> Iterator[tuple[Role, str]]:
         for one in self.names:
-            if one.role in (Role.BLOCK, Role.ACTION, Role.PREFIX) and not one.declares:
+            if one.role in _USED and not one.declares and one.name not in EVENTS:
                 yield one.role, one.name
         for statement in self.file.app.statements:
             if isinstance(statement, BlockDecl) and (kind := self.kind_of(statement)):
@@ -161,6 +167,9 @@ class Known:
         """Return the parameters of the hooks among some values, each with its hook."""
         hooks = (self.hook[name] for name in values if name in self.hook)
         return tuple((hook.name, one) for hook in hooks for one in hook.parameters)
+
+
+_USED = (Role.BLOCK, Role.ACTION, Role.PREFIX, Role.EVENT)
 
 
 def hook_of(param: AnyParam | None) -> HookKind | None:

@@ -6,7 +6,7 @@ from plutoc.block import Block, Choice, Param
 from plutoc.diagnostic import Diagnostic
 from plutoc.diff.both import Side
 from plutoc.diff.model import Change, Fact, Importance, one_sided
-from plutoc.diff.phrases import amount, so_often
+from plutoc.diff.phrases import a_kind, amount, so_often
 from plutoc.diff.roles import Role, limited, role
 from plutoc.graph.model import Node, Parameter, Plain
 from plutoc_runtime.domain.fields import Entity
@@ -122,7 +122,7 @@ def passed_changed(
 
 def kind_changed(nodes: tuple[Node, Node], was: str, now: str) -> Change:
     """A block of the same name is of another kind."""
-    sentence = f"`{nodes[1].name}` is now a `{now}`; before, a `{was}`"
+    sentence = f"`{nodes[1].name}` is now {a_kind(now)}; before, {a_kind(was)}"
     told = role(nodes[0]) is role(nodes[1]) and role(nodes[1]) in (Role.GATE, Role.LIMITS)
     importance = Importance.FORM if told else Importance.MISSIONS
     return _set("kind_changed", importance, sentence, nodes, was, now)
@@ -140,7 +140,7 @@ def block_of_one(node: Node, *, is_new: bool) -> Change:
     return one_sided(
         "block_added" if is_new else "block_removed",
         Importance.FORM,
-        f"block `{node.name}` is {'new' if is_new else 'gone'}, a `{node.block.name}`",
+        f"block `{node.name}` is {'new' if is_new else 'gone'}, {a_kind(node.block.name)}",
         blocks=(node.name,),
         fact=node.block.name,
         spans=(node.name_span,),

@@ -82,9 +82,11 @@ def names(role: Role, known: Known) -> Iterator[Candidate]:
     """Give names for what is declared: those that are used already, or else new ones."""
     sort = {Role.BLOCK: Sort.BLOCK, Role.CATEGORY: Sort.CATEGORY}.get(role, Sort.HOOK)
     lacking = known.lacking.get(role, ())
+    if role is Role.EVENT:  # what an arrow begins at may be an event as well as a block
+        lacking += known.lacking.get(Role.BLOCK, ())
     for i, name in enumerate(lacking or map(known.fresh, _NEW.get(role.value, ()))):
         detail = "used, and not declared yet" if lacking else "a free name"
-        forms = (name, f"{name} can {', '.join(known.actions)}") if role is Role.CATEGORY else ()
+        forms = (name, f"{name} can {', '.join(known.usual)}") if role is Role.CATEGORY else ()
         yield Candidate(
             label=name, kind=sort, forms=forms, detail=detail, rank=i, judged=bool(lacking)
         )
@@ -98,7 +100,7 @@ def category(hole: Hole, known: Known) -> Iterator[Candidate]:
     elif hole.types == ("CATEGORY",):
         yield from names(Role.CATEGORY, known)
     else:
-        forms = ("can", f"can {', '.join(known.actions)}")
+        forms = ("can", f"can {', '.join(known.usual)}")
         yield keyword("can", *forms)
 
 

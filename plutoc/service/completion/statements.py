@@ -45,7 +45,7 @@ _FIELDS = {"mission": "mission has patient: text", "trip": 'trip has note: text 
 def _keywords(known: Known) -> Iterator[Candidate]:
     first = {word: next(iter(names(Role(word), known))).label for word in _NAMED}
     forms = {word: f"{word} {name}" for word, name in first.items()}
-    forms["category"] += f" can {', '.join(known.actions)}"
+    forms["category"] += f" can {', '.join(known.usual)}"
     forms["requires"] = 'requires "numpy>=2"'
     forms |= _FIELDS
     forms["result"] = f"result {known.actions[0]} as handling"

@@ -13,6 +13,7 @@ from plutoc.graph.model import Action, AppField, Category, Event, Hook, Node, Pa
 from plutoc.graph.values import EXAMPLES
 from plutoc.report.block_page import page, param_line
 from plutoc.syntax.texts import quoted
+from plutoc_runtime.domain.actions import Parameter as Declared
 from plutoc_runtime.domain.quantities import UNITS, Type, units_of
 from plutoc_runtime.domain.status import Status
 
@@ -77,6 +78,7 @@ ACTIONS: Mapping[str, str] = MappingProxyType(
     }
 )
 
+_WHOSE = {"follow": "Drones of a category that names it can do it."}
 _PLAIN = {
     Type.INT: "a whole number",
     Type.FLOAT: "a number",
@@ -156,9 +158,9 @@ def of_hook(declaration: str, signature: str) -> str:
 def of_action(name: str) -> str:
     """Describe a built-in action."""
     action = built_in.ACTIONS[name]
-    given = ", ".join(f"{p.name}: {p.type.value}{_default(p.default)}" for p in action.parameters)
+    given = ", ".join(f"{p.name}: {p.type.value}{_default(p)}" for p in action.parameters)
     declared = f"action {name}{f'({given})' if given else ''} {action.repeat}"
-    return paragraphs((code(declared), ACTIONS[name], "Every app has it."))
+    return paragraphs((code(declared), ACTIONS[name], _WHOSE.get(name, "Every app has it.")))
 
 
 def of_event(name: str, event: Event | None, creators: Iterable[str]) -> str:
@@ -173,10 +175,8 @@ def of_event(name: str, event: Event | None, creators: Iterable[str]) -> str:
     )
 
 
-def _default(value: Plain | None) -> str:
-    if value is None:
-        return ""
-    return f" = {quoted(value)}" if isinstance(value, str) else f" = {value}"
+def _default(one: Declared) -> str:
+    return "" if one.default is None else f" = {in_units(one.default, one.type)}"
 
 
 def of_param(param: Param) -> str:

@@ -27,12 +27,13 @@ from plutoc.source import Source
 from tests.compiler.service.test_fields import APP as FIELD
 from tests.kit.sections import Section, compare, params
 from tests.lsp.holes import FIRST, cuts, mistakes, offered, rank
-from tests.paths import EXAMPLES
+from tests.paths import EXAMPLES, ROOT
 
 HERE = Path(__file__).parent
 MOST = 24
 """The first so many completions are shown."""
-APPS = {"field": FIELD} | {
+PURSUE = (ROOT / "tests/cases/pursue/app.pluto").read_text(encoding="utf-8")
+APPS = {"field": FIELD, "pursue": PURSUE} | {
     path.parent.name: path.read_text(encoding="utf-8") for path in EXAMPLES.glob("*/app.pluto")
 }
 

@@ -45,8 +45,9 @@ def test_every_problem_is_shown_at_its_place_and_at_its_blocks(folder: Path) -> 
         assert set(problem["blocks"]) <= names
         marked = {one["name"] for one in shown["blocks"] if index in one["problems"]}
         assert marked == set(problem["blocks"])
+    ends = {"start", "end", *(one["name"] for one in shown["events"])}
     for edge in shown["edges"]:
-        assert {edge["source"], edge["target"]} <= names | {"start", "end"}
+        assert {edge["source"], edge["target"]} <= names | ends
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.parent.name)
