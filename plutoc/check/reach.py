@@ -39,7 +39,8 @@ def entry(graph: Graph) -> tuple[tuple[Node, ...], tuple[Edge, ...], list[Diagno
             found += [told] if edge.target not in {n.name for n in creators[1:]} else []
     led_to = {edge.target for edge in edges if edge.source in graph.sources}
     found += [errors.no_event(graph, node) for node in of_events if node.name not in led_to]
-    return tuple(creates.values()), tuple(edges), found
+    reached = [node for node in of_events if node.name in led_to]
+    return (creator, *reached), tuple(edges), found
 
 
 def _of_sources(

@@ -111,9 +111,7 @@ def _breaking(graph: Graph, arrows: nx.DiGraph) -> frozenset[str]:
     breaks = {node.name for node in graph.nodes if node.block.interrupts}
     if not breaks:
         return frozenset()
-    onward = _without_launches(graph, arrows)
-    onward.add_edges_from((name, after) for name in launching for after in arrows[name])
-    onward.remove_edges_from([edge for edge in onward.edges if edge[1] in launching])
+    onward = nx.restricted_view(arrows, [], [edge for edge in arrows.edges if edge[1] in launching])
     return frozenset(name for name in launching if breaks & reachable(onward, [name]))
 
 

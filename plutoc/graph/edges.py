@@ -11,7 +11,7 @@ from plutoc.diagnostic import Diagnostic
 from plutoc.graph import edge_errors as errors
 from plutoc.graph.hooks import statuses
 from plutoc.graph.model import END, START, Edge, Node
-from plutoc.graph.scope import Scope
+from plutoc.graph.scope import BLOCK, Declared, Scope
 from plutoc.graph.stops import END_ACCEPTS, accepts_by_guard, check_stops
 from plutoc.graph.uncertain_names import UncertainNames
 from plutoc.source import Source
@@ -41,7 +41,7 @@ def edges(
     found: list[Diagnostic],
 ) -> tuple[Edge, ...]:
     """Resolve all edges, in the order of the source."""
-    sources = {START, *(event for event in events if event not in nodes)}
+    sources = {START, *(event for event in events if not _hides(scope.get(event)))}
     check_stops(source, flows, scope, nodes, sources, unclear, found)
     resolved: list[Edge] = []
     of_flow: list[FlowDecl] = []
@@ -80,6 +80,11 @@ def edges(
         )
         for edge in resolved
     )
+
+
+def _hides(declared: Declared | None) -> bool:
+    """Return whether a block has the name of a built-in event, as it may."""
+    return declared is not None and declared.role == BLOCK
 
 
 def _arrows(flow: FlowDecl) -> Iterator[Arrow]:

@@ -87,7 +87,7 @@ def node(place: Place, declared: BlockDecl) -> Node | None:
         passed=_passed(place, declared, passed, given, strange),
         event=next(
             (
-                _event(place, declared, param, given.get(param.name))
+                _event(place, declared, param, given.get(param.name), strange)
                 for param in block.params
                 if isinstance(param, EventParam)
             ),
@@ -151,12 +151,16 @@ def _choose(place: Place, param: Choice, argument: Argument | None) -> Choose:
 
 
 def _event(
-    place: Place, declared: BlockDecl, param: EventParam, argument: Argument | None
+    place: Place,
+    declared: BlockDecl,
+    param: EventParam,
+    argument: Argument | None,
+    strange: Mapping[str, Name],
 ) -> str | None:
     """Resolve the event that a block waits for."""
     known = list(place.events)
     if argument is None:
-        if param.required:
+        if param.required and not _slip(param.name, strange):
             _missing(place, declared, param.name, known[0])
         return None
     name = _name(place, argument.value)

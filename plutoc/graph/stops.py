@@ -75,7 +75,7 @@ def check_stops(
             for name in stop.names:
                 declared = scope.get(name.text)
                 if name.text in sources:
-                    if i > 0:
+                    if i > 0 and not unclear.may_declare(name.text):
                         found.append(errors.into_start(source, name))
                 elif name.text == END:
                     if i < last:
