@@ -57,8 +57,9 @@ def interrupted_twice(flow: Flow, found: Branches) -> list[Diagnostic]:
     for branches in found.values():
         waiting: dict[str, Node] = {}
         nodes = {n.name: n for branch in branches for n in _nodes(flow, found, inside, branch)}
-        for node in sorted(nodes.values(), key=lambda one: one.span.start):
-            if node.block.interrupts and node.event is not None:
+        waits = [n for n in nodes.values() if n.block.interrupts and n.name in flow.nearest]
+        for node in sorted(waits, key=lambda one: one.span.start):
+            if node.event is not None:
                 first = waiting.setdefault(node.event, node)
                 if first is not node:
                     wrong = errors.interrupted_twice(

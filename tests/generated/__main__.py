@@ -21,7 +21,7 @@ from tests.compiler.emit.apps import ODD_NAMES, PARCELS, PLAIN, TYPED
 from tests.compiler.emit.plans import plan_of
 from tests.paths import CASES, EXAMPLES, ROOT
 
-STRICT = ("odd_", "typed_", "alfalfa")
+STRICT = ("odd_", "typed_", "alfalfa", "pursue")
 
 
 def sources() -> dict[str, str]:

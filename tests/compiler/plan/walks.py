@@ -46,7 +46,9 @@ def entered_anywhere(checked: Checked, luck: Random, most: int) -> Checked:
     chart = Charts(checked).chart(first.target, checked.carries[first])
     blocks = [spot for spot in chart.arrives if spot.kind is Kind.BLOCK and spot != chart.entry]
     chosen = luck.sample(blocks, min(len(blocks), luck.randint(1, most)))
-    return replace(checked, entries={spot.name: chart.arrives[spot] for spot in chosen})
+    node = checked.graph.node
+    made = {name: came for name, came in checked.entries.items() if node[name].block.creates}
+    return replace(checked, entries={**made, **{s.name: chart.arrives[s] for s in chosen}})
 
 
 def through_plan(
