@@ -49,7 +49,8 @@ def _structured(
                 body = writer.body(entered.chart.entry, Context())
             except (Unstructured, GivenUp):
                 continue
-            return asked_once(body, entries)
+            created = [name for name in entries if graph.node[name].block.creates]
+            return asked_once(body, entries, created)
     return None
 
 

@@ -6,11 +6,12 @@ question some of the places can turn up, and others cannot: those from which no 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 from plutoc.plan.model import (
+    Arm,
     Arrived,
     Body,
     Break,
@@ -106,8 +107,11 @@ def candidates(body: Body, places: tuple[str, ...]) -> Mapping[int, tuple[Switch
     return walk.found
 
 
-def asked_once(body: Body, places: tuple[str, ...]) -> Body:
-    """Return a body without questions whose answer is certain."""
+def asked_once(body: Body, places: tuple[str, ...], created: Collection[str]) -> Body:
+    """Return a body without questions whose answer is certain.
+
+    Which of the events that lead to `created` has made the mission is asked together with where it goes on.
+    """
     if not places:
         return body
     found = candidates(body, places)
@@ -124,6 +128,17 @@ def asked_once(body: Body, places: tuple[str, ...]) -> Body:
         left = tuple(arm for arm in narrowed if arm.places)
         if not left:
             return (step,)  # it is never reached
-        return left[0].body if len(left) == 1 else (replace(step, arms=left),)
+        if len(left) == 1:
+            return left[0].body
+        return (replace(step, arms=tuple(one for arm in left for one in _apart(arm, created))),)
 
     return rewritten_body(body, asked)
+
+
+def _apart(arm: Arm, created: Collection[str]) -> tuple[Arm, ...]:
+    """Return an arm that does no more than to ask who has made the mission as an arm for each."""
+    match arm.body:
+        case (Switch(arms=arms),) if any(place in created for one in arms for place in one.places):
+            return arms
+        case _:
+            return (arm,)

@@ -26,13 +26,12 @@ from .model import CATEGORIES, EVENTS, FIELDS, Mission, Trip
 async def flow(run: Run[Mission]) -> Status:
     """Take one mission through the graph, from start to end."""
     status = run.status
-    if run.at in (None, "pursue"):
-        if run.at is None:
-            # patrol = MissionCreator
-            status = create_mission(run, status)
-        else:
-            # pursue = MissionCreator(hook: chase)
-            status = create_mission(run, status)
+    if run.at is None:
+        # patrol = MissionCreator
+        status = create_mission(run, status)
+    elif run.at == "pursue":
+        # pursue = MissionCreator(hook: chase)
+        status = create_mission(run, status)
     while True:
         # allocate = DroneAllocator(policy: nearest)
         status = await allocate_drone(run, status, block="allocate", policy=nearest)
