@@ -52,8 +52,21 @@ function placeBehind(name) {
   return [x, y];
 }
 
+export const EVENT = "event";
+
+// Declares an event under a free name, and selects it.
+async function addEvent(at) {
+  const taken = new Set([...app.nodes.keys(), ...[...app.view.hooks, ...app.view.categories].map((one) => one.name)]);
+  let name = "my_event";
+  for (let n = 2; taken.has(name); n += 1) name = `my_event_${n}`;
+  const made = await edit([{ do: "Declare", text: `event ${name}` }], at ? { [name]: at } : {});
+  if (made) choose([name]);
+  return made;
+}
+
 // at: where it was dropped, null: behind the one it is connected from.
 export function add(kind, { at = null, from = undefined, when = undefined, onto = null } = {}) {
+  if (kind === EVENT) return addEvent(at);
   const declared = kindOf(kind);
   if (!declared) return null;
   const operations = [{ do: "AddBlock", kind }];

@@ -4,11 +4,18 @@ import { say } from "../announce.js";
 import { edgeUnder, markDrop } from "../canvas/pointer.js";
 import { camera, toWorld, viewport } from "../canvas/camera.js";
 import { h, icon, fill, status } from "../dom.js";
-import { add } from "../operations.js";
+import { EVENT, add } from "../operations.js";
 import { HEIGHT, WIDTH, app, begun, snap } from "../state.js";
 import { markdown } from "../text/markdown.js";
 
 const STILL = 5;
+
+// Not a kind of block, but drawn and dragged as one.
+const AN_EVENT = {
+  kind: EVENT, package: "Events", first: "What can happen: missions are made of it, or it breaks flights off.",
+  accepts: [], emits: ["UNEXECUTED"],
+  doc: "Declares an event. Lead it to a MissionCreator with a `creator` hook, or let an EventMonitor wait for it. Its name and its fields stand among the properties of the app.",
+};
 
 export function makePalette() {
   const search = h("input", {
@@ -29,7 +36,7 @@ export function makePalette() {
 
   function draw() {
     const words = search.value.trim().toLowerCase();
-    const fits = app.palette.filter((one) =>
+    const fits = [...app.palette, AN_EVENT].filter((one) =>
       `${one.kind} ${one.package} ${one.first} ${one.emits} ${one.accepts}`.toLowerCase().includes(words));
     const groups = [...new Set(fits.map((one) => one.package))];
     fill(list, groups.map((group) => [
