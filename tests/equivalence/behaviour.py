@@ -48,6 +48,7 @@ class Behaviour:
             HookKind.MODIFIER: self._modifier,
             HookKind.EVALUATOR: self._evaluator,
             HookKind.POLICY: self._policy,
+            HookKind.CREATOR: self._creator,
         }
         for hook in graph.hooks:
             made[hook.name] = makers[hook.kind](hook)
@@ -142,6 +143,12 @@ class Behaviour:
 
         plain = self.patient and Random(f"{self.seed}/{hook.name}").random() < 0.5
         return judges if plain else takes_time
+
+    def _creator(self, hook: Hook) -> Callable[..., object]:
+        def creator(event: object, context: object) -> None:
+            return None  # as yet nothing raises an event
+
+        return creator
 
     def _policy(self, hook: Hook) -> Callable[..., object]:
         def chooses(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:

@@ -49,6 +49,7 @@ class Vandals:
             HookKind.MODIFIER: self._modifier,
             HookKind.EVALUATOR: self._evaluator,
             HookKind.POLICY: self._policy,
+            HookKind.CREATOR: self._creator,
         }
         acts = {one.name: self._action(one.name, one.returns) for one in graph.actions}
         self.module = SimpleNamespace(
@@ -76,6 +77,12 @@ class Vandals:
             return Verdict(redo=redo, add=[self._new(chance)] * add)
 
         return evaluator
+
+    def _creator(self, hook: Hook) -> Callable[..., object]:
+        def creator(event: object, context: object) -> None:
+            return None  # as yet nothing raises an event
+
+        return creator
 
     def _policy(self, hook: Hook) -> Callable[..., object]:
         def one_by_one(trip: Any, candidates: Any) -> object:
