@@ -38,6 +38,7 @@ async def flow(run: Run[Mission]) -> Status:
         # launch = TripLauncher
         status = launch_trip(run, status)
         # launch -> [watch, late] -> first = GateFIFO
+        run.state.block = "watch, late"
         status = await watch(
             run,
             # watch = TripMonitor(relief: 25 %)
@@ -49,6 +50,7 @@ async def flow(run: Run[Mission]) -> Status:
             return status
         if status is STANDBY:
             # free = MissionModifier(hook: release_seen)
+            run.state.block = "free"
             status = await modify_mission(
                 run, status, hook=hooks.release_seen, emits=(STANDBY, COMPLETED)
             )
