@@ -124,10 +124,11 @@ def along_nothing(graph: Graph, action: Action) -> Diagnostic:
 
 def unreached(graph: Graph, node: Node, behind: Sequence[str]) -> Diagnostic:
     also = f", nor {all_of(behind)} behind it" if behind else ""
+    begins = "`start` or an event" if len(graph.sources) > 1 else "`start`"
     return error(
         "P2006",
         (graph, node.name_span),
-        f"no path from `start` reaches `{node.name}`{also}",
+        f"no path from {begins} reaches `{node.name}`{also}",
         help=f"draw an arrow to `{node.name}`, or remove it",
     )
 

@@ -25,6 +25,7 @@ _USUAL = {
     "candidates": "Sequence[Drone]",
     "waiting": "Sequence[Waiting]",
     "drones": "Sequence[Drone]",
+    "event": "Event",
     "now": "float",
 }
 """The types of what comes by position, by its usual name."""

@@ -9,10 +9,13 @@ from functools import cache
 from inspect import cleandoc
 from pkgutil import get_data
 
+from plutoc.emit import reactions
 from plutoc.emit.model_file import all_fields, python_type, values_of
 from plutoc.emit.modules import EmbedError
+from plutoc.emit.python import PYTHON, UNITS
+from plutoc.emit.reactions import ANY
 from plutoc.emit.stubs import EXPORTS
-from plutoc.graph.model import Graph
+from plutoc.graph.model import Graph, Parameter
 from plutoc_runtime.domain.fields import Entity
 
 _MODEL = "._runtime.domain.model"
@@ -66,7 +69,29 @@ def types_of(graph: Graph) -> Mapping[str, HookType]:
             for one in plain.members
         )
         found["Result"] = HookType(name="Result", doc=plain.doc, members=tuple(members))
+    return found | _events(graph)
+
+
+def _events(graph: Graph) -> dict[str, HookType]:
+    """Return the class of all events, and those of the app's own with their fields."""
+    if not graph.reacts:
+        return {}
+    body = _module(reactions.HOME).body
+    base = _type(next(one for one in body if isinstance(one, ast.ClassDef) and one.name == ANY))
+    found = {ANY: base}
+    for event in graph.events:
+        name = reactions.class_names(graph)[event.name]
+        fields = (
+            Member(name=one.name, type=PYTHON[one.type], doc=_unit(one), settable=True)
+            for one in event.fields
+        )
+        doc = f"The event {event.name}."
+        found[name] = HookType(name=name, doc=doc, members=(*base.members, *fields))
     return found
+
+
+def _unit(field: Parameter) -> str:
+    return f"Of the app's own{f', {UNITS[field.type]}' if field.type in UNITS else ''}."
 
 
 @cache
