@@ -20,7 +20,10 @@ from plutoc.source import Source
 from plutoc.syntax.parse import read
 from plutoc.syntax.tree import File
 from tests.kit.campaign import Campaign
-from tests.paths import EXAMPLES
+from tests.paths import CASES, EXAMPLES
+
+EVENTS = CASES / "pursue" / "app.pluto"
+"""What no example has yet: events."""
 
 ENOUGH = 0.98
 """The share of broken files of which exactly one thing is to be said."""
@@ -166,7 +169,7 @@ def mutants(count: int, seed: int, text: str | None = None) -> Iterator[Mutant]:
 
 def _examples() -> dict[str, tuple[str, Source | None]]:
     examples: dict[str, tuple[str, Source | None]] = {}
-    for path in sorted(EXAMPLES.glob("*/app.pluto")):
+    for path in (*sorted(EXAMPLES.glob("*/app.pluto")), EVENTS):
         hooks = path.with_name("hooks.py")
         text = hooks.read_text(encoding="utf-8") if hooks.exists() else None
         examples[path.parent.name] = (

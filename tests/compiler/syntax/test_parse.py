@@ -11,6 +11,7 @@ from plutoc.syntax.tree import (
     ActionDecl,
     BlockDecl,
     Bool,
+    EventDecl,
     FieldsDecl,
     File,
     FlowDecl,
@@ -191,3 +192,18 @@ def test_result_is_a_word_only_where_it_begins_its_statement() -> None:
     assert isinstance(said, ResultDecl)
     assert (said.action.text, said.way.text) == ("x", "heat")
     assert [one.name.text for one in said.arguments] == ["result"]
+
+
+def test_event_and_creator_are_words_only_where_they_begin_their_statements() -> None:
+    """And `along` stands where an action says whether it is repeated."""
+    text = 'event = K(creator: event)\nevent -> creator\nevent event(event: text = "a")\ncreator creator\naction along along'
+    block, flow, event, creator, action = statements(text)
+    assert isinstance(block, BlockDecl)
+    assert isinstance(flow, FlowDecl)
+    assert isinstance(event, EventDecl)
+    assert (event.name.text, [one.name.text for one in event.fields]) == ("event", ["event"])
+    assert isinstance(creator, HookDecl)
+    assert (creator.kind, creator.name.text) == ("creator", "creator")
+    assert isinstance(action, ActionDecl)
+    assert action.repeat is not None
+    assert (action.name.text, action.repeat.text) == ("along", "along")

@@ -192,6 +192,8 @@ def grown(random: Random) -> str:
     if app.chance(0.4):
         _fields(app)
     _graph(app)
+    if app.chance(0.2):
+        _events(app)
     parts = [app.declared, app.blocks, app.flows]
     if app.chance(0.2):
         parts.reverse()
@@ -283,6 +285,18 @@ def _graph(app: Growth) -> None:
     _ending(app, last, again)
 
 
+def _events(app: Growth) -> None:
+    """Events, and what makes missions of one: where it leads to is nearly always well."""
+    parameters, _ = app.parameters()
+    event, hook = app.name("seen"), app.name("look_after")
+    app.declared += [f"event {event}{parameters}", f"creator {hook}"]
+    check = app.block("check", "MissionCreator", f"hook: {hook}")
+    source = event if app.chance(0.8) else app.random.choice(("late", "lost", "start"))
+    app.flows.append(f"{source} -> {check} -> {app.random.choice(('allocate', 'launch'))}")
+    if app.chance(0.3):
+        app.declared.append(f"action {app.name('on_the_way')}{app.random.choice(RESULTS)} along")
+
+
 def _flight(app: Growth, launch: str) -> str:
     """The monitors, and the gate behind them; return the block from which a mission goes on."""
     watch = app.block("watch", "TripMonitor")
@@ -294,6 +308,9 @@ def _flight(app: Growth, launch: str) -> str:
     for i, kind in enumerate(beside):
         if kind == "modifier":
             branches.append(_modifier(app, "STANDBY", "COMPLETED", "FAILED"))
+        elif kind == "TimerMonitor" and not isinstance(app, Calm) and app.chance(0.2):
+            event = app.random.choice(("late", "lost", "late, of: any", "seen", "late, of: own"))
+            branches.append(app.block(f"limit{i}", "EventMonitor", f"event: {event}"))
         else:
             limit = app.limit() if kind != "TripMonitor" else ""
             branches.append(app.block(f"limit{i}", kind, *([limit] if limit else [])))
