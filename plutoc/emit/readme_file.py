@@ -42,6 +42,7 @@ def readme(graph: Graph, source_name: str, picture: str) -> str:
         fence=fence(picture),
         picture=picture.rstrip("\n"),
         dotted="-.->" in picture,
+        flags=len(graph.sources) > 1,
         gates=any(node.block.gate is not None for node in graph.nodes),
         kinds=[_kind(block) for block in dict.fromkeys(node.block for node in graph.nodes)],
         sample=mission,
