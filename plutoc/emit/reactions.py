@@ -6,7 +6,18 @@ from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from plutoc.emit.python import PYTHON, Import, annotation, call, docstring, items, literal, names
+from plutoc.emit.python import (
+    PYTHON,
+    Import,
+    annotation,
+    builtins_alias,
+    call,
+    docstring,
+    items,
+    literal,
+    names,
+    shadows,
+)
 from plutoc.emit.written import parameter
 from plutoc.graph.model import Event, Graph, Hook
 
@@ -45,11 +56,13 @@ def classes(graph: Graph) -> list[EventClass]:
 
 def class_names(graph: Graph) -> Mapping[str, str]:
     """Return the name of each event's class: `SmokeAlarmEvent` of `smoke_alarm`."""
-    short = {event.name: _in_pascal_case(event.name) for event in graph.events}
-    often = Counter(short.values())
-    return {
-        name: f"{one if often[one] == 1 else name.capitalize()}Event" for name, one in short.items()
-    }
+    named: dict[str, str] = {}
+    often: Counter[str] = Counter()
+    for event in graph.events:
+        short = f"{_in_pascal_case(event.name)}Event"
+        often[short] += 1
+        named[event.name] = short if often[short] == 1 else f"{short}{often[short]}"
+    return named
 
 
 def _in_pascal_case(name: str) -> str:
@@ -78,6 +91,11 @@ def imports(graph: Graph) -> list[Import]:
     if any(event.fields for event in graph.events):
         found += names("._runtime.domain.actions", "Parameter")
         found += names("._runtime.domain.quantities", "Type")
+    for event in graph.events:
+        taken = {field.name for field in event.fields}
+        if shadows(taken, (PYTHON[field.type] for field in event.fields)):
+            alias = builtins_alias(taken)
+            found.append(Import(module="builtins", alias=None if alias == "builtins" else alias))
     return found
 
 

@@ -17,11 +17,11 @@ from argparse import ArgumentParser
 from pathlib import Path
 
 from plutoc.emit.package import emit
-from tests.compiler.emit.apps import ODD_NAMES, PARCELS, PLAIN, TYPED
+from tests.compiler.emit.apps import EVENTS, ODD_NAMES, PARCELS, PLAIN, TYPED
 from tests.compiler.emit.plans import plan_of
 from tests.paths import CASES, EXAMPLES, ROOT
 
-STRICT = ("odd_", "typed_", "alfalfa", "pursue")
+STRICT = ("odd_", "typed_", "events_", "alfalfa")
 
 
 def sources() -> dict[str, str]:
@@ -31,7 +31,14 @@ def sources() -> dict[str, str]:
         *(p.parent / "app.pluto" for p in CASES.glob("*/expected")),
     ]
     texts = {path.parent.name: path.read_text(encoding="utf-8") for path in sorted(paths)}
-    return {**texts, "odd_": ODD_NAMES, "parcels": PARCELS, "plain": PLAIN, "typed_": TYPED}
+    return {
+        **texts,
+        "odd_": ODD_NAMES,
+        "parcels": PARCELS,
+        "plain": PLAIN,
+        "typed_": TYPED,
+        "events_": EVENTS,
+    }
 
 
 def written(folder: Path) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from plutoc.emit.package import emit
-from tests.compiler.emit.apps import ODD_NAMES, PARCELS, TYPED
+from tests.compiler.emit.apps import EVENTS, ODD_NAMES, PARCELS, TYPED
 from tests.compiler.emit.plans import plan_of
 from tests.kit.command import python
 from tests.kit.sections import given
@@ -17,7 +17,13 @@ from tests.kit.sections import given
 pytestmark = pytest.mark.long
 
 HERE = Path(__file__).parent
-STUBS = {"odd": ODD_NAMES, "parcels": PARCELS, "typed": TYPED, **given(HERE / "stubs.txt")}
+STUBS = {
+    "odd": ODD_NAMES,
+    "parcels": PARCELS,
+    "typed": TYPED,
+    "events": EVENTS,
+    **given(HERE / "stubs.txt"),
+}
 EXPECTED = re.compile(r"  # (note|error): (.+)$")
 
 
