@@ -67,7 +67,9 @@ def testing_file(graph: Graph) -> str:
     """Return the text of `testing.py`, not yet formatted."""
     given = ["APP", *(f"{on.value}={needed}" for on in Entity if (needed := _needed(graph, on)))]
     typed = bool(values_of(graph))
-    return render("testing.py", app=graph.name, given=", ".join(given), typed=typed, events=graph.reacts)
+    return render(
+        "testing.py", app=graph.name, given=", ".join(given), typed=typed, events=graph.reacts
+    )
 
 
 def _needed(graph: Graph, on: Entity) -> str:

@@ -25,6 +25,7 @@ from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
 from .shared.events.company import AlongAction, AlongField, CompanyOf
 from .shared.events.declared import Creator, EventType
+from .shared.events.part import PartOf
 from .shared.events.raising import EventsOf
 from .shared.events.tracks import TrackField, TracksOf
 
@@ -131,7 +132,7 @@ def _field(data: Mapping[str, Any]) -> Field:
     return of_class(**known, on=Entity(data["on"]), type=kind)
 
 
-def _parts(about: Mapping[str, Any]) -> tuple[shared.PartOf, ...]:
+def _parts(about: Mapping[str, Any]) -> tuple[PartOf, ...]:
     """Return what an app has beside missions and drones, as far as a library must know it."""
     if "events" not in about:
         return ()

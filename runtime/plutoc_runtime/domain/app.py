@@ -11,10 +11,9 @@ from .status import Status
 
 if TYPE_CHECKING:
     from .actions import Action, Parameter
-    from .fields import Field, FieldType
+    from .fields import Field
     from .model import Category, Mission, Trip
     from .motion import Motion
-    from .quantities import Type
 
 A = TypeVar("A", bound="App")
 
@@ -23,26 +22,6 @@ SEAM = 1
 
 Flow = Callable[[Any], Coroutine[Any, Any, Status]]
 """The coroutine function that takes one mission from start to end."""
-
-
-class PartOf:
-    """What an app has beside missions and drones."""
-
-    def __call__(self, engine: Any) -> Any:
-        """Return it in a running app: a `Part` of flow/mission.py."""
-        raise NotImplementedError
-
-    def about(self) -> dict[str, Any]:
-        """Return it as plain data, for the library."""
-        return {}
-
-    def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
-        """Return how fields of the types are read that only this part knows."""
-        return {}
-
-    def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Return what trips have for what somebody has written of one."""
-        return trip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -64,8 +43,8 @@ class App:
     """The blocks at which an interrupted mission can resume: `flow` can be entered there."""
     results: tuple[Mapping[str, Any], ...] = ()
     """What the results of actions are, and how they are shown: for the library alone."""
-    parts: tuple[PartOf, ...] = ()
-    """What this app has beside missions and drones, such as events."""
+    parts: tuple[Any, ...] = ()
+    """What this app has beside missions and drones, such as events: each a `PartOf`."""
 
 
 def needs_library(what: str, extra: str = "") -> str:

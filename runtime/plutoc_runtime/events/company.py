@@ -10,7 +10,7 @@ from math import dist
 from typing import TYPE_CHECKING, Any, NamedTuple, Required, TypedDict, cast
 
 from ..domain.actions import Action, Plain
-from ..domain.app import PartOf, parameters_data
+from ..domain.app import parameters_data
 from ..domain.errors import ActionFailed, Cancelled, FlightFailed
 from ..domain.fields import Field, FieldType
 from ..domain.guard import NOT_ITS_OWN
@@ -21,11 +21,12 @@ from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
 from ..domain.values import Quantity, Table, one_of, read_parameters
 from ..fleet.reach import needed
 from ..flow.asking import kept_by, take_over
-from ..flow.mission import Part
 from ..hooks.calls import call_hook, fault_of
 from ..hooks.context import Context, LiveDrone
 from ..hooks.plain_data import keepable, point_of
 from ..time.kernel import Future, mission_key
+from .changes import keep
+from .part import Part, PartOf
 from .tracks import Tracks
 
 if TYPE_CHECKING:
@@ -273,7 +274,7 @@ class Company(Part):
             return Failed(str(fault), mends=False)
         else:
             if value is not None:
-                core.transitions.keep(state.mission, trip, keepable(value))
+                keep(core, state.mission, trip, keepable(value))
             return None
         finally:
             live.release()
@@ -302,7 +303,7 @@ class Company(Part):
                 )
             except FlightFailed:
                 return None  # the end of its flight says why
-            core.transitions.keep(state.mission, trip, value)
+            keep(core, state.mission, trip, value)
             if "seconds" in given:
                 await kernel.sleep(given["seconds"], key=state.key)
                 continue

@@ -14,6 +14,7 @@ from ..domain.quantities import Type
 from ..domain.text import duration, quoted
 from ..flow.own_action import NO_MORE, way_home
 from ..time.kernel import EventKind, Future, mission_key
+from .changes import keep
 from .company import track_of
 from .tracks import Tracks
 
@@ -55,7 +56,7 @@ class FollowAction(Action):
             now = kernel.now
             if now >= picture:
                 photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
-                core.transitions.keep(state.mission, trip, photo)
+                keep(core, state.mission, trip, photo)
                 picture += trip.parameters["every"]
             if now >= ends:
                 return

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..domain.app import PartOf, parameters_data
+from ..domain.app import parameters_data
 from ..domain.errors import BadInput, HookFault
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
@@ -21,15 +21,16 @@ from ..domain.status import DroneStatus, Status
 from ..domain.text import LONGEST_REASON, bounded, class_of, quoted
 from ..domain.values import Table, is_name, name, point, point_on, read_parameters
 from ..fleet.reach import miss_of
-from ..flow.mission import Part
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
 from ..hooks.plain_data import keepable
 from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
+from .changes import keep
 from .context import Context, Outside
 from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
 from .interruption import Interruption
+from .part import Part, PartOf
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
@@ -353,7 +354,7 @@ class Events(Part):
 
     def store(self, flight: Flight, value: object) -> None:
         """Keep a result of a flight that goes on."""
-        self._core.transitions.keep(flight.mission, flight.trip, keepable(value))
+        keep(self._core, flight.mission, flight.trip, keepable(value))
 
     def _note(self, what: str, facts: Mapping[str, Any]) -> None:
         if self._core.trace.live:

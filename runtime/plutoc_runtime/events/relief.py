@@ -10,6 +10,7 @@ from ..domain.errors import FlightFailed, MissionFailed
 from ..fleet.policies import nearest
 from ..flow.own_action import way_home
 from ..time.kernel import EventKind, Future
+from .changes import hand_over, relieve
 from .company import Company, track_of
 from .follow import FollowAction
 from .tracks import Tracks
@@ -88,7 +89,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     """Fly a drone to where another is, and have it take over; return whether it has."""
     core = state.core
     core.fleet.engage(drone)
-    core.transitions.relieve(state.mission, flight.trip, drone)
+    relieve(core, state.mission, flight.trip, drone)
     going: Future[object] | None = None
     number = 0
     goal = drone.location
@@ -173,7 +174,7 @@ def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:
     flight.relieved += 1
     company: Company = core.parts[Company]
     company.hand_over(flight, drone)
-    core.transitions.hand_over(state.mission, flight.trip, drone)
+    hand_over(core, state.mission, flight.trip, drone)
     if flight.own_action is None:
         answer = partial(state.reported, flight)
         core.orders.fly(drone.id, answer, {**flight.order, "company": True})

@@ -6,13 +6,12 @@ from collections.abc import Container, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..domain.app import PartOf
 from ..domain.fields import Entity, Field
 from ..domain.quantities import Type
 from ..fleet.reach import flight_seconds
-from ..flow.mission import Part
 from ..hooks.plain_data import point_of
 from ..time.kernel import FLEET, EventKind, Future
+from .part import Part, PartOf
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point

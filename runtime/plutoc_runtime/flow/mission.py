@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Coroutine
 from dataclasses import dataclass, field
 from functools import partial
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..domain.actions import PICK, RELEASE
@@ -17,7 +16,6 @@ from ..time.kernel import mission_key
 from .flight import Flight, Limits
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
 
     from ..domain.airspace import Airspace
     from ..domain.app import App
@@ -26,36 +24,10 @@ if TYPE_CHECKING:
     from ..fleet.fleet import Fleet
     from ..fleet.orders import Orders
     from ..fleet.queue import Queue
-    from ..hooks.context import Context
     from ..hooks.plain_data import Data
     from ..time.kernel import Key, Task
     from ..time.told import ToldTime
-    from .record import Row
     from .transitions import Changes, Transitions
-
-
-class Part:
-    """What some apps have beside missions and drones, such as events; it may keep rows of its own."""
-
-    commands: Mapping[str, Callable[[Mapping[str, Any]], None]] = MappingProxyType({})
-    """What people can have it do, by the names of commands."""
-
-    def tell(self, message: Mapping[str, Any]) -> None:
-        """Take over what has happened outside, if that is for it."""
-
-    def rows(self) -> list[Row]:
-        """Return its rows that have changed since the last call."""
-        return []
-
-    def standing(self) -> Mapping[str, Any]:
-        """Return all its rows, under the names of their tables."""
-        return {}
-
-    def restore(self, standing: Mapping[str, Any]) -> None:
-        """Take over its rows of an earlier run."""
-
-    def go_on(self) -> None:
-        """Go on with what was not over at the end of an earlier run."""
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -75,12 +47,12 @@ class Core:
     changes: Changes
     on_record: Callable[[], Awaitable[None]] | None = None
     """Waits until everything up to now is durable; None: this run is never resumed."""
-    context: Callable[..., Context] | None = None
+    context: Callable[..., Any] | None = None
     """Makes what hooks are given; None: a `Context`."""
     accompany: Callable[[MissionState, Flight], dict[str, Any]] | None = None
     """Begins what goes on beside a flight, and returns the order to fly; None: nothing does."""
     parts: dict[type, Any] = field(default_factory=dict)
-    """What this app has beside, by class; each is a `Part`."""
+    """What this app has beside missions and drones, such as events, by class."""
 
     def log(self, text: str, mission: str | None = None) -> None:
         """Write a line on the console."""

@@ -118,16 +118,16 @@ class Transitions:
             self._changes.mission(mission.name)
             self._trace.note(event, mission=mission.name, **facts)
 
-    def _note_trip(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
+    def note_trip(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
         """Note an event of a trip whose row has changed."""
         if self.noted:
             self._changes.trip(mission, trip)
             self._trace.note(event, mission=mission.name, trip=trip.name, **facts)
 
-    def _note_flight(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
+    def note_flight(self, event: str, mission: Mission[Any], trip: Trip, **facts: object) -> None:
         drone = trip.drone and trip.drone.id
         flown = {"drone": drone, "round": mission.round, "attempt": trip.attempt}
-        self._note_trip(event, mission, trip, **flown, **facts)
+        self.note_trip(event, mission, trip, **flown, **facts)
 
     # Missions
 
@@ -228,7 +228,7 @@ class Transitions:
         self._changes.moved_on(mission)
         if self.noted:
             facts = {"drone": drone.id, "why": why, "resumes_at": at}
-            self._note_trip("trip.allocated", mission, trip, **facts)
+            self.note_trip("trip.allocated", mission, trip, **facts)
 
     def launch(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Launch a trip."""
@@ -238,7 +238,7 @@ class Transitions:
         put(drone, trips=drone.trips + 1)
         if self.noted:
             self._changes.drone(drone)
-            self._note_flight("trip.launched", mission, trip)
+            self.note_flight("trip.launched", mission, trip)
 
     def begin_action(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
         """Record that an action of the app's own begins: from now on it may have been done."""
@@ -267,42 +267,21 @@ class Transitions:
             facts["did"] = trip_data(self._app, trip)
         if found_out:
             facts["found_out"] = True
-        self._note_flight("trip.completed", mission, trip, **facts)
-
-    def keep(self, mission: Mission[Any], trip: Trip, value: object) -> None:
-        """Store a result of a trip that goes on."""
-        place = None if trip.drone is None else trip.drone.location
-        now = self._kernel.now
-        result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
-        put(mission, last_result=self._results.add(result))
-        facts = {"result": value_data(value)} if self._changes.kept else {}
-        self._note_flight("action.result", mission, trip, value=shown(value), **facts)
-
-    def relieve(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """Have another drone set out to a trip in flight."""
-        put(drone, trips=drone.trips + 1)
-        self._changes.drone(drone)
-        self._note_trip("trip.relieving", mission, trip, drone=drone.id)
-
-    def hand_over(self, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-        """Give a trip in flight another drone: that is no attempt of its own."""
-        before = trip.drone and trip.drone.id
-        put(trip, drone=drone)
-        self._note_flight("trip.handed_over", mission, trip, of=before)
+        self.note_flight("trip.completed", mission, trip, **facts)
 
     def fail(self, mission: Mission[Any], trip: Trip, reason: str) -> None:
         """Fail a trip: it stays first in the list."""
         reason = bounded(reason, LONGEST)
         put(trip, status=_FAILED, end_time=self._kernel.now, reason=reason)
         put(mission, status=FAILED, reason=reason)
-        self._note_flight("trip.failed", mission, trip, reason=reason)
+        self.note_flight("trip.failed", mission, trip, reason=reason)
 
     def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
         """Take back a flight whose action was not done: it counts as no attempt."""
         put(trip, status=TripStatus.WAITING, drone=None, start_time=None, end_time=None)
         put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
         self._changes.moved_on(mission)
-        self._note_trip("trip.interrupted", mission, trip)
+        self.note_trip("trip.interrupted", mission, trip)
 
     def put_back(self, mission: Mission[Any]) -> None:
         """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""
@@ -313,7 +292,7 @@ class Transitions:
         facts: dict[str, object] = {"attempt": trip.attempt}
         if self._changes.kept:
             facts["fields"] = fields_of(self._app, Entity.TRIP, trip)
-        self._note_trip("trip.reset", mission, trip, **facts)
+        self.note_trip("trip.reset", mission, trip, **facts)
 
     def skip(self, mission: Mission[Any], trip: Trip) -> None:
         """Take away a trip that shall not be flown."""
@@ -324,7 +303,7 @@ class Transitions:
     def prioritise(self, mission: Mission[Any], trip: Trip, priority: int) -> None:
         """Set the priority of a trip."""
         put(trip, priority=priority)
-        self._note_trip("trip.prioritised", mission, trip, priority=priority)
+        self.note_trip("trip.prioritised", mission, trip, priority=priority)
 
 
 _EXECUTING = TripStatus.EXECUTING

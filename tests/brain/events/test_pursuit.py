@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.alone.simulate import Outcome, simulate
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from ._runtime.domain.errors import ActionFailed
-    from ._runtime.domain.event import Event
     from ._runtime.domain.model import Category, Drone, Item, Photo, Point
     from ._runtime.domain.status import Status
-    from ._runtime.hooks.context import Context, LiveDrone, Verdict
+    from ._runtime.events.context import Context
+    from ._runtime.events.declared import Event
+    from ._runtime.hooks.context import LiveDrone, Verdict
     from .model import IntruderEvent, Mission, Result, Results, Trip
 
 __all__ = [
@@ -38,9 +39,10 @@ if not TYPE_CHECKING:
     _HOMES = {
         "._runtime.domain.errors": ["ActionFailed"],
         "._runtime.domain.model": ["Category", "Drone", "Item", "Photo", "Point"],
-        "._runtime.hooks.context": ["Context", "LiveDrone", "Verdict"],
-        "._runtime.domain.event": ["Event"],
+        "._runtime.events.context": ["Context"],
+        "._runtime.events.declared": ["Event"],
         ".model": ["IntruderEvent", "Mission", "Result", "Results", "Trip"],
+        "._runtime.hooks.context": ["LiveDrone", "Verdict"],
         "._runtime.domain.status": ["Status"],
     }
 

@@ -13,12 +13,15 @@ from ._runtime.blocks.trip_launcher import launch_trip
 from ._runtime.blocks.trip_monitor_relief import relieve
 from ._runtime.blocks.trip_skipper import skip_trip
 from ._runtime.domain.actions import BUILT_IN
-from ._runtime.domain.event import Creator, EventApp
-from ._runtime.domain.follow import FOLLOW
+from ._runtime.domain.app import App
 from ._runtime.domain.status import COMPLETED, STANDBY, Status
+from ._runtime.events.company import AlongAction, CompanyOf
+from ._runtime.events.declared import Creator
+from ._runtime.events.follow import FOLLOW
+from ._runtime.events.interruption import own
+from ._runtime.events.raising import EventsOf
+from ._runtime.events.tracks import TracksOf
 from ._runtime.fleet.policies import nearest
-from ._runtime.flow.along_action import AlongAction
-from ._runtime.flow.interruption import own
 from ._runtime.flow.run import Run, watch
 from .model import CATEGORIES, EVENTS, FIELDS, Mission, Trip
 
@@ -63,7 +66,7 @@ async def flow(run: Run[Mission]) -> Status:
             return status
 
 
-APP = EventApp(
+APP = App(
     name="pursue",
     title="Pursuit",
     flow=flow,
@@ -74,10 +77,13 @@ APP = EventApp(
     actions={
         **BUILT_IN,
         "follow": FOLLOW,
-        # action look along
-        "look": AlongAction(name="look", repeat="safe", hook=hooks.look),
     },
     resumes=("allocate",),
-    events=EVENTS,
-    creators=(Creator(event="intruder", block="pursue", hook=hooks.chase),),
+    parts=(
+        EventsOf(
+            types=EVENTS, creators=(Creator(event="intruder", block="pursue", hook=hooks.chase),)
+        ),
+        TracksOf(),
+        CompanyOf(own=(AlongAction(name="look", repeat="safe", hook=hooks.look),)),
+    ),
 )

@@ -5,7 +5,8 @@ plutoc wrote the stubs once, and never touches this file again.
 A mission offers `name`, `status`, `reason`, `trips` (still to do, in order), `completed_trips`,
 `current` (the trip that flies now, or flies next), `round`, `attempts`.
 A trip offers `name`, `status`, `reason`, `action`, `parameters`, `source`, `target`, `item`,
-`drone`, `attempt`, `start_time`, `end_time`, `elapsed`, `ended`, `along`.
+`drone`, `attempt`, `start_time`, `end_time`, `elapsed`, `ended`, `track`, `reach`, `lost_after`,
+`along`.
 Everything is in SI units: seconds, metres, kilograms; a percentage is a number from 0 to 1.
 
 How to see that a trip takes too long, here with a limit of three minutes, and how to put it back:

@@ -8,17 +8,24 @@ from dataclasses import dataclass
 
 from ._runtime.domain import model
 from ._runtime.domain.actions import Parameter
-from ._runtime.domain.along import Along, AlongField
-from ._runtime.domain.event import Event, EventType
-from ._runtime.domain.fields import Entity, Field
+from ._runtime.domain.fields import Entity, Field, FieldType
 from ._runtime.domain.model import Category
 from ._runtime.domain.quantities import Type
+from ._runtime.events.company import Along, AlongField
+from ._runtime.events.declared import Event, EventType
+from ._runtime.events.tracks import TrackField
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class Trip(model.Trip):
     """A drone's flight to a target that ends with an action."""
 
+    track: str | None = None
+    """What moves, and it follows; None: its target stands."""
+    reach: float = 0.5
+    """Metres within which what it follows is reached."""
+    lost_after: float = 2.0
+    """Seconds without news after which what it follows is lost."""
     along: Along | None = None
     """What is done on the way to the target."""
 
@@ -53,7 +60,12 @@ EVENTS = (
 """What can happen in this app, besides what can in every app."""
 
 FIELDS: tuple[Field, ...] = (
-    AlongField(name="along", on=Entity.TRIP, type=Type.TEXT, label="On the way", actions=("look",)),
+    TrackField(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
+    Field(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
+    Field(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
+    AlongField(
+        name="along", on=Entity.TRIP, type=FieldType.ALONG, label="On the way", actions=("look",)
+    ),
 )
 """What the user of the app fills in besides the basics; the blocks of the graph need it."""
 

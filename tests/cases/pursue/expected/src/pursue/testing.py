@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from ._runtime.alone.testing import AppKit, Clock, HookCall, KitContext
+from ._runtime.alone.testing import Clock, HookCall
 from ._runtime.domain.model import Results
+from ._runtime.events.testing import AppKit, KitContext
 from .flow import APP
 from .model import Mission, Trip
 

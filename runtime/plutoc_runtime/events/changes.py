@@ -1,0 +1,38 @@
+"""What changes of a trip while it flies: results on the way, and who flies it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from ..domain.keeper import put
+from ..domain.model import Result
+from ..domain.text import shown
+from ..hooks.plain_data import value_data
+
+if TYPE_CHECKING:
+    from ..domain.model import Drone, Mission, Trip
+    from ..flow.mission import Core
+
+
+def keep(core: Core, mission: Mission[Any], trip: Trip, value: object) -> None:
+    """Store a result of a trip that goes on."""
+    place = None if trip.drone is None else trip.drone.location
+    now = core.kernel.now
+    result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
+    put(mission, last_result=core.results.add(result))
+    facts = {"result": value_data(value)} if core.changes.kept else {}
+    core.transitions.note_flight("action.result", mission, trip, value=shown(value), **facts)
+
+
+def relieve(core: Core, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+    """Have another drone set out to a trip in flight."""
+    put(drone, trips=drone.trips + 1)
+    core.changes.drone(drone)
+    core.transitions.note_trip("trip.relieving", mission, trip, drone=drone.id)
+
+
+def hand_over(core: Core, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
+    """Give a trip in flight another drone: that is no attempt of its own."""
+    before = trip.drone and trip.drone.id
+    put(trip, drone=drone)
+    core.transitions.note_flight("trip.handed_over", mission, trip, of=before)
