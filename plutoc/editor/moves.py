@@ -58,10 +58,14 @@ def noting(flow: str, blocks: Collection[str]) -> str:
 
 
 def _noted(body: list[ast.stmt], lines: list[str], blocks: Collection[str]) -> Iterator[ast.stmt]:
+    below = None
     for statement in body:
-        found = (
-            _COMMENT.match(lines[statement.lineno - 2]) if hasattr(statement, "lineno") else None
-        )
+        above = lines[statement.lineno - 2] if hasattr(statement, "lineno") else ""
+        found = below or _COMMENT.match(above)
+        below = found if _says_where(statement) else None
+        if below is not None:
+            yield statement
+            continue
         if found is None or found[1] not in blocks:
             yield statement
             continue
@@ -74,6 +78,14 @@ def _noted(body: list[ast.stmt], lines: list[str], blocks: Collection[str]) -> I
             yield ast.Return(ast.Name("status", ast.Load()))
         else:
             yield from (statement, note)
+
+
+def _says_where(statement: ast.stmt) -> bool:
+    """Return whether this says which block the next statement is of."""
+    return isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == _WHERE
+
+
+_WHERE = "run.state.block"
 
 
 def moves_in(moves: Path, trace: Path) -> tuple[list[Move], bool]:
