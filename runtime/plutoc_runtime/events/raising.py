@@ -150,7 +150,8 @@ class Events(Part):
 
         def place(value: object) -> object:
             listed = list(value) if isinstance(value, tuple) else value
-            return point_on(space, space.cruise_height, point, listed)
+            x, y, z = point_on(space, space.cruise_height, point, listed)
+            return round(x, 3), round(y, 3), round(z, 3)  # no camera sees more exactly
 
         known = table.read({}, {**_FACTS, "at": place, "fields": None})
         own = Table(

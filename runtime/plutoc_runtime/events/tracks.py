@@ -122,7 +122,11 @@ class Tracks(Part):
         """Return the point above an object at a time, on the map."""
         width, depth = self._core.airspace.size
         x, y, z = track.place(when)
-        return min(max(x, 0.0), width), min(max(y, 0.0), depth), z + height
+        return (
+            round(min(max(x, 0.0), width), 3),
+            round(min(max(y, 0.0), depth), 3),
+            round(z + height, 3),
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
