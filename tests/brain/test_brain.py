@@ -180,3 +180,17 @@ def test_a_silent_brain_keeps_no_events() -> None:
     assert len(settled(brain, 0.0)) == 1
     assert brain.events() == []
     brain.close()
+
+
+def test_a_deadline_that_passes_while_the_app_is_down_is_missed_once() -> None:
+    promised = {"name": "1", "trips": [trip()], "promises": {"deadline": 5.0}}
+    first = charged(recorded=True)
+    first.begin([promised], 0.0)
+    later = charged(recorded=True)
+    later.restore(first.standing(), 9.0)
+    assert [event["event"] for event in later.events()] == ["mission.late"]
+    rows = {key: row for table, key, row in later.rows() if table == "mission"}
+    assert rows["1",]["late"]
+    last = charged(recorded=True)
+    last.restore(later.standing(), 12.0)
+    assert last.events() == []

@@ -150,9 +150,9 @@ class Engine:
         for name, row in sorted(missions, key=lambda named: int(named[1]["index"])):
             self.states[name] = restored(core, name, row, self.new_state)
         restore_results(standing.get("results", ()), self.states, core.results)
-        for state in self.states.values():
-            self.promises.watch(state.mission)
         core.changes.clear(len(core.results.results))
+        for state in self.states.values():
+            self.promises.watch(state.mission)  # which may be late by now
         if seconds := standing.get("shift"):
             self._shift(seconds)
 

@@ -352,7 +352,7 @@ def test_in_real_time_a_hook_writes_wherever_it_runs_and_no_more_when_it_has_end
     def thread(mission: Any, context: Any) -> None:
         write(mission)
         inside = copy_context()
-        Timer(0.01, inside.run, [write_late, mission]).start()
+        Timer(0.5, inside.run, [write_late, mission]).start()  # by then it has ended for all
 
     async def long(drone: Any, trip: Any, context: Any) -> None:
         while not written.is_set():
