@@ -17,7 +17,13 @@ async def look(drone: Drone, trip: Trip, context: Context) -> None:
     camera = context.live(drone)
     while True:
         for seen in await camera.sees():
-            context.emit("intruder", id=f"seen {seen.track}", at=seen.at, track=seen.track)
+            context.emit(
+                "intruder",
+                id=f"seen {seen.track}",
+                at=seen.at,
+                track=seen.track,
+                kind=seen.kind,
+            )
         await context.sleep(LOOKS)
 
 

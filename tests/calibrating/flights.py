@@ -18,10 +18,11 @@ from pluto_fleet.jobs.controls import Controls, fleet_drones
 from pluto_fleet.journal.header import header
 from pluto_fleet.journal.standing import Standing
 from pluto_fleet.journal.store import Entry, Store
-from pluto_fleet.shared.alone.world import Faults, World
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.model import Category, Mission
 from pluto_fleet.shared.domain.motion import Motion
+from pluto_fleet.shared.events.world import MovingWorld
 from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.drones import SimulatedNavigation
@@ -61,7 +62,7 @@ def flown(
     kernel = VirtualTime()
     disk = _Disk()
     drones = fleet_drones(app, fleet)
-    world = World(seed, fleet.airspace, fleet.world)
+    world = MovingWorld(seed, fleet.airspace, fleet.world)
     controls: Controls = SimulatedNavigation(kernel, drones, world, Faults(), seed)
     if around is not None:
         controls = around(kernel, controls)

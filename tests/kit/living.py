@@ -14,9 +14,10 @@ from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.controls import fleet_drones
 from pluto_fleet.jobs.reports import Down
 from pluto_fleet.journal.store import Entry
-from pluto_fleet.shared.alone.world import Faults, World
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.events.world import MovingWorld
 from pluto_fleet.shared.time.kernel import FLEET, Call, EventKind, Future, Kernel, Key, Task, Timer
 from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.drones import SimulatedNavigation, WorldAction
@@ -131,7 +132,7 @@ class Living:
         self.kernel, self.memory = VirtualTime(), Memory({"event": "journal.begun"})
         drones = fleet_drones(app, self.fleet)
         space = self.fleet.airspace
-        world = World(seed, space, self.fleet.world)
+        world = MovingWorld(seed, space, self.fleet.world)
         self.done_by_drones: list[tuple[str, str]] = []
         """What the drones really did: the action, and the item if there was one."""
         self.navigation = SimulatedNavigation(self.kernel, drones, world, faults, seed, self._see)

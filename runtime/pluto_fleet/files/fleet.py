@@ -274,7 +274,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         options=navigation_options(whole, used),
         localization_options=options_in(whole.table("localization")),
         drones=drones,
-        world=read_world(whole),
+        world=read_world(whole, app.parts),
     )
     document.refuse_if_bad()
     return fleet

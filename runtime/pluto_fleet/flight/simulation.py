@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ..gateway.gateway import Gateway
 from ..jobs.controls import fleet_drones
 from ..shared.alone.simulate import Outcome
-from ..shared.alone.world import World
 from ..shared.domain.app import moving
+from ..shared.events.world import MovingWorld
 from ..shared.flow.record import fleet_data
 from ..simulation.drones import SimulatedNavigation
 from .driver import Driver, Stands, begun, take_up
@@ -54,7 +54,7 @@ class Simulation:
         app = moving(app, fleet.motion, charges=fleet.charges_at_home)
         self._app, self._fleet, self._kernel = app, fleet, kernel
         self._drones = fleet_drones(app, fleet)
-        world = World(seed, fleet.airspace, fleet.world)
+        world = MovingWorld(seed, fleet.airspace, fleet.world)
         self._navigation = SimulatedNavigation(kernel, self._drones, world, faults, seed)
         self._stands = {} if stands is None else stands
         for drone, (at, level) in self._stands.items():

@@ -21,10 +21,10 @@ from ..process import locks
 from ..process.forked import deaf, in_children
 from ..process.ipc import listening
 from ..process.realtime import RealTime
-from ..shared.alone.world import World
 from ..shared.domain.errors import BadInput
 from ..shared.domain.motion import CRAZYFLIE
 from ..shared.domain.text import printable
+from ..shared.events.world import MovingWorld
 from ..shared.time.kernel import FLEET, EventKind, Future
 from ..simulation.drones import SimulatedNavigation
 from ..simulation.world_store import WorldStore, this_moment
@@ -205,7 +205,7 @@ def _simulated(
     navigation = SimulatedNavigation(
         kernel,
         settings.drones,
-        World(settings.seed, settings.airspace, settings.world),
+        MovingWorld(settings.seed, settings.airspace, settings.world),
         settings.faults,
         settings.seed,
         keeper.record,

@@ -25,13 +25,14 @@ from ..jobs.controls import (
 from ..jobs.reports import DroneReport, motors_cut
 from ..jobs.telemetry import Telemetry
 from ..shared.alone.drones import Body
-from ..shared.alone.world import CARRYING_HOME, Faults, World, draw
+from ..shared.alone.world import CARRYING_HOME, Faults, draw
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.model import Item, Point
 from ..shared.domain.motion import varies
 from ..shared.domain.text import place
 from ..shared.domain.trace import Clock
+from ..shared.events.world import MovingWorld
 from ..shared.fleet.telemetry import Charge, Leg
 from ..shared.hooks.plain_data import item_data, item_of, point_of
 from ..shared.time.kernel import FLEET, EventKind, Future, Kernel, Key
@@ -56,7 +57,7 @@ HEIGHTS = 0.025
 class SimulatedBody(Body):
     """A drone by a kernel's clock."""
 
-    def __init__(self, drone: FleetDrone, world: World, kernel: Kernel) -> None:
+    def __init__(self, drone: FleetDrone, world: MovingWorld, kernel: Kernel) -> None:
         self.on_change: Callable[[], object] = lambda: None
         """Called when its state has changed other than by time."""
         is_virtual = isinstance(kernel, VirtualTime)  # time stands still between its events
@@ -237,7 +238,7 @@ class SimulatedNavigation:
         self,
         kernel: Kernel,
         drones: Sequence[FleetDrone],
-        world: World,
+        world: MovingWorld,
         faults: Faults,
         seed: int,
         record: Callable[[WorldAction], object] | None = None,

@@ -22,10 +22,11 @@ from ..jobs.telemetry import Telemetry
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..process.signal_guard import by_a_person
-from ..shared.alone.world import FAULTS, Faults, World
+from ..shared.alone.world import FAULTS, Faults
 from ..shared.domain.errors import ANY_ERROR, BadInput, Cancelled, Failure
 from ..shared.domain.guard import guarded
 from ..shared.domain.trace import Event
+from ..shared.events.world import MovingWorld
 from ..shared.fleet.orders import failure_of
 from ..shared.time.kernel import FLEET, EventKind, Kernel, Key, Task, Timer
 from ..shared.time.kernel import EventKind as When
@@ -335,7 +336,7 @@ class TrialLife:
 class TrialRun:
     """A trial: a world, and the app's runs in it.
 
-    World and brain have a virtual clock each; what is due first is processed first, and at one instant
+    MovingWorld and brain have a virtual clock each; what is due first is processed first, and at one instant
     the world goes first. So a brain can die at any moment, and the drones fly on.
     """
 
@@ -350,7 +351,7 @@ class TrialRun:
         self.navigation = SimulatedNavigation(
             world,
             self.drones,
-            World(case.seed, airspace, case.fleet.world),
+            MovingWorld(case.seed, airspace, case.fleet.world),
             Faults(**{name: getattr(case.weather, name) for name in FAULTS}),
             case.seed,
             self.seen,

@@ -18,7 +18,7 @@ from ..domain.airspace import Airspace
 from ..domain.app import needs_library
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, FieldType
-from ..domain.fleet_data import DroneData, Feature, FleetData, Mover, Source, WorldData
+from ..domain.fleet_data import DroneData, Feature, FleetData, Source, WorldData
 from ..domain.model import Item, Point
 from ..domain.motion import motion_of
 from ..domain.text import mass, number, printable, quoted
@@ -49,7 +49,7 @@ def load_fleet(path: Path, app: App) -> FleetData:
         airspace=airspace or Airspace(),
         drones=[DroneData(**given) for _, given in read_drones(top, app, airspace)],
         motion=read_motion(top),
-        world=read_world(top),
+        world=read_world(top, app.parts),
         **read_behaviour(top.table("fleet")),
     )
     top.refuse_if_bad(f"{path}")
@@ -224,8 +224,8 @@ def read_drones(top: T, app: App, airspace: Airspace | None) -> Iterator[tuple[T
         yield table, given
 
 
-def read_world(top: Table) -> WorldData | None:
-    """Return the world that is simulated, if the file describes one."""
+def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
+    """Return the world that is simulated, if the file describes one, as an app of these parts sees it."""
     if "world" not in top.data:
         return None
     table = top.table("world")
@@ -236,19 +236,9 @@ def read_world(top: Table) -> WorldData | None:
     source: Keys = {"quantity": values.name, "at": values.corner, "peak": values.real, **radius}
     features = [one.read(seen, radius) for one in table.tables("feature")]
     sources = [one.read(source) for one in table.tables("source")]
-    movers = [_mover(one) for one in table.tables("mover")]
     return WorldData(
         features=tuple(Feature(**one) for one in features),
         sources=tuple(Source(**one) for one in sources),
-        movers=tuple(Mover(**one) for one in movers),
+        movers=tuple(one for part in parts for one in part.movers(table)),
         background=levels.read({}, dict.fromkeys(levels.data, values.real)),
     )
-
-
-def _mover(table: Table) -> dict[str, Any]:
-    needed: Keys = {"name": values.name, "kind": values.name, "path": _PATH, "speed": values.PACE}
-    given = table.read(needed, {"from": values.TIME, "repeat": values.boolean})
-    return {("starts" if key == "from" else key): one for key, one in given.items()}
-
-
-_PATH = partial(values.each, values.corner, "corner", ())

@@ -123,7 +123,9 @@ class Alone:
         self.brain = brain
         self._app = app
         self._hear = hear
-        self.drones = IdealDrones(app, fleet, faults, seed, self)
+        kinds = [part.drones for part in app.parts if part.drones is not None]
+        kind: type[IdealDrones] = kinds[0] if kinds else IdealDrones
+        self.drones = kind(app, fleet, faults, seed, self)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
         """Begin missions at this instant."""
@@ -148,11 +150,6 @@ class Alone:
                 self.now = until
                 brain.tell({"telemetry": drones.news()}, until)
                 return False
-            if (seen := drones.tracker_due) <= when:
-                self.now = seen
-                self._tell({"tracks": drones.tracks()})
-                self._listen()
-                continue
             self.now = when
             if soon <= when:
                 while not (told := drones.advance()) and drones.due <= when:

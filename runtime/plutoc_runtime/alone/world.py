@@ -11,11 +11,11 @@ from dataclasses import dataclass, fields
 from math import inf
 from operator import attrgetter
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..domain.errors import Failure
 from ..domain.fleet_data import Feature, Source, WorldData
-from ..domain.model import Photo, Sighting
+from ..domain.model import Photo
 from ..domain.quantities import Type, parse_quantity
 from ..domain.text import quoted
 
@@ -32,8 +32,8 @@ _KINDS = ("bloom", "pest", "disease")
 _GROUND_EACH = 4.0  # square metres for each feature of a world that is made up
 _AT_MOST = 10_000  # such features: more would take longer to make than the missions to fly
 
-_WIDTH = 1.6
-_HEIGHT = 1.2
+WIDTH = 1.6
+HEIGHT = 1.2
 """Metres of ground on a photo for each metre of height: a 4:3 camera sees 77° across and 62° along."""
 _DRIFT = 0.05  # the standard deviation of a drone's horizontal position, in metres
 _at = attrgetter("at")
@@ -48,7 +48,6 @@ class World:
         self.features = sorted(data.features, key=_at)
         self.sources = data.sources
         self.background = {**BACKGROUND, **data.background}
-        self.movers = data.movers
         self.seed = seed
 
     def measure(self, quantity: str, point: Point, time: float) -> float:
@@ -68,45 +67,14 @@ class World:
         chance = self._random("photo", point, time)
         x, y = (round(along + chance.gauss(0.0, _DRIFT), 3) for along in point[:2])
         z = round(point[2], 3)
-        width = round(z * _WIDTH, 3)
-        height = round(z * _HEIGHT, 3)
-        tracks = self._moving(x, y, width, height, time)
+        width = round(z * WIDTH, 3)
+        height = round(z * HEIGHT, 3)
         first = bisect_left(self.features, (x - width / 2,), key=_at)
         end = bisect_left(self.features, (x + width / 2, inf), key=_at)
         near = self.features[first:end]
-        still = [one.kind for one in near if abs(one.at[1] - y) <= height / 2]
-        sees = tuple(sorted([*still, *(one.kind for one in tracks)]))
+        sees = tuple(sorted(one.kind for one in near if abs(one.at[1] - y) <= height / 2))
         sharpness = round(chance.uniform(0.3, 0.6), 3) if chance.random() < _BLURRED else 1.0
-        return Photo(
-            position=(x, y, z),
-            width=width,
-            height=height,
-            sees=sees,
-            tracks=tracks,
-            sharpness=sharpness,
-        )
-
-    def tracks(self, time: float) -> dict[str, Any]:
-        """Return where everything is at a time that moves, as it is told."""
-        places = ((mover, mover.at(time)) for mover in self.movers)
-        return {mover.name: {"kind": mover.kind, "at": [*at, 0.0]} for mover, at in places if at}
-
-    def moving(self, point: Point, time: float) -> tuple[Sighting, ...]:
-        """Return what moves in the view of a camera that looks straight down from a point."""
-        x, y, z = point
-        if z <= 0.0:
-            return ()
-        return self._moving(x, y, z * _WIDTH, z * _HEIGHT, time)
-
-    def _moving(
-        self, x: float, y: float, width: float, height: float, time: float
-    ) -> tuple[Sighting, ...]:
-        found: list[Sighting] = []
-        for mover in self.movers:
-            at = mover.at(time)
-            if at and abs(at[0] - x) <= width / 2 and abs(at[1] - y) <= height / 2:
-                found.append(Sighting(mover.name, mover.kind, (*at, 0.0)))
-        return tuple(found)
+        return Photo(position=(x, y, z), width=width, height=height, sees=sees, sharpness=sharpness)
 
     def _random(self, what: str, point: Point, time: float) -> Random:
         """Randomness that depends on the event, its place and its time, and not on earlier draws."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from itertools import pairwise, starmap
-from math import dist, exp, inf
+from math import exp, inf
+from typing import Any
 
 from .airspace import Airspace, Corner
 from .model import AfterTrip, Point
@@ -39,35 +39,6 @@ class Source:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Mover:
-    """An object that moves on the ground, along a path at a constant speed."""
-
-    name: str
-    kind: str
-    path: tuple[Corner, ...]
-    speed: float
-    starts: float = 0.0
-    """When it comes, in seconds since the start."""
-    repeat: bool = False
-    """Whether it goes round, from the last point to the first; else it leaves at the last."""
-
-    def at(self, now: float) -> Corner | None:
-        """Return where it is at a time; None: it is not there."""
-        if now < self.starts:
-            return None
-        path = (*self.path, self.path[0]) if self.repeat else self.path
-        left = (now - self.starts) * self.speed
-        if self.repeat and (around := sum(starmap(dist, pairwise(path)))) > 0.0:
-            left %= around
-        for start, end in pairwise(path):
-            if left <= (length := dist(start, end)):
-                part = left / length if length else 0.0
-                return start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1])
-            left -= length
-        return None
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class WorldData:
     """A world as a fleet file describes it."""
 
@@ -75,7 +46,8 @@ class WorldData:
     sources: tuple[Source, ...] = ()
     background: Mapping[str, float] = field(default_factory=dict)
     """Beside `BACKGROUND`, or instead of its numbers."""
-    movers: tuple[Mover, ...] = ()
+    movers: tuple[Any, ...] = ()
+    """What moves there, in an app that can tell."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

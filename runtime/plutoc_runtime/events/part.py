@@ -4,17 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
+    from ..alone.drones import IdealDrones
     from ..domain.app import App
     from ..domain.fields import FieldType
     from ..domain.quantities import Type
+    from ..domain.values import Table
     from ..flow.record import Row
 
 
 class PartOf:
     """What an app has beside missions and drones."""
+
+    drones: ClassVar[type[IdealDrones] | None] = None
+    """The simulated drones that obey it, where others do not."""
+
+    def movers(self, world: Table) -> tuple[Any, ...]:
+        """Return what the `[world]` of a fleet file has for it."""
+        return ()
 
     def __call__(self, engine: Any) -> Any:
         """Return it in a running app: a `Part` of flow/mission.py."""

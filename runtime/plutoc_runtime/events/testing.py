@@ -8,7 +8,7 @@ from ..alone import testing as without_events
 from ..alone.testing import Given, M, T
 from ..domain.model import Mission, Point, Sighting
 from .declared import Event
-from .raising import EventsOf
+from .raising import BUILT_IN, EventsOf
 
 
 class Emitted(NamedTuple):
@@ -31,8 +31,11 @@ class KitContext(without_events.KitContext):
         """The missions that it can look at."""
         self.cancelled: list[tuple[Mission[Any], str]] = []
         """The missions that a creator has cancelled, with its reasons."""
-        self.sights: list[Sighting] = []
-        """What the camera of its drone sees."""
+        self._sights: list[Sighting] = []
+
+    def see(self, track: str, *, kind: str = "", at: Point = (0.0, 0.0, 0.0)) -> None:
+        """Have something move in the view of the drone's camera from now on."""
+        self._sights.append(Sighting(track, kind, at))
 
     def emit(self, event: str, **facts: Any) -> None:
         """Raise an event."""
@@ -48,21 +51,22 @@ class KitContext(without_events.KitContext):
 
     def live(self, drone: Any) -> Any:
         """Return the drone of this action, whose sensors can be read while it flies."""
-        return _SeeingDrone(super().live(drone), self)
+        return _SeeingDrone(super().live(drone), self._sights)
 
 
 class _SeeingDrone:
     """A live drone whose camera sees what the test says."""
 
-    def __init__(self, live: Any, context: KitContext) -> None:
-        self._live, self._context = live, context
+    def __init__(self, live: Any, sights: list[Sighting]) -> None:
+        self._live = live
+        self._sights = sights
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._live, name)
 
     async def sees(self) -> list[Sighting]:
         """Return what moves in the view of its camera."""
-        return [*self._context.sights]
+        return [*self._sights]
 
 
 class AppKit(without_events.AppKit[M, T, Given], Generic[M, T, Given]):
@@ -78,7 +82,7 @@ class AppKit(without_events.AppKit[M, T, Given], Generic[M, T, Given]):
             kind.name: kind
             for part in self._app.parts
             if isinstance(part, EventsOf)
-            for kind in part.types
+            for kind in (*part.types, *BUILT_IN)
         }
         given = {"id": f"{name}-1", "time": self.clock.now, **facts}
         return types[name].type(name=name, at=at, **given)

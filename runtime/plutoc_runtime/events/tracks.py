@@ -11,10 +11,13 @@ from ..domain.quantities import Type
 from ..fleet.reach import flight_seconds
 from ..hooks.plain_data import point_of
 from ..time.kernel import FLEET, EventKind, Future
+from .alone import EventDrones
 from .part import Part, PartOf
+from .world import Mover, read_movers
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
+    from ..domain.values import Table
     from ..flow.engine import Engine
 
 
@@ -38,6 +41,12 @@ class Track:
 @dataclass(frozen=True, slots=True)
 class TracksOf(PartOf):
     """Makes the tracks of an app that follows what moves."""
+
+    drones = EventDrones
+
+    def movers(self, world: Table) -> tuple[Mover, ...]:
+        """Return what moves in the simulated world."""
+        return read_movers(world)
 
     def __call__(self, engine: Engine) -> Tracks:
         """Return what knows them in a running app."""

@@ -53,6 +53,8 @@ def seen(
 @pytest.mark.parametrize("faults", [Faults(), ROUGH], ids=["well", "rough"])
 def test_one_drone_flies_as_it_does_with_traffic(example: Example, faults: Faults) -> None:
     """The same events at the same times, metres and batteries, also where things go wrong."""
+    if example.fleet.world is not None and example.fleet.world.movers:
+        pytest.skip("a gateway looks at what moves at other instants")
     alive = 0
     for category in example.app.categories:
         first = next((d for d in example.fleet.drones if d.category == category.name), None)

@@ -32,9 +32,14 @@ def test_a_package_has_the_picture_of_the_editor(path: Path) -> None:
     edges = shown["edges"]
     assert isinstance(blocks, list) and isinstance(ends, dict) and isinstance(edges, list)
     spots = {one["name"]: [one["x"], one["y"]] for one in kept["blocks"]}
-    assert spots == {one["name"]: [one["x"], one["y"]] for one in blocks} | ends
+    events = shown["events"]
+    assert isinstance(events, list)
+    drawn = {one["name"]: [one["x"], one["y"]] for one in (*blocks, *events)}
+    assert spots == drawn | ends
     assert kept["kinds"] == {one["kind"]: one["doc"] for one in blocks}
-    for one in (one for one in kept["blocks"] if one["name"] not in ENDS):
+    for one in (
+        one for one in kept["blocks"] if one["name"] in {block["name"] for block in blocks}
+    ):
         (same,) = (block for block in blocks if block["name"] == one["name"])
         assert (one["kind"], one.get("gate", False)) == (same["kind"], same["gate"])
     parts = ("source", "target", "statuses", "fork", "implicit")

@@ -55,7 +55,7 @@ def test_what_was_moved_stands_there_and_no_other_on_it(
 def test_edges_lead_down_but_for_those_that_close_a_loop(path: Path) -> None:
     graph = Document(path="", text=path.read_text()).graph
     ways = [(edge.source, edge.target) for edge in graph.edges]
-    found = laid_out(list(graph.node), ways, {})
+    found = laid_out(list(graph.node), ways, {}, graph.sources[1:])
     back = [way for way in ways if found[way[0]][1] >= found[way[1]][1]]
     assert len(back) <= 5
     assert apart(found)

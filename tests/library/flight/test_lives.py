@@ -27,11 +27,12 @@ from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.reader import Reader
 from pluto_fleet.journal.store import Entry, Store
 from pluto_fleet.process.realtime import RealTime
-from pluto_fleet.shared.alone.world import Faults, World
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.events.world import MovingWorld
 from pluto_fleet.simulation.drones import SimulatedNavigation
 from tests.kit import apps
 
@@ -106,7 +107,7 @@ class HereAccess(GatewayAccess):
     ) -> Link:
         """Let new drones stand where they stand: of each life they are new."""
         tried = self._tried
-        world = World(0, AIRSPACE, None)
+        world = MovingWorld(0, AIRSPACE, None)
         navigation = SimulatedNavigation(kernel, tried.drones, world, Faults(), 0)
         tried.gateway = Gateway(kernel, navigation, tried.drones, AIRSPACE, ledger=tried.ledger)
         return tried.gateway.link(epoch, lost)

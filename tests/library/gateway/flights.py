@@ -11,11 +11,12 @@ from pluto_fleet.gateway.ledger import Ledger
 from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.jobs.flown import Flown
 from pluto_fleet.jobs.link import Link, Message, Order
-from pluto_fleet.shared.alone.world import Faults, World
+from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.actions import BUILT_IN, Plain
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Point
+from pluto_fleet.shared.events.world import MovingWorld
 from pluto_fleet.shared.fleet.orders import failure_of
 from pluto_fleet.shared.hooks.plain_data import item_data, value_of
 from pluto_fleet.shared.time.kernel import FLEET, Future
@@ -160,7 +161,7 @@ class Field:
             FleetDrone(id=f"cf{i + 1}", category=category, home=(x, y, 0.0), index=i)
             for i, (x, y) in enumerate(homes)
         ]
-        world = World(1, self.airspace)
+        world = MovingWorld(1, self.airspace)
         self.deeds: list[str] = []
         """The flights whose actions the drones have done."""
         self.navigation = SimulatedNavigation(

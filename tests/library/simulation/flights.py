@@ -7,10 +7,11 @@ from typing import Any, TypeVar
 
 from pluto_fleet.gateway.executor import Executor
 from pluto_fleet.jobs.controls import FleetDrone, TakeOff
-from pluto_fleet.shared.alone.world import Faults, World, draw
+from pluto_fleet.shared.alone.world import Faults, draw
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import FlightFailed
 from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.events.world import MovingWorld
 from pluto_fleet.shared.time.kernel import FLEET, Kernel
 from pluto_fleet.shared.time.told import VirtualTime
 from pluto_fleet.simulation.drones import SimulatedNavigation
@@ -37,7 +38,7 @@ class Team(SimulatedNavigation):
         seed: int,
         space: Airspace,
     ) -> None:
-        super().__init__(kernel, drones, World(seed, space), faults, seed)
+        super().__init__(kernel, drones, MovingWorld(seed, space), faults, seed)
         self.kernel, self.faults, self.seed, self.space = kernel, faults, seed, space
         self.drones = drones
 

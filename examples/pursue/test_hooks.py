@@ -1,0 +1,49 @@
+"""Tests of hooks.py. In the package they are run by `pytest`: cp test_hooks.py pursue/tests/"""
+
+from __future__ import annotations
+
+from pursue import Mission, hooks
+from pursue.testing import Clock, Kit, KitContext
+
+
+def test_who_is_seen_is_said(kit: Kit, clock: Clock, context: KitContext) -> None:
+    context.see("t7", kind="person", at=(3.0, 4.0, 0.0))
+    drone, trip = kit.drone("scout"), kit.trip("take_photo")
+    call = kit.start(hooks.look, drone, trip, context)
+    clock.advance(hooks.LOOKS)
+    event, facts = context.emitted[0]
+    assert (event, facts["id"], facts["at"]) == ("intruder", "seen t7", (3.0, 4.0, 0.0))
+    call.cancel()
+
+
+def test_a_chase_has_a_bound(kit: Kit, context: KitContext) -> None:
+    event = kit.event("intruder", at=(3.0, 4.0, 0.0), track="t7")
+    mission = kit.call(hooks.chase, event, context)
+    assert mission is not None
+    assert (mission.name, mission.promises) == ("chase t7", {"deadline": hooks.BOUND})
+    assert mission.trips[0].track == "t7"
+    assert kit.call(hooks.chase, kit.event("intruder"), context) is None
+
+
+def test_a_picture_is_said(kit: Kit, context: KitContext) -> None:
+    mission = kit.mission(kit.trip("take_photo", track="t7"), kit.trip("take_photo"))
+    kit.complete(mission)
+    kit.call(hooks.tell_pictured, mission, context)
+    assert [event for event, _ in context.emitted] == ["pictured"]
+
+
+def test_a_picture_makes_a_follower(kit: Kit, context: KitContext) -> None:
+    event = kit.event("pictured", at=(3.0, 4.0, 1.0), track="t7")
+    mission = kit.call(hooks.stay_with, event, context)
+    assert mission is not None
+    assert mission.trips[0].parameters == {"for": hooks.STAYS, "every": 2.0}
+
+
+def test_a_broken_bound_releases_who_is_stayed_with(kit: Kit, context: KitContext) -> None:
+    patrol = kit.mission(name="patrol 1")
+    follower: Mission = kit.mission(
+        kit.trip("follow", parameters={"for": 30.0}), name="stay with t7"
+    )
+    context.missions = (patrol, follower)
+    kit.call(hooks.release, kit.event("late", mission="chase t8"), context)
+    assert context.cancelled == [(follower, "chase t8 has no picture within 5 s")]
