@@ -14,11 +14,11 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES = 8_369
+MOST_LINES = 8_620
 MOST_FILES = 65
 MOST_OWN_LINES = 250
-"""Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 10_302
+"""Of the package of the thesis's basic flow: all of its Python, its tests included, with 3 % of room; and without the brain."""
+MOST_LINES_OF_ANY = 10_610
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}
