@@ -63,7 +63,8 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
         match step:
             case Call(node=node):
                 yield f"# {node.declaration}"
-                if _waits(node.block.step) and not node.block.named:
+                is_ours = node.block.step.__module__.startswith(_OURS)
+                if not is_ours or (_waits(node.block.step) and not node.block.named):
                     yield from _noted((node.name,), scope)
                 yield from _go_through(_call(node, (), scope), following)
             case Join(gate=gate, branches=branches):
@@ -98,6 +99,10 @@ def body_lines(body: Body, scope: Scope) -> Iterator[str]:
                 yield "continue"
             case Dispatch():
                 yield from _dispatch(step, scope)
+
+
+_OURS = "plutoc_blocks."
+"""What our own blocks' steps are in: those of others may fail anywhere."""
 
 
 def _whither(before: Step | None) -> str:

@@ -30,7 +30,7 @@ from ..station.session import Phase
 from ..station.station import Station
 from ..station.web.audit import Audit
 from ..station.web.guard import Guard, needs_token, proper_name
-from ..station.web.server import address, listening, port_of
+from ..station.web.listening import address, listening, port_of
 from .interrupts import Interrupts
 from .plans import load_fleet
 from .preflight import check_flight

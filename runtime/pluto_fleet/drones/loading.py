@@ -224,8 +224,8 @@ def _look_up(kind: PluginKind, name: str, module: str, path: str) -> None:
     parts = module.split(".")
     if parts[0] in sys.stdlib_module_names:
         raise kind.refused(name, f"is none: {quoted(module)} is a module of Python's own")
-    spec: ModuleSpec | None = None
-    for count in range(1, len(parts) + 1):
+    spec: ModuleSpec | None = getattr(sys.modules.get(parts[0]), "__spec__", None)
+    for count in range(1 if spec is None else 2, len(parts) + 1):
         above = None if spec is None else spec.submodule_search_locations or []
         spec = _found(".".join(parts[:count]), above)
         if spec is None:

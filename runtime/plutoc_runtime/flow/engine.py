@@ -247,7 +247,9 @@ class Engine:
             self._tell(state, "".join(format_tb(error.__traceback__)) + said(error))
         else:
             if not isinstance(error, Exception):  # a `SystemExit` would pass for a normal end
-                error = RuntimeError(f"it raised {said(error)}").with_traceback(error.__traceback__)
+                where = f" in block {state.block}" if state.block else ""
+                what = RuntimeError(f"it raised {said(error)}{where}")
+                error = what.with_traceback(error.__traceback__)
             self.core.kernel.crash(error)
             return
         self._end(state, status, reason)

@@ -14,12 +14,12 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES = 8_526
+MOST_LINES = 8_620
 MOST_FILES = 65
 MOST_OWN_LINES = 250
-"""Of the package of the thesis's basic flow: all of its Python, its tests included; and without the brain."""
-MOST_LINES_OF_ANY = 12_117
-MOST_LINES_WITHOUT_EVENTS = 10_470
+"""Of the package of the thesis's basic flow: all of its Python, its tests included, with 3 % of room; and without the brain."""
+MOST_LINES_WITHOUT_EVENTS = 10_780
+MOST_LINES_OF_ANY = 12_480
 
 OUTSIDE = {"asyncio", "ctypes", "multiprocessing", "socket", "sqlite3", "ssl", "subprocess"}
 OUTSIDE |= {"select", "selectors", "signal", "threading", "urllib", "http", "webbrowser"}

@@ -15,7 +15,8 @@ from websockets.typing import Origin
 from pluto_fleet.station.web.api import Api
 from pluto_fleet.station.web.audit import Audit
 from pluto_fleet.station.web.guard import Guard
-from pluto_fleet.station.web.server import listening, port_of, serve
+from pluto_fleet.station.web.listening import listening, port_of
+from pluto_fleet.station.web.server import serve
 from tests.library.station.jumping import run
 
 from .asking import AStation

@@ -19,7 +19,7 @@ from pluto_fleet.shared.connections import CONNECTIONS
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.pictures import LARGEST
 from pluto_fleet.station.web.guard import Guard
-from pluto_fleet.station.web.server import address, listening, port_of
+from pluto_fleet.station.web.listening import address, listening, port_of
 from tests.library.files.an_app import APP
 from tests.library.station.jumping import run
 from tests.library.station.map.test_drawn import ward
