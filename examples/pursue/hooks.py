@@ -1,6 +1,14 @@
 """What patrols see, what is made of it, and what a broken bound sets free."""
 
-from pursue import Context, Drone, Event, IntruderEvent, Mission, PicturedEvent, Trip
+from pursue import (
+    Context,
+    Drone,
+    IntruderEvent,
+    Mission,
+    PicturedEvent,
+    Status,
+    Trip,
+)
 
 LOOKS = 0.25
 """Seconds from one look to the next."""
@@ -58,9 +66,13 @@ def stay_with(event: PicturedEvent, context: Context) -> Mission | None:
     return Mission(name=f"stay with {event.track}", trips=[follow])
 
 
-def release(event: Event, context: Context) -> Mission | None:
-    """Let go of those of whom there is a picture, so that their drones are free for the others."""
-    for mission in context.missions:
-        if mission.name.startswith("stay with"):
-            context.cancel(mission, f"{event.mission} has no picture within {BOUND:g} s")
-    return None
+def release_seen(mission: Mission, context: Context) -> Status:
+    """Let go of who is stayed with when a bound is broken, so that the drone is free for the others.
+
+    All else that comes here goes on: a patrol, and a chase, which has no picture yet.
+    """
+    if not mission.name.startswith("stay with"):
+        return Status.STANDBY
+    context.log("let go: there is a picture, and a bound is broken")
+    mission.trips.clear()
+    return Status.COMPLETED

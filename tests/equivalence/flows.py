@@ -112,12 +112,16 @@ class InMemory(InspectLoader):
         return self.code
 
 
+_OTHER_STEPS = {"trip_monitor_relief": "plutoc_blocks.trip_monitor.relief"}
+"""Where a step is that its block has besides."""
+
+
 def _of_the_runtime(target: str, wanted: Sequence[str], patience: Patience | None) -> object:
     """Return what a generated module imports from `_runtime`, from where it is at home."""
     if target.startswith(f"{BLOCKS}{others.PACKAGE}."):
         home = others.__name__
     elif target.startswith(BLOCKS):
-        home = f"plutoc_blocks.{target.removeprefix(BLOCKS)}.step"
+        home = _OTHER_STEPS.get(name := target.removeprefix(BLOCKS), f"plutoc_blocks.{name}.step")
     else:
         home = f"plutoc_runtime{target.removeprefix('_runtime')}"
     module = import_module(home)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import tomllib
 from functools import partial
 from xml.etree import ElementTree
@@ -40,7 +41,7 @@ WARNED = {
 
 
 def test_every_app_of_the_thesis_is_there() -> None:
-    """The applications of the thesis's chapter 6 that Pluto can do, and a night round."""
+    """The applications of the thesis's chapter 6, and a night round."""
     assert NAMES == [
         "aerial_mapping",
         "alfalfa",
@@ -50,6 +51,7 @@ def test_every_app_of_the_thesis_is_there() -> None:
         "night_round",
         "object_finder",
         "pm10",
+        "pursue",
         "warehouse_item_finder",
     ]
 
@@ -109,6 +111,8 @@ def test_command_line_completes(example: Example, monkeypatch: pytest.MonkeyPatc
     monkeypatch.chdir(EXAMPLES / example.name)
     words = ("simulate", "missions.toml", "--fleet", "fleet.toml")
     ran = run(partial(fleet_main, example.app), *words)
-    count = len(example.missions)
     assert ran.code == 0, ran.out + ran.err
-    assert f"{count} of {count} missions completed" in ran.out
+    completed = re.search(r"(\d+) of (\d+) missions completed", ran.out)
+    assert completed is not None
+    assert completed[1] == completed[2]  # events make some of them
+    assert int(completed[1]) >= len(example.missions)

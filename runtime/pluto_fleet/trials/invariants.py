@@ -350,10 +350,23 @@ class ServesOneMission:
             **dict.fromkeys(UNWELL, self._leave),
             "trip.allocated": self._allocate,
             "trip.launched": self._launch,
+            "trip.interrupted": self._offer,
+            "trip.relieving": self._relieve,
         }
 
     def _begin(self, _: Event) -> None:
         self._free_since = {}
+
+    def _offer(self, event: Event) -> None:
+        """An event has broken a flight off: the next allocation decides whose its drone is."""
+        for drone, holder in tuple(self._holder.items()):
+            if holder == event["mission"]:
+                del self._holder[drone]
+
+    def _relieve(self, event: Event) -> None:
+        """Another drone sets out to the mission's flight."""
+        self._holder[event["drone"]] = event["mission"]
+        self._away.pop(event["drone"], None)
 
     def _free(self, event: Event) -> None:
         self._holder.pop(event["drone"], None)

@@ -112,7 +112,7 @@ class Body(KnownState):
             x, y, z = there
             factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
             leaves = now + factor * before
-            goes_on = moves and there != here
+            goes_on = moves and there[:2] != here[:2]
             if goes_on:
                 seconds = motion.at_speed(dist(here, there), speed)
                 moves = False  # it rests at the end of this leg

@@ -236,7 +236,8 @@ class Events(Part):
         if drone is None:
             return
         core.fleet.engage(drone)
-        core.fleet.become(drone, DroneStatus.FREE)
+        put(drone, status=DroneStatus.FREE)  # for this instant alone, and nobody hears of it
+        core.queue.moved(drone)
 
         def look() -> None:
             if drone.status is DroneStatus.FREE and not drone.telemetry.landed:
