@@ -24,6 +24,7 @@ from .shared.domain.model import Category, Mission, Trip
 from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
 from .shared.events.company import AlongAction, AlongField, CompanyOf
+from .shared.events.follow import FOLLOW, FollowAction
 from .shared.events.declared import Creator, EventType
 from .shared.events.part import PartOf
 from .shared.events.raising import EventsOf
@@ -164,7 +165,8 @@ def _category(data: Mapping[str, Any]) -> Category:
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
     known = {key: data[key] for key in ("name", "repeat", "takes")}
-    return Action(**known, parameters=_parameters(data["parameters"]), hook=hook)
+    of_class = FollowAction if data["name"] == FOLLOW.name else Action
+    return of_class(**known, parameters=_parameters(data["parameters"]), hook=hook)
 
 
 def _parameters(given: Iterable[Mapping[str, Any]]) -> tuple[Parameter, ...]:

@@ -276,12 +276,14 @@ class Disk:
         self._durable = 0
         self._waiting: deque[tuple[int, Future[None]]] = deque()
 
-    async def on_record(self) -> None:
-        """Wait until everything up to now is durable."""
+    def on_record(self) -> Future[None]:
+        """Return what is set once everything up to now is durable."""
+        durable: Future[None] = Future()
         if self._durable < self.said:
-            durable: Future[None] = Future()
             self._waiting.append((self.said, durable))
-            await durable
+        else:
+            durable.set(None)
+        return durable
 
     def durable(self, count: int) -> None:
         """Called when so many events are durable."""

@@ -102,6 +102,7 @@ class Line(Link):
     def fly(self, order: Order) -> None:
         """Give a drone its job; one that was done already is reported again, and not flown."""
         drone = order["drone"]
+        self._replace_what_waits(drone)
         if drone in self._busy:
             raise Busy(f"{drone} was told to fly while it does something for itself")
         self.gateway.jobs.fly(order, partial(self._reported, order["id"]))

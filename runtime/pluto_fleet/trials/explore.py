@@ -20,6 +20,8 @@ from ..shared.domain.actions import PICK, RELEASE, Plain
 from ..shared.domain.fields import Entity, Field, FieldType
 from ..shared.domain.model import Item, Mission, Point, Trip
 from ..shared.domain.quantities import Type
+from ..shared.events.company import AlongField
+from ..shared.events.tracks import TrackField
 from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
 from .lives import tried
 from .record import TrialResult
@@ -127,6 +129,10 @@ class _Generator:
                 setattr(entity, one.name, self.value(one))
 
     def value(self, field: Field) -> object:
+        if isinstance(field, TrackField):
+            return None  # nothing moves in the world of a trial
+        if isinstance(field, AlongField):
+            return self.along(field)
         match field.type:
             case FieldType.TIME:
                 return self.rng.choice(_TIMES)
@@ -142,6 +148,17 @@ class _Generator:
                 return self.rng.choice((None, *self.app.evaluators))
             case _:
                 return self.rng.randrange(3)
+
+    def along(self, field: AlongField) -> object:
+        name = self.rng.choice((None, *field.actions))
+        if name is None:
+            return None
+        every = {"every": "5 s"} if name in self.app.actions else {}
+        for part in self.app.parts:
+            readers = part.readers(self.app)
+            if field.type in readers:
+                return readers[field.type]({"action": name, **every})
+        return None
 
 
 FORGOTTEN = 100

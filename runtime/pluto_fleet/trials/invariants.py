@@ -362,6 +362,8 @@ class ServesOneMission:
         for drone, holder in tuple(self._holder.items()):
             if holder == event["mission"]:
                 del self._holder[drone]
+                if self._free_since is not None:
+                    self._free_since[drone] = None
 
     def _relieve(self, event: Event) -> None:
         """Another drone sets out to the mission's flight."""

@@ -641,6 +641,10 @@ class UnreliableHooks:
     def stirred(self) -> None:
         """They do nothing between two calls of the brain."""
 
+    def deliver(self, call: Callable[[], T]) -> T:
+        """They run in the brain's own time."""
+        return call()
+
     def _has_blocked(self, number: int) -> None:
         if number in self._calls:
             self.ended(number)

@@ -15,6 +15,7 @@ from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
 from ..shared.domain.trace import Event
+from ..shared.events.follow import FollowAction
 from .case import BrokenHook, Case
 from .invariants import ENDS, Invariants, at, items_of
 
@@ -37,7 +38,7 @@ class ExactlyOnce:
 
     def __init__(self, repeat: Mapping[str, str]) -> None:
         self._repeat = repeat
-        """By action: `safe`, `once` or `ask`."""
+        """By action that the world sees: `safe`, `once` or `ask`."""
         self._launched: dict[str, TripPlace] = {}
         """By job, its trip."""
         self._recorded: dict[str, None] = {}
@@ -62,7 +63,7 @@ class ExactlyOnce:
             case "trip.launched":
                 place = (event["mission"], event["trip"], event["round"])
                 self._launched["/".join(map(str, (*place, event["attempt"])))] = place
-            case "trip.completed":
+            case "trip.completed" if event["did"]["action"] in self._repeat:
                 place = (event["mission"], event["trip"], event["round"])
                 self._recorded["/".join(map(str, (*place, event["attempt"])))] = None
             case "mission.repeated":
@@ -206,7 +207,13 @@ class TrialRecord:
         """By mission, what the next run must restore."""
         self.delays = 0.0
         """The total seconds of delays."""
-        self.once = ExactlyOnce({name: action.repeat for name, action in app.actions.items()})
+        self.once = ExactlyOnce(
+            {
+                name: action.repeat
+                for name, action in app.actions.items()
+                if not isinstance(action, FollowAction)  # flown by the brain, picture by picture
+            }
+        )
         self.fired: Counter[str] = Counter()
         self.endless = ""
         """A mission that flies again and again without end, if any."""

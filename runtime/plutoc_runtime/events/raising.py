@@ -6,7 +6,7 @@ changes that row at the same instant. So after any end of the app each has happe
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -125,11 +125,13 @@ class Events(Part):
         self.happenings[id] = happening
         self._changed[id] = None
         self._note("event.raised", facts_of(event))
+        on_record = self._core.on_record
+        recorded = None if on_record is None else on_record()  # not what is noted after it
         for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
             for each in interruptions:
                 if each.concerns(event):
                     each.soon(flight, event)
-        self._ask_creators(happening)
+        self._ask_creators(happening, recorded)
         return str(id)
 
     def _raise(self, request: Mapping[str, Any]) -> None:
@@ -194,7 +196,7 @@ class Events(Part):
     def interrupt(self, run: Run[Any], event: str, of: Whose) -> None:
         """Have an event break the flight of this moment off, unless that or its branch has ended."""
         flight = run.state.flight
-        if flight is None:
+        if flight is None or flight.is_set:
             return
         flights = self._interrupted.setdefault(event, {})
         if flight not in flights:
@@ -253,20 +255,22 @@ class Events(Part):
         missions = [one.mission for one in self._engine.states.values() if not one.ended]
         return tuple(sorted(missions, key=lambda mission: mission.index))
 
-    def _ask_creators(self, happening: Happening) -> None:
-        """Ask those that have not answered yet."""
+    def _ask_creators(self, happening: Happening, recorded: Awaitable[None] | None) -> None:
+        """Ask those that have not answered yet, once the event is recorded; None: it is already."""
         event = happening.event
         for block in happening.open:
             self._engine.expect()
-            work = self._create(happening, self._creators[event.name][block])
+            work = self._create(happening, self._creators[event.name][block], recorded)
             self._core.kernel.spawn(work, FLEET, f"event {event.id} at {block}")
 
-    async def _create(self, happening: Happening, creator: Creator) -> None:
+    async def _create(
+        self, happening: Happening, creator: Creator, recorded: Awaitable[None] | None
+    ) -> None:
         """Ask a creator of an event for a mission, and begin that."""
         core = self._core
         event = happening.event
-        if core.on_record is not None:
-            await core.on_record()
+        if recorded is not None:
+            await recorded
         try:
             mission = await self._mission_of(creator, event)
         except HookFault as fault:
@@ -393,7 +397,7 @@ class Events(Part):
     def go_on(self) -> None:
         """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
         for happening in self.happenings.values():
-            self._ask_creators(happening)
+            self._ask_creators(happening, None)
 
 
 def _row(happening: Happening) -> dict[str, Any]:
