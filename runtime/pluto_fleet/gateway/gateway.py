@@ -174,6 +174,11 @@ class Line(Link):
         if self.gateway.is_commanded_by(self):
             self.gateway.cut()
 
+    def call_off_commands(self) -> None:
+        """Call off what single drones were told to do: one that has not begun yet begins no more."""
+        for number in [number for number in self._busy.values() if number is not None]:
+            self.under_way[number].cancel()
+
     def _call_off(self) -> None:
         for task in list(self.under_way.values()):
             task.cancel()
@@ -441,6 +446,8 @@ class Gateway:
             if self._how is Down.LAND or how is Down.HOME:
                 return descent  # it is at least as fast
             descent.cancel()
+        if self.commander is not None:
+            self.commander.call_off_commands()
         for drone in self.drones:
             self.break_off(drone.id)
         ways = Descent(self.kernel, self.executor, self.drones, self._airspace, self.traffic)

@@ -211,6 +211,7 @@ class TripsDoNotOverlap:
         self._flying: dict[object, tuple[object, object, object, object]] = {}
         self.hears = {
             "trip.launched": self._launch,
+            "trip.handed_over": self._hand_over,
             "trip.completed": self._end,
             "trip.failed": self._end,
             "trip.interrupted": self._interrupt,
@@ -224,6 +225,12 @@ class TripsDoNotOverlap:
         if mission in self._flying:
             other = named(self._flying[mission])
             self._say(f"{at(event)}: {mission} launched {event['trip']} during {other}")
+        self._flying[mission] = flight(event)
+
+    def _hand_over(self, event: Event) -> None:
+        mission = event["mission"]
+        if mission not in self._flying:
+            self._say(f"{at(event)}: {event['trip']} of {mission} was taken over, and did not fly")
         self._flying[mission] = flight(event)
 
     def _end(self, event: Event) -> None:

@@ -82,6 +82,8 @@ class TrialLife:
         )
         self.added = self.committed = 0
         self.unwritten: deque[tuple[int, Entry, list[Event]]] = deque()
+        self.named = dict.fromkeys(run.record.known)
+        """The missions that the journal has heard of: one begun as the app dies is in no entry yet."""
         self.unknown: dict[str, None] = {}
         """The missions with events that are not durable."""
         self.full = False
@@ -145,6 +147,7 @@ class TrialLife:
             return self.added
         run.record.times.append(run.world.now)
         events: list[Event] = _read(entry.events)[0]
+        self.named.update((str(event["mission"]), None) for event in events if "mission" in event)
         if self.before:
             self.look_back(events)
         struck = run.strikes.get(len(run.record.times))
@@ -187,7 +190,7 @@ class TrialLife:
         for _, _, events in self.unwritten:
             self.forget(events)
         for name, record in self.standing().items():
-            if name in self.unknown:
+            if name in self.unknown or name not in self.named:
                 self.run.record.known.pop(name, None)
             else:
                 self.run.record.known[name] = memory_of(record)

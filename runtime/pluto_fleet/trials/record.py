@@ -41,6 +41,8 @@ class ExactlyOnce:
         """By action that the world sees: `safe`, `once` or `ask`."""
         self._launched: dict[str, TripPlace] = {}
         """By job, its trip."""
+        self._handed_over: Counter[str] = Counter()
+        """By job, how often it was taken over since its launch."""
         self._recorded: dict[str, None] = {}
         self._wanted: Counter[TripPlace] = Counter()
         """How often an evaluator asked to repeat a trip."""
@@ -62,7 +64,14 @@ class ExactlyOnce:
         match event["event"]:
             case "trip.launched":
                 place = (event["mission"], event["trip"], event["round"])
-                self._launched["/".join(map(str, (*place, event["attempt"])))] = place
+                job = "/".join(map(str, (*place, event["attempt"])))
+                self._launched[job] = place
+                self._handed_over[job] = 0
+            case "trip.handed_over":
+                place = (event["mission"], event["trip"], event["round"])
+                job = "/".join(map(str, (*place, event["attempt"])))
+                self._handed_over[job] += 1
+                self._launched[f"{job}+{self._handed_over[job]}"] = place
             case "trip.completed" if event["did"]["action"] in self._repeat:
                 place = (event["mission"], event["trip"], event["round"])
                 self._recorded["/".join(map(str, (*place, event["attempt"])))] = None
@@ -103,6 +112,9 @@ class ExactlyOnce:
                 found.append(f"the journal says that the action of {job} was done: it was not")
         return found
 
+
+_TAKEN_OVER = re.compile(r"\+\d+$")
+"""What the id of a flight ends with once another drone has taken it over."""
 
 TripPlace = tuple[object, object, object]
 """Mission, trip, round."""
@@ -253,7 +265,7 @@ class TrialRecord:
 
     def did(self, job: str, action: str, now: float) -> None:
         """Add an action of the world."""
-        self.acts.append(Act(job=job, action=action, time=now))
+        self.acts.append(Act(job=_TAKEN_OVER.sub("", job), action=action, time=now))
 
     def hook_did(self, hook: Callable[..., object], args: tuple[object, ...], now: float) -> None:
         """Add the action of a hook that has returned, if it is one."""

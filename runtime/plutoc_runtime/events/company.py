@@ -178,8 +178,9 @@ class Company(Part):
         self._core.accompany = self.accompany
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
-        self._live: dict[str, FlyingDrone] = {}
-        """By the names of missions, the drones of the actions along their ways."""
+        self._accompanied: dict[Flight, None] = {}
+        self._live: dict[Flight, FlyingDrone] = {}
+        """The drones of the actions along the ways."""
 
     def tell(self, message: Mapping[str, Any]) -> None:
         """Take over that a flight has arrived."""
@@ -190,8 +191,9 @@ class Company(Part):
         """Begin again what went on beside the flights that go on."""
         for state in self._engine.states.values():
             flight = state.in_flight
-            if flight is not None and state.task is not None:
-                self._begin(state, flight)
+            if flight is None or state.task is None or flight in self._accompanied:
+                continue
+            self._begin(state, flight)
 
     def accompany(self, state: MissionState, flight: Flight) -> dict[str, Any]:
         """Begin what goes on beside a flight that is just launched, and return the order to fly."""
@@ -224,12 +226,15 @@ class Company(Part):
             works[f"pursuit of {track}"] = self._pursue(state, flight)
         if not works:
             return False
+        self._accompanied[flight] = None
+        flight.watch(lambda _: self._accompanied.pop(flight, None))
         self._arrivals[flight.id] = arrival = Future[None]()
         flight.watch(arrival.set)
         arrival.watch(lambda _: self._arrivals.pop(flight.id, None))
         for name, work in works.items():
             task = state.spawn(work, f"{state.mission.name}: {name}")
             task.over = partial(_end, state, flight)
+            flight.company += (task,)
             arrival.watch(partial(_cancel, task))
         return True
 
@@ -239,8 +244,8 @@ class Company(Part):
         before = before if flight.relieved == 1 else f"{before}+{flight.relieved - 1}"
         if before in self._arrivals:
             self._arrivals[flight.id] = self._arrivals.pop(before)
-        if flight.mission.name in self._live:
-            self._live[flight.mission.name].change_to(drone)
+        if flight in self._live:
+            self._live[flight].change_to(drone)
 
     # Along the way
 
@@ -253,7 +258,7 @@ class Company(Part):
         hook = action.hook
         assert hook is not None
         live = FlyingDrone(core.kernel, core.orders, drone, mission_key(state.mission.index))
-        self._live[state.mission.name] = live
+        self._live[flight] = live
         new_context = core.context or Context
         context = new_context(
             core.kernel, core.results, core.log, state.mission, lambda: state.flight, live
@@ -278,7 +283,7 @@ class Company(Part):
             return None
         finally:
             live.release()
-            del self._live[state.mission.name]
+            del self._live[flight]
             take_over(state, hook)
 
     async def _repeat(self, state: MissionState, flight: Flight, given: Along) -> Failed | None:

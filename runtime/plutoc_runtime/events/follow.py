@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import inf
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,7 @@ from ..domain.keeper import put
 from ..domain.quantities import Type
 from ..domain.text import duration, quoted
 from ..flow.own_action import NO_MORE, way_home
-from ..time.kernel import EventKind, Future, mission_key
+from ..time.kernel import EventKind, Future
 from .changes import keep
 from .company import track_of
 from .tracks import Tracks
@@ -21,7 +21,6 @@ from .tracks import Tracks
 if TYPE_CHECKING:
     from ..flow.flight import Flight
     from ..flow.mission import Core, MissionState
-    from ..time.kernel import Key
 
 LONGEST = 60.0
 """Seconds of following that the battery of one drone must hold before it sets out."""
@@ -49,30 +48,38 @@ class FollowAction(Action):
     async def _follow(self, state: MissionState, flight: Flight) -> None:
         core = state.core
         trip: Any = flight.trip
-        kernel, key = core.kernel, mission_key(state.mission.index)
+        kernel = core.kernel
+        told = _Told(core)
         ends = kernel.now + trip.parameters["for"]
         picture = kernel.now
-        while True:
-            now = kernel.now
-            if now >= picture:
-                photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
-                keep(core, state.mission, trip, photo)
-                picture += trip.parameters["every"]
-            if now >= ends:
-                return
-            way = way_home(core, flight.flier)
-            left = flight.flier.battery_level - flight.flier.category.reserve
-            if left <= way < inf:
-                raise FlightFailed(Failure.BATTERY, NO_MORE)
-            await self._stay_near(core, flight, min(picture, ends, now + STEP), key)
+        try:
+            while True:
+                now = kernel.now
+                if now >= picture:
+                    photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
+                    keep(core, state.mission, trip, photo)
+                    picture += trip.parameters["every"]
+                if now >= ends:
+                    return
+                way = way_home(core, flight.flier)
+                left = flight.flier.battery_level - flight.flier.category.reserve
+                if left <= way < inf:
+                    raise FlightFailed(Failure.BATTERY, NO_MORE)
+                await self._stay_near(state, flight, told, min(picture, ends, now + STEP))
+        finally:
+            told.no_more()
 
-    async def _stay_near(self, core: Core, flight: Flight, until: float, key: Key) -> None:
+    async def _stay_near(
+        self, state: MissionState, flight: Flight, told: _Told, until: float
+    ) -> None:
         """Fly to where the target is, and on with it, until a time; raise what befalls the drone."""
+        core = state.core
         trip: Any = flight.trip
-        kernel, id = core.kernel, track_of(trip)
+        kernel = core.kernel
+        id = track_of(trip)
         failed = Future[object]()
         if id is None:
-            number = core.orders.give({"do": "hold", "drone": flight.drone}, failed.set)
+            told.tell({"do": "hold", "drone": flight.drone}, failed.set)
         else:
             tracks: Tracks = core.parts[Tracks]
             track = tracks.known.get(id)
@@ -83,17 +90,31 @@ class FollowAction(Action):
                 )
             point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
             put(trip, target=point)
-            number = core.orders.give(
-                {"do": "go", "drone": flight.drone, "stops": [point]}, failed.set
-            )
-        try:
-            await kernel.within(failed, until, EventKind.TIMER, key)
-            if failed.is_set and isinstance(failed.result(), FlightFailed):
-                raise failed.result()  # type: ignore[misc]  # it was asked what it is
-            if failed.is_set:  # it has arrived
-                await kernel.sleep(until - kernel.now, key=key)
-        finally:
-            core.orders.forget(number)
+            told.tell({"do": "go", "drone": flight.drone, "stops": [point]}, failed.set)
+        await kernel.within(failed, until, EventKind.TIMER, state.key)
+        if failed.is_set and isinstance(why := failed.result(), FlightFailed):
+            raise why
+        if failed.is_set:  # it has arrived
+            await kernel.sleep(until - kernel.now, key=state.key)
+
+
+class _Told:
+    """What the drone that follows was told last: each order comes in the place of the one before."""
+
+    def __init__(self, core: Core) -> None:
+        self._orders = core.orders
+        self._drone = ""
+        self._number = 0
+
+    def tell(self, order: dict[str, Any], answer: Callable[[object], object]) -> None:
+        """Tell a drone something else."""
+        self._orders.forget(self._number)
+        self._drone = order["drone"]
+        self._number = self._orders.give(order, answer)
+
+    def no_more(self) -> None:
+        """Call off what it was told last."""
+        self._orders.call_off(self._number, self._drone)
 
 
 async def _nothing(*_: object) -> None:

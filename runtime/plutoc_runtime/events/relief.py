@@ -42,6 +42,7 @@ def relieve_at(run: Run[Any], level: float) -> None:
     if flight is not None and not flight.is_set:
         work = _relieve(state, flight, level)
         task = state.spawn(work, f"{state.mission.name}: relief")
+        flight.company += (task,)
         flight.watch(lambda _: task.cancel())
 
 
@@ -109,7 +110,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
             if going.is_set:  # it is where the other was
                 await core.kernel.sleep(LOOK, key=state.key)
     finally:
-        core.orders.forget(number)
+        core.orders.call_off(number, drone.id)
     if flight.is_set or state.flight is not flight:
         return False
     _hand_over(state, flight, drone)

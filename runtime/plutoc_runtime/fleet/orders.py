@@ -106,6 +106,11 @@ class Orders:
         """Want no answer to an order any more."""
         self._answers.pop(number, None)
 
+    def call_off(self, number: int, drone: str) -> None:
+        """Cancel an order, unless it was answered."""
+        if self._answers.pop(number, None) is not None:
+            self.give({"do": "cancel", "drone": drone, "order": number})
+
     async def ask(self, do: str, drone: str, **more: object) -> Any:
         """Give an order, and return what came of it; raise `FlightFailed`. Cancelling this cancels the order."""
         outcome: Future[Any] = Future()
@@ -113,9 +118,7 @@ class Orders:
         try:
             result = await outcome
         finally:
-            if not outcome.is_set:
-                self._answers.pop(number, None)
-                self.give({"do": "cancel", "drone": drone, "order": number})
+            self.call_off(number, drone)
         if isinstance(result, FlightFailed):
             raise result
         return result

@@ -38,6 +38,8 @@ class Flight(Future[Status]):
     """Where the action is done, if that is not at the trip's target."""
     relieved: int = 0
     """How often another drone has taken over."""
+    company: tuple[Task[Any], ...] = ()
+    """What goes on beside it, and ends with it."""
     heard: bool = False
     """Whether the mission's graph has gone on from its end."""
     round: int = field(init=False)
@@ -80,6 +82,11 @@ class Flight(Future[Status]):
             "seconds": action.lasts(trip.parameters),
             "beside": action.repeat == "safe",
         }
+
+    def part(self) -> None:
+        """End what goes on beside it."""
+        for task in self.company:
+            task.cancel()
 
     @property
     def failed(self) -> bool:

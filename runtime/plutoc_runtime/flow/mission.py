@@ -193,6 +193,7 @@ class MissionState:
         flight.called_off = ""
         if flight.own_action is not None:
             flight.own_action.cancel()
+        flight.part()
         self.core.orders.break_off(flight.flier.id)
 
     def complete(self, flight: Flight, value: object) -> None:
@@ -271,6 +272,7 @@ class MissionState:
         if mends:
             flight.set(self.mission.status)
         else:
+            flight.part()
             self.end(why)
 
     def abort(self, reason: str) -> None:
