@@ -23,12 +23,18 @@ from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
 from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
-from .shared.events.company import AlongAction, AlongField, CompanyOf
-from .shared.events.follow import FOLLOW, FollowAction
 from .shared.events.declared import Creator, EventType
 from .shared.events.part import PartOf
-from .shared.events.raising import EventsOf
-from .shared.events.tracks import TrackField, TracksOf
+from .shared.events.parts import (
+    FOLLOWING,
+    AlongAction,
+    AlongField,
+    CompanyDeclared,
+    EventsDeclared,
+    FollowDeclared,
+    TrackField,
+    TracksDeclared,
+)
 
 if TYPE_CHECKING:
     from .shared.brain import Brain
@@ -150,7 +156,7 @@ def _parts(about: Mapping[str, Any]) -> tuple[PartOf, ...]:
         AlongAction(name=one["name"], parameters=_parameters(one["parameters"]))
         for one in about["along"]
     )
-    return EventsOf(types, creators), TracksOf(), CompanyOf(own)
+    return EventsDeclared(types, creators), TracksDeclared(), CompanyDeclared(own)
 
 
 def _nobody(*_: object) -> None:
@@ -165,7 +171,7 @@ def _category(data: Mapping[str, Any]) -> Category:
 
 def _action(data: Mapping[str, Any], hook: Callable[..., Any] | None) -> Action:
     known = {key: data[key] for key in ("name", "repeat", "takes")}
-    of_class = FollowAction if data["name"] == FOLLOW.name else Action
+    of_class = FollowDeclared if data["name"] == FOLLOWING else Action
     return of_class(**known, parameters=_parameters(data["parameters"]), hook=hook)
 
 

@@ -28,7 +28,6 @@ from .flow.engine import Engine
 from .flow.flight import Limits
 from .flow.mission import Core
 from .flow.record import (
-    Row,
     changed_rows,
     drone_standing,
     result_row,
@@ -43,7 +42,7 @@ from .time.told import ONLY_WHAT_IS_READY, HookRunner, ToldTime
 if TYPE_CHECKING:
     from .domain.airspace import Airspace
     from .domain.app import App
-    from .domain.trace import Event
+    from .domain.trace import Event, Row
     from .flow.mission import MissionState
 
 __all__ = ["SEAM", "BadInput", "Brain", "about", "put_guard"]

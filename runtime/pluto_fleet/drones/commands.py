@@ -11,7 +11,19 @@ from collections.abc import Mapping
 from math import dist, inf, isfinite
 from typing import Any, SupportsFloat
 
-from ..jobs.controls import Act, Command, Cut, GoTo, Hold, Land, Read, See, TakeOff, Trigger, Write
+from ..jobs.controls import (
+    Act,
+    Command,
+    Cut,
+    GoTo,
+    Hold,
+    Land,
+    Read,
+    See,
+    TakeOff,
+    Trigger,
+    Write,
+)
 from ..jobs.reports import motors_cut
 from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed

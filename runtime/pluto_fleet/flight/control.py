@@ -16,7 +16,7 @@ from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
-from ..shared.events.raising import EventsOf
+from ..shared.events.parts import EventsDeclared
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps
@@ -178,7 +178,7 @@ class Control(Suspending):
     def raise_event(self, event: str, facts: Mapping[str, object]) -> str:
         """Raise an event of the app; one whose id has happened does not happen again."""
         self._refuse_after_stop()
-        if not any(isinstance(part, EventsOf) for part in self._run.app.parts):
+        if not any(isinstance(part, EventsDeclared) for part in self._run.app.parts):
             raise BadInput(f"{self._run.app.name} has no events")
         given = {name: facts[name] for name in OF_AN_EVENT if facts.get(name) is not None}
         if given.get("id") in self._run.records.happenings:

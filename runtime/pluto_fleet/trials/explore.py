@@ -20,8 +20,7 @@ from ..shared.domain.actions import PICK, RELEASE, Plain
 from ..shared.domain.fields import Entity, Field, FieldType
 from ..shared.domain.model import Item, Mission, Point, Trip
 from ..shared.domain.quantities import Type
-from ..shared.events.company import AlongField
-from ..shared.events.tracks import TrackField
+from ..shared.events.parts import AlongField, TrackField
 from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
 from .lives import tried
 from .record import TrialResult

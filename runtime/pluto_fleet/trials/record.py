@@ -15,7 +15,7 @@ from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
 from ..shared.domain.trace import Event
-from ..shared.events.follow import FollowAction
+from ..shared.events.parts import FollowDeclared
 from .case import BrokenHook, Case
 from .invariants import ENDS, Invariants, at, items_of
 
@@ -223,7 +223,7 @@ class TrialRecord:
             {
                 name: action.repeat
                 for name, action in app.actions.items()
-                if not isinstance(action, FollowAction)  # flown by the brain, picture by picture
+                if not isinstance(action, FollowDeclared)  # flown by the brain, picture by picture
             }
         )
         self.fired: Counter[str] = Counter()

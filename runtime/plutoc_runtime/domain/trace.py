@@ -8,6 +8,8 @@ from math import isfinite
 from typing import Any, Protocol
 
 Event = Mapping[str, Any]  # `t`, seconds; `event`, such as `trip.launched`; and its facts
+Row = tuple[str, tuple[str | int, ...], Mapping[str, Any]]
+"""Its table (such as `mission`, `trip`, `drone` or `result`), its key there, and what it holds."""
 
 
 class Clock(Protocol):

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Coroutine, Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass
+from collections.abc import Coroutine, Mapping, Sequence
 from functools import partial
 from math import dist
-from typing import TYPE_CHECKING, Any, NamedTuple, Required, TypedDict, cast
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..domain.actions import Action, Plain
-from ..domain.app import parameters_data
 from ..domain.errors import ActionFailed, Cancelled, FlightFailed
-from ..domain.fields import Field, FieldType
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import put
 from ..domain.model import Sighting
-from ..domain.quantities import Type
 from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
-from ..domain.values import Quantity, Table, one_of, read_parameters
 from ..fleet.reach import needed
 from ..flow.asking import kept_by, take_over
 from ..hooks.calls import call_hook, fault_of
@@ -26,16 +19,17 @@ from ..hooks.context import Context, LiveDrone
 from ..hooks.plain_data import keepable, point_of
 from ..time.kernel import Future, mission_key
 from .changes import keep
-from .part import Part, PartOf
+from .part import Part
+from .parts import CompanyDeclared
 from .tracks import Tracks
 
 if TYPE_CHECKING:
-    from ..domain.app import App
     from ..domain.model import Drone, Point, Trip
     from ..flow.engine import Engine
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
     from ..time.kernel import Task
+    from .parts import Along, AlongAction
 
 
 class FlyingDrone(LiveDrone):
@@ -59,105 +53,12 @@ class FlyingDrone(LiveDrone):
         ]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AlongAction(Action):
-    """An action of the app's own that goes on while a drone flies, and not at the end of its way."""
-
-    returns: type[object] | None = None
-    """The type of what its hook gives; None: the app does not say."""
-
-
-class Along(TypedDict, total=False):
-    """What is done on the way: one of the app's own actions once, a built-in one every so often."""
-
-    action: Required[str]
-    parameters: Mapping[str, Plain]
-    metres: float
-    seconds: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AlongField(Field):
-    """The field of a trip with the action along its way."""
-
-    actions: tuple[str, ...] = ()
-    """Those that can be."""
-
-    def wanted(self, value: object, evaluators: Container[str]) -> str:
-        """Return what a value must be that a hook has set, if it is not that."""
-        if value is None or (type(value) is dict and value.get("action") in self.actions):
-            return ""
-        return f'an Along, such as {{"action": "{self.actions[0]}"}}'
-
-
-@dataclass(frozen=True, slots=True)
-class CompanyOf(PartOf):
+class CompanyOf(CompanyDeclared):
     """Makes what goes on beside the flights of an app."""
-
-    own: tuple[AlongAction, ...] = ()
-    """The app's own actions on the way."""
 
     def __call__(self, engine: Engine) -> Company:
         """Return what sees to it in a running app."""
         return Company(engine, self.own)
-
-    def about(self) -> dict[str, Any]:
-        """Return the actions along the way, for the library."""
-        actions = [
-            {"name": one.name, "parameters": parameters_data(one.parameters)} for one in self.own
-        ]
-        return {"along": actions}
-
-    def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
-        """Return how the action along a trip's way is read."""
-        named = [field for field in app.fields if isinstance(field, AlongField)]
-        names = [name for field in named for name in field.actions]
-        actions = {**app.actions, **{action.name: action for action in self.own}}
-        return {FieldType.ALONG: partial(_read_along, {name: actions[name] for name in names})}
-
-    def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Take a target that moves apart: `target = { track = "t7" }`; where it is, is known later."""
-        target = trip.get("target")
-        if not isinstance(target, dict) or "track" not in target:
-            return trip
-        of_target = {name: one for name, one in target.items() if name in _OF_TARGET}
-        unknown = {name: one for name, one in target.items() if name not in _OF_TARGET}
-        return {**trip, **of_target, "target": unknown or [0.0, 0.0]}
-
-
-_OF_TARGET = ("track", "reach", "lost_after")
-
-
-def _read_along(actions: Mapping[str, Action], value: object) -> Along:
-    """Read `"look"`, or `{ action = "take_photo", every = "2 m" }`; raise `ValueError`."""
-    table = Table(value if isinstance(value, dict) else {"action": value})
-    read = table.read({"action": partial(one_of, actions)}, {"every": _spacing, "parameters": None})
-    action = actions.get(str(read.get("action")))
-    if action is not None:
-        read["parameters"] = read_parameters(table.table("parameters"), action.parameters)
-        goes_on = isinstance(action, AlongAction)
-        if goes_on and "every" in table.data:
-            table.problem(f"{action.name} goes on all the way, and takes no every")
-        elif not goes_on and "every" not in table.data:
-            table.problem(f'{action.name} needs every, such as every = "2 m" or every = "1 s"')
-    if table.problems:
-        raise ValueError(f"is wrong: {table.problems[0].sentence}")
-    every = read.pop("every", {})
-    found: Any = {**read, **every}
-    return cast("Along", found)
-
-
-def _spacing(value: object) -> dict[str, float]:
-    """Read how far apart, in metres or in seconds, something is done."""
-    kinds = {
-        "metres": Quantity(Type.LENGTH, 0.1, 1000.0),
-        "seconds": Quantity(Type.TIME, 0.1, 3600.0),
-    }
-    for name, read in kinds.items():
-        with suppress(ValueError):
-            if isinstance(value, str):
-                return {name: read(value)}
-    raise ValueError('is no spacing: write a length or a time, such as "2 m" or "1 s"')
 
 
 class Failed(NamedTuple):

@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from ..hooks import context as without_events
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from ..domain.model import Mission, Point
-    from .raising import Events
+    from ..flow.flight import Flight
+
+
+class Raises(Protocol):
+    """The events of a running app."""
+
+    @property
+    def living(self) -> tuple[Mission[Any], ...]:
+        """The missions that have not ended, in their order."""
+
+    def happen(self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception]) -> str:
+        """Note an occurrence, and let come of it what comes."""
+
+    def cancel(self, mission: Mission[Any], why: str) -> None:
+        """End a mission as CANCELLED."""
+
+    def store(self, flight: Flight, value: object) -> None:
+        """Keep a result of a trip in flight."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +44,7 @@ class Context(without_events.Context):
 
     __slots__ = ("_events",)
 
-    def __init__(self, events: Events, *given: Any) -> None:
+    def __init__(self, events: Raises, *given: Any) -> None:
         super().__init__(*given)
         self._events = events
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from math import inf
 from typing import TYPE_CHECKING, Any
 
-from ..domain.actions import PHOTO, Action, Parameter, Plain
+from ..domain.actions import PHOTO, Parameter
 from ..domain.errors import Failure, FlightFailed
 from ..domain.keeper import put
 from ..domain.quantities import Type
@@ -16,25 +15,19 @@ from ..flow.own_action import NO_MORE, way_home
 from ..time.kernel import EventKind, Future
 from .changes import keep
 from .company import track_of
+from .parts import FOLLOWING, FollowDeclared
 from .tracks import Tracks
 
 if TYPE_CHECKING:
     from ..flow.flight import Flight
     from ..flow.mission import Core, MissionState
 
-LONGEST = 60.0
-"""Seconds of following that the battery of one drone must hold before it sets out."""
 STEP = 0.5
 """Seconds from one look at where it is to the next."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FollowAction(Action):
-    """Stays within reach of the trip's target for a time, and takes a picture each time that so much has passed."""
-
-    def lasts(self, parameters: Mapping[str, Plain]) -> float:
-        """Return how many seconds plans reckon with: what is longer is for several drones, one after the other."""
-        return min(LONGEST, Action.lasts(self, parameters))
+class FollowAction(FollowDeclared):
+    """Has the brain fly it: step by step, and picture by picture."""
 
     async def act(self, state: MissionState, flight: Flight) -> None:
         """Follow it, and complete or fail the flight."""
@@ -122,7 +115,7 @@ async def _nothing(*_: object) -> None:
 
 
 FOLLOW = FollowAction(
-    name="follow",
+    name=FOLLOWING,
     parameters=(
         Parameter(name="for", type=Type.TIME),
         Parameter(name="every", type=Type.TIME, default=1.0),

@@ -11,8 +11,8 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fields import FieldType
     from ..domain.quantities import Type
+    from ..domain.trace import Row
     from ..domain.values import Table
-    from ..flow.record import Row
 
 
 class PartOf:

@@ -7,11 +7,9 @@ changes that row at the same instant. So after any end of the app each has happe
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from ..domain.app import parameters_data
 from ..domain.errors import BadInput, HookFault
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
@@ -30,13 +28,14 @@ from .changes import keep
 from .context import Context, Outside
 from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
 from .interruption import Interruption
-from .part import Part, PartOf
+from .part import Part
+from .parts import EventsDeclared
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
+    from ..domain.trace import Row
     from ..flow.engine import Engine
     from ..flow.flight import Flight
-    from ..flow.record import Row
     from ..flow.run import Run
     from .interruption import Whose
 
@@ -53,30 +52,12 @@ class Happening:
         self.why = ""  # why none did, of the last creator that made none
 
 
-@dataclass(frozen=True, slots=True)
-class EventsOf(PartOf):
-    """The events of an app: those that it declares, and the built-in ones that it uses."""
-
-    types: tuple[EventType, ...] = ()
-    """Those that the app declares."""
-    creators: tuple[Creator, ...] = ()
-    """In the order in which they are asked."""
+class EventsOf(EventsDeclared):
+    """Makes the events of an app: those that it declares, and the built-in ones that it uses."""
 
     def __call__(self, engine: Engine) -> Events:
         """Return what handles them in a running app."""
         return Events(engine, (*self.types, *BUILT_IN), self.creators)
-
-    def about(self) -> dict[str, Any]:
-        """Return them as plain data: all that a library knows of them."""
-        events = [
-            {
-                "name": one.name,
-                "parameters": parameters_data(one.fields),
-                "creates": any(creator.event == one.name for creator in self.creators),
-            }
-            for one in self.types
-        ]
-        return {"events": events}
 
 
 class Events(Part):

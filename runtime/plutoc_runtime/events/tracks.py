@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..domain.fields import Entity, Field
-from ..domain.quantities import Type
 from ..fleet.reach import flight_seconds
 from ..hooks.plain_data import point_of
 from ..time.kernel import FLEET, EventKind, Future
 from .alone import EventDrones
-from .part import Part, PartOf
-from .world import Mover, read_movers
+from .part import Part
+from .parts import TracksDeclared
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
-    from ..domain.values import Table
     from ..flow.engine import Engine
 
 
@@ -38,23 +35,14 @@ class Track:
         return x + passed * vx, y + passed * vy, z + passed * vz
 
 
-@dataclass(frozen=True, slots=True)
-class TracksOf(PartOf):
+class TracksOf(TracksDeclared):
     """Makes the tracks of an app that follows what moves."""
 
     drones = EventDrones
 
-    def movers(self, world: Table) -> tuple[Mover, ...]:
-        """Return what moves in the simulated world."""
-        return read_movers(world)
-
     def __call__(self, engine: Engine) -> Tracks:
         """Return what knows them in a running app."""
         return Tracks(engine)
-
-    def about(self) -> dict[str, Any]:
-        """Return what a library knows of them: that there are any."""
-        return {"tracks": True}
 
 
 class Tracks(Part):
@@ -138,41 +126,6 @@ class Tracks(Part):
         )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrackField(Field):
-    """The field of a trip with the track that it follows."""
-
-    def wanted(self, value: object, evaluators: Container[str]) -> str:
-        """Return what a value must be that a hook has set, if it is not that."""
-        return "" if value is None or type(value) is str else "the id of a track"
-
-
-TRIP_FIELDS = (
-    TrackField(
-        name="track",
-        on=Entity.TRIP,
-        type=Type.TEXT,
-        label="Follows the track",
-        doc="What moves, and it follows; None: its target stands.",
-    ),
-    Field(
-        name="reach",
-        on=Entity.TRIP,
-        type=Type.LENGTH,
-        label="Within",
-        default=0.5,
-        doc="Metres within which what it follows is reached.",
-    ),
-    Field(
-        name="lost_after",
-        on=Entity.TRIP,
-        type=Type.TIME,
-        label="Lost after",
-        default=2.0,
-        doc="Seconds without news after which what it follows is lost.",
-    ),
-)
-"""What trips have that may follow what moves."""
 LONGEST_GAP = 5.0
 """Seconds between two reports from which on they say nothing of a velocity."""
 SOONEST = 0.1

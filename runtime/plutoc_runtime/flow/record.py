@@ -34,15 +34,13 @@ if TYPE_CHECKING:
     from ..domain.app import App
     from ..domain.fleet_data import FleetData
     from ..domain.model import Drone, Mission, ResultStore, Trip
+    from ..domain.trace import Row
     from ..fleet.fleet import Fleet
     from ..hooks.plain_data import Data
     from .mission import Core, Delay, MissionState
     from .transitions import Changes
 
 Record = Mapping[str, Any]
-
-Row = tuple[str, tuple[str | int, ...], Record]
-"""Its table (`mission`, `trip`, `drone` or `result`), its key there, and what it holds."""
 
 
 def changed_rows(

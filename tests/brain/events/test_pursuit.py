@@ -18,11 +18,12 @@ from pluto_fleet.shared.domain.fields import Entity, FieldType
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, WorldData
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
-from pluto_fleet.shared.events.company import AlongAction, AlongField, CompanyOf
+from pluto_fleet.shared.events.company import CompanyOf
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
 from pluto_fleet.shared.events.follow import FOLLOW
+from pluto_fleet.shared.events.parts import TRIP_FIELDS, AlongAction, AlongField
 from pluto_fleet.shared.events.raising import EventsOf
-from pluto_fleet.shared.events.tracks import TRIP_FIELDS, TracksOf
+from pluto_fleet.shared.events.tracks import TracksOf
 from pluto_fleet.shared.events.world import Mover
 from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.run import Run

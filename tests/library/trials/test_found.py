@@ -9,16 +9,18 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.app import App
-from pluto_fleet.files.fleet import fleet_of
+from pluto_fleet.files.fleet import fleet_of, load_fleet
 from pluto_fleet.files.missions import missions_of
 from pluto_fleet.files.reading import parsed
 from pluto_fleet.files.toml import toml_text
 from pluto_fleet.shared.hooks.context import Context
 from pluto_fleet.trials.case import FAIR, Case, strikes_of, weather_of
+from pluto_fleet.trials.explore import random_missions
 from pluto_fleet.trials.lives import tried
 from pluto_fleet.trials.record import TrialResult
+from tests.kit.apps import EXAMPLES
 from tests.kit.sections import Section, compare, params
-from tests.trials.examples import app_of
+from tests.trials.examples import app_of, example
 
 HERE = Path(__file__).with_name("apps")
 
@@ -67,3 +69,37 @@ def app_named(name: str) -> App:
 
     text = (HERE / f"{name}.pluto").read_text(encoding="utf-8")
     return app_of(text, {"spray": work, "dust": work})
+
+
+@pytest.mark.parametrize(
+    ("seed", "strikes", "weather"),
+    [
+        pytest.param(0, "land@4,crash@5", "", id="what is noted after an event is no part of it"),
+        pytest.param(0, "crash@4,land@5", "", id="a flight comes in the place of what hovers"),
+        pytest.param(14, "skip@10", "link=0.3,action=0.3", id="what goes along is begun once"),
+        pytest.param(
+            53,
+            "fall@8",
+            "crash=0.1,link=0.3,action=0.3,battery=0.3,hook=0.1,block=0.2,disk=0.02,down=5",
+            id="what goes along ends with its mission",
+        ),
+        pytest.param(
+            1085,
+            "land@5",
+            "action=0.1,battery=0.3,block=0.2,late=0.3,slow=0.05,radio=0.5,jump=-50,down=60",
+            id="a command that has not begun begins no more while all come down",
+        ),
+    ],
+)
+def test_what_was_found_of_events_is_right_now(seed: int, strikes: str, weather: str) -> None:
+    """With the missions that were drawn then."""
+    app = example("pursue")
+    fleet = load_fleet(EXAMPLES / "pursue" / "fleet.toml", app)
+    case = Case(
+        seed=seed,
+        missions=tuple(random_missions(app, fleet, seed)),
+        fleet=fleet,
+        weather=weather_of(weather) if weather else FAIR,
+        strikes=strikes_of(strikes),
+    )
+    assert tried(app, case).wrong == ()
