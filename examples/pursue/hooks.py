@@ -1,6 +1,8 @@
 """What patrols see, what is made of it, and what a broken bound sets free."""
 
-from pursue import (
+from __future__ import annotations
+
+from . import (
     Context,
     Drone,
     IntruderEvent,

@@ -14,7 +14,7 @@ from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.model import Mission
 from plutoc.check.model import Checked
 from plutoc.compile import analyse, planned
-from plutoc.emit.stubs import EXPORTS
+from plutoc.emit.stubs import exports_of
 from plutoc.source import Source
 from tests.equivalence.flows import Package, in_memory, packaged
 from tests.kit.apps import EXAMPLES
@@ -74,14 +74,15 @@ def _hooks(name: str, package: Package) -> ModuleType:
     path = EXAMPLES / name / "hooks.py"
     text = path.read_text(encoding="utf-8") if path.exists() else ""
 
+    homes = exports_of(checked(name).graph, former=False)
+
     def found(_: str, wanted: Sequence[str]) -> object:
-        return SimpleNamespace(**{one: _exported(one, package) for one in wanted})
+        return SimpleNamespace(**{one: _exported(one, homes[one], package) for one in wanted})
 
     return in_memory(f"{name}.hooks", compile(text, str(path), "exec"), found)
 
 
-def _exported(one: str, package: Package) -> object:
-    home = EXPORTS[one]
+def _exported(one: str, home: str, package: Package) -> object:
     if home.startswith("._runtime"):
         return getattr(import_module(home.replace("._runtime", "plutoc_runtime")), one)
     return getattr(package.model, one)
