@@ -66,7 +66,8 @@ def trip_of(record: Record, flight: Record | None) -> Record | None:
 
 def id_of(mission: str, flight: Mapping[str, Any]) -> str:
     """Return the id of a flight."""
-    return f"{mission}/{flight['trip']}/{flight['round']}/{flight['attempt']}"
+    again = f"+{flight['relieved']}" if flight.get("relieved") else ""
+    return f"{mission}/{flight['trip']}/{flight['round']}/{flight['attempt']}{again}"
 
 
 def unheard(record: Record) -> str | None:

@@ -194,8 +194,8 @@ class RecordedBrain:
 
     def _take(self, event: Event) -> None:
         self.recorder.take(event)
-        if event["event"] in ("trip.completed", "trip.failed"):
-            self.recorder.when_durable(partial(self._forget, id_of(str(event["mission"]), event)))
+        if event["event"] in ("trip.completed", "trip.failed", "trip.handed_over"):
+            self.recorder.when_durable(partial(self._forget, self._flight_before(event)))
         for listener in self._listeners:
             listener(event)
         if self._watcher is not None:
@@ -248,6 +248,16 @@ class RecordedBrain:
         else:
             failed = FlightFailed(Failure.REFUSED, "it was broken off")
             self.driver.tell({"failed": number, **result_data(failed)})
+
+    def _flight_before(self, event: Event) -> str:
+        """Return the id of the flight that an event ends, or hands over."""
+        mission = str(event["mission"])
+        record = self.records.missions.get(mission)
+        flight = None if record is None else record["flight"]
+        same = ("trip", "round", "attempt")
+        if flight is not None and all(flight[one] == event[one] for one in same):
+            return id_of(mission, flight)  # whichever drone has taken it over
+        return id_of(mission, event)
 
     def _forget(self, flight: str) -> None:
         """Have the gateway forget a flight: it is durable in the journal, or its id is used again."""

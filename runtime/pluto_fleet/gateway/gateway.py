@@ -71,8 +71,8 @@ class Line(Link):
         self._is_heard = gateway.descent is None
         self.under_way: dict[object, Task[Any]] = {}
         """The orders that are answered when they are done, by their ids."""
-        self._busy: dict[str, object] = {}
-        """The drones that carry one of those out, each with its id if another order may come in its place."""
+        self._busy: dict[str, Order] = {}
+        """Those that drones carry out, by drone."""
 
     def telemetry(self, drone: str) -> Telemetry:
         """Return a drone's telemetry, which is always current."""
@@ -102,7 +102,6 @@ class Line(Link):
     def fly(self, order: Order) -> None:
         """Give a drone its job; one that was done already is reported again, and not flown."""
         drone = order["drone"]
-        self._replace_what_waits(drone)
         if drone in self._busy:
             raise Busy(f"{drone} was told to fly while it does something for itself")
         self.gateway.jobs.fly(order, partial(self._reported, order["id"]))
@@ -126,7 +125,7 @@ class Line(Link):
             self._replace_what_waits(drone)
             if drone in self._busy or gateway.jobs.is_flown_by(drone):
                 raise Busy(f"{drone} was told to do something while it does something else")
-            self._busy[drone] = order["id"] if do in _WAITS else None
+            self._busy[drone] = order
             if do != "hold":
                 gateway.jobs.moves_on(drone)
         if do == "down":
@@ -138,9 +137,9 @@ class Line(Link):
 
     def _replace_what_waits(self, drone: str) -> None:
         """Call off that a drone hovers, or goes somewhere, for an order that comes in its place."""
-        number = self._busy.get(drone)
-        if number is not None and number in self.under_way:
-            self.under_way[number].cancel()
+        order = self._busy.get(drone)
+        if order is not None and order["do"] in _WAITS:
+            self.cancel({"order": order["id"]})
 
     def _ended(self, order: Order, task: Task[Any]) -> None:
         do = order["do"]
@@ -176,8 +175,8 @@ class Line(Link):
 
     def call_off_commands(self) -> None:
         """Call off what single drones were told to do: one that has not begun yet begins no more."""
-        for number in [number for number in self._busy.values() if number is not None]:
-            self.under_way[number].cancel()
+        for order in list(self._busy.values()):
+            self.cancel({"order": order["id"]})
 
     def _call_off(self) -> None:
         for task in list(self.under_way.values()):

@@ -108,6 +108,7 @@ class FlightRow(TypedDict):
     beside: Metres | None
     outcome: str | None
     heard: bool
+    relieved: NotRequired[int]
 
 
 class MissionRow(TypedDict):

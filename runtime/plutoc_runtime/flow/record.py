@@ -267,6 +267,8 @@ def _flight_row(flight: Flight) -> Data:
     row["since"] = flight.launched_at
     row["beside"] = flight.beside
     row["outcome"] = flight.result().value if flight.is_set else None
+    if flight.relieved:
+        row["relieved"] = flight.relieved
     return row
 
 
@@ -283,6 +285,7 @@ def _flight_of(
     for fact in _FLOWN:
         if fact in row:
             setattr(flight, fact, row[fact])
+    flight.relieved = row.get("relieved", 0)
     if row.get("beside") is not None:
         flight.beside = point_of(row["beside"])
     if row.get("outcome") is not None:
