@@ -117,7 +117,7 @@ async def flying(
     parameters: Mapping[str, float] | None = None,
 ) -> AsyncIterator[Flown]:
     """Begin a team, and close it at the end; no thread is left of it."""
-    before = threading.active_count()
+    before = set(threading.enumerate())
     flown = Flown(folder, drones or (FakeDrone(),), wanted, feeding, category, parameters)
     flown.team.begin()
     try:
@@ -126,7 +126,7 @@ async def flying(
         await flown.team.close()
         for drone in flown.drones.values():
             drone.clings.clear()
-    assert threading.active_count() == before
+    assert set(threading.enumerate()) <= before
     others = asyncio.all_tasks() - {asyncio.current_task()}
     clung = any(drone.clung for drone in flown.drones.values())
     assert clung or not others
