@@ -109,7 +109,7 @@ _FLOWN = ("round", "attempt", "retry", "begun", "heard")
 _PUT = ("status", "reason", "ended", "paused", "question", "held", "answer", "unfit")
 """What can change of a mission that does not fit the app; all else is kept as it is."""
 
-_LISTS = {"gone": TripStatus.SKIPPED, "done": TripStatus.COMPLETED, "todo": TripStatus.WAITING}
+_LISTS = {"gone": TripStatus.WAITING, "done": TripStatus.COMPLETED, "todo": TripStatus.WAITING}
 """The lists of a record, and the usual status of the trips in them."""
 
 

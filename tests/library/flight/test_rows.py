@@ -87,6 +87,7 @@ def test_a_brain_that_is_made_of_rows_stands_as_the_one_before_at_every_event(se
     living.at(5.0 + seed, lambda: living.life.control.pause("b"))
     living.at(20.0 + seed, lambda: living.life.control.go_on("b"))
     living.at(31.0, lambda: living.life.control.retire("cf3"))
+    living.at(33.0, lambda: living.life.control.skip("b"))
     living.crash(12.0 + 7 * seed)
     living.at(13.5 + 7 * seed, listen)
     living.kernel.run(living.done, 400.0)
