@@ -214,8 +214,8 @@ class HappeningRow(TypedDict):
     """An event that was raised, and what has come of it."""
 
     event: OccurrenceFacts
-    open: bool
-    made: NotRequired[str]
+    open: list[str]
+    made: NotRequired[list[str]]
     why: NotRequired[str]
 
 
