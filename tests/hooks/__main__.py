@@ -21,12 +21,8 @@ from pluto_fleet.app import App, described
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.flow import asking
-from pluto_fleet.trials.invariants import (
-    AttemptsCountUp,
-    Invariants,
-    NothingAfterTheEnd,
-    TripsDoNotOverlap,
-)
+from pluto_fleet.trials.invariants import Invariants
+from pluto_fleet.trials.rules import AttemptsCountUp, NothingAfterTheEnd, TripsDoNotOverlap
 from plutoc.compile import analyse, planned
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source

@@ -14,7 +14,8 @@ from typing import Any
 from pluto_fleet.journal.place import gateway_folder
 from pluto_fleet.journal.standing import Standing
 from pluto_fleet.report.sentences import line_of
-from pluto_fleet.trials.invariants import Invariants, PromisesAreKept
+from pluto_fleet.trials.invariants import Invariants
+from pluto_fleet.trials.time_rules import PromisesAreKept
 from tests.kill.painter import painted
 
 Event = dict[str, Any]

@@ -38,7 +38,8 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.fleet.policies import Policy, nearest
 from pluto_fleet.shared.flow.run import Run
-from pluto_fleet.trials.invariants import Items, items_of
+from pluto_fleet.trials.drone_rules import Items
+from pluto_fleet.trials.invariants import items_of
 from plutoc.cli import main
 from plutoc_blocks.clock.step import wait_for_time
 from plutoc_blocks.drone_allocator.step import allocate_drone

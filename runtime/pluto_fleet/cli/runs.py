@@ -21,14 +21,15 @@ from ..shared.domain.errors import BadInput
 from ..shared.domain.status import COMPLETED
 from ..shared.domain.text import counted, duration, number, percent, printable
 from ..shared.domain.trace import dumped
-from ..trials.invariants import ENDS, Invariants, items_of
+from ..trials.invariants import Invariants, items_of
+from ..trials.rules import ENDS
 from .written import drawing, kind_of, write
 
 if TYPE_CHECKING:
     from ..app import App
     from ..flight.outcome import SimulationResult
     from ..report.terminal import Progress
-    from ..trials.invariants import Items
+    from ..trials.drone_rules import Items
     from .options import Options
     from .plans import LoadedPlan
 

@@ -17,7 +17,8 @@ from ..shared.alone.simulate import Bound, Enough
 from ..shared.domain.trace import Event
 from ..shared.events.parts import FollowDeclared
 from .case import BrokenHook, Case
-from .invariants import ENDS, Invariants, at, items_of
+from .invariants import Invariants, items_of
+from .rules import ENDS, at
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -16,7 +16,7 @@ from pluto_fleet.cli import runs
 from pluto_fleet.cli.runs import run_of
 from pluto_fleet.flight.outcome import SimulationResult
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.trials.invariants import Items
+from pluto_fleet.trials.drone_rules import Items
 from tests.library.cli.conftest import Command
 from tests.library.cli.test_simulate import with_pollinate
 

@@ -8,24 +8,19 @@ from functools import partial
 import pytest
 
 from pluto_fleet.shared.domain.trace import Event
-from pluto_fleet.trials.invariants import (
-    RULES,
+from pluto_fleet.trials.drone_rules import ItemsStayAboard, ServesOneMission, StaysDown
+from pluto_fleet.trials.invariants import RULES, Invariants, violations
+from pluto_fleet.trials.rules import (
     AttemptsCountUp,
     CompletedDidEverything,
-    DelaysAreWaited,
     EndsOnce,
-    Invariants,
-    ItemsStayAboard,
     LimitsAreKept,
     NothingAfterTheEnd,
-    PromisesAreKept,
     Rule,
     Say,
-    ServesOneMission,
-    StaysDown,
     TripsDoNotOverlap,
-    violations,
 )
+from pluto_fleet.trials.time_rules import DelaysAreWaited, PromisesAreKept
 
 Trace = Sequence[Event]
 Events = list[dict[str, object]]

@@ -22,7 +22,7 @@ from pluto_fleet.trials import explore, invariants
 from pluto_fleet.trials.command import Options, report
 from pluto_fleet.trials.command import test as trial
 from pluto_fleet.trials.explore import MistakeKinds, Tally, small_case
-from pluto_fleet.trials.invariants import Say, at
+from pluto_fleet.trials.rules import Say, at
 from tests.trials.examples import app_of
 from tests.trials.mutants import a_drone_is_free_in_flight
 from tests.trials.strangers import random_app
