@@ -134,7 +134,8 @@ def measure(given: argparse.Namespace, say: Callable[[str], None]) -> Numbers:
             if gateway is not None:
                 tell({"gateway, %": share(lambda: seconds_of(gateway), given.seconds)})
             with browser() as found:
-                before, begun = server.kept, time.perf_counter()
+                before = server.kept
+                begun = time.perf_counter()
                 tell(watched(server, found, given.tabs, given.seconds))
                 hourly = (server.kept - before) / (time.perf_counter() - begun) * 3600
                 tell({"journal, watched, MB an hour": hourly})

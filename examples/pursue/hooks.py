@@ -15,7 +15,7 @@ from . import (
 LOOKS = 0.25
 """Seconds from one look to the next."""
 BOUND = 5.0
-"""Seconds from when somebody is seen to the picture."""
+"""Seconds from when an intruder is seen to the picture."""
 STAYS = 30.0
 """Seconds for which a drone stays with whom it has a picture of."""
 URGENT = 10
@@ -40,7 +40,7 @@ async def look(drone: Drone, trip: Trip, context: Context) -> None:
 def chase(event: IntruderEvent, context: Context) -> Mission | None:
     """Take a picture of an intruder, within the bound."""
     if event.at is None or event.track is None:
-        return None  # nobody knows where
+        return None  # its place is not known
     picture = Trip(
         name="picture", action="take_photo", target=event.at, track=event.track, priority=URGENT
     )

@@ -8,7 +8,8 @@ from pursue.testing import Clock, Kit, KitContext
 
 def test_who_is_seen_is_said(kit: Kit, clock: Clock, context: KitContext) -> None:
     context.see("t7", kind="person", at=(3.0, 4.0, 0.0))
-    drone, trip = kit.drone("scout"), kit.trip("take_photo")
+    drone = kit.drone("scout")
+    trip = kit.trip("take_photo")
     call = kit.start(hooks.look, drone, trip, context)
     clock.advance(hooks.LOOKS)
     event, facts = context.emitted[0]

@@ -36,7 +36,8 @@ def _declared(both: Both) -> Iterator[Change]:
 
 def _sources(both: Both) -> Iterator[Change]:
     """Tell of events that lead elsewhere."""
-    old, new = both.old.graph, both.new.graph
+    old = both.old.graph
+    new = both.new.graph
     for event in dict.fromkeys((*old.sources[1:], *new.sources[1:])):
         before = both.old.known(edge.target for edge in old.outgoing.get(event, ()))
         after = both.new.known(edge.target for edge in new.outgoing.get(event, ()))
@@ -46,7 +47,8 @@ def _sources(both: Both) -> Iterator[Change]:
 
 def _broken_off(both: Both) -> Iterator[Change]:
     """Tell which events break flights off that did not, and of those that do no more."""
-    before, after = _interrupting(both.old), _interrupting(both.new)
+    before = _interrupting(both.old)
+    after = _interrupting(both.new)
     for key, node in after.items():
         if key not in before:
             yield messages.interrupt_of_one(node, is_new=True)
@@ -66,7 +68,8 @@ def _interrupting(side: Side) -> dict[tuple[str | None, tuple[str, ...]], Node]:
 
 def _along(both: Both) -> Iterator[Change]:
     """Tell what can be done on the way now, and what no more; of an action of both apps alone."""
-    old, new = both.old.graph, both.new.graph
+    old = both.old.graph
+    new = both.new.graph
     kept = dict(both.hooks)
     before = {kept.get(name, name) for name in old.along}
     of_old = {kept.get(action.name, action.name) for action in old.actions}

@@ -31,7 +31,7 @@ from plutoc.graph.model import AppField, Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.own_fields import OwnField
 from plutoc_runtime.domain.quantities import Type
-from plutoc_runtime.events.parts import TRIP_FIELDS, AlongField, TrackField
+from plutoc_runtime.events.declared import TRIP_FIELDS, AlongField, TrackField
 
 PYTHON: dict[FieldType, str] = {
     FieldType.TIME: "float | None",
@@ -101,9 +101,9 @@ def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     if any(isinstance(field.type, FieldType) for field in fields):
         imports += names("._runtime.domain.fields", "FieldType")
     if any(isinstance(field, AlongField) for field in fields):
-        imports += names("._runtime.events.parts", "Along", "AlongField")
+        imports += names("._runtime.events.declared", "Along", "AlongField")
     if any(isinstance(field, TrackField) for field in fields):
-        imports += names("._runtime.events.parts", "TrackField")
+        imports += names("._runtime.events.declared", "TrackField")
         imports += names("._runtime.domain.quantities", "Type")
     if any(isinstance(field, OwnField) for field in fields):
         imports += names("._runtime.domain.own_fields", "OwnField")

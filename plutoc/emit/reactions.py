@@ -156,7 +156,7 @@ def parts_imports(graph: Graph, written: str) -> list[Import]:
     if "Creator(" in written:
         imports += names(HOME, "Creator")
     if "AlongAction(" in written:
-        imports += names("._runtime.events.parts", "AlongAction")
+        imports += names("._runtime.events.declared", "AlongAction")
     if graph.follows:
         imports += names("._runtime.events.follow", "FOLLOW")
     return imports

@@ -197,7 +197,8 @@ class Node:
     @property
     def handed(self) -> Iterator[AnyParam]:
         """The parameters that its step gets."""
-        values, free = dict(self.values), {one.param for one in self.block.given}
+        values = dict(self.values)
+        free = {one.param for one in self.block.given}
         for param in self.block.params:
             left = isinstance(param, Param) and param.name in free and values[param.name] is None
             if not left and not (isinstance(param, HookParam) and not param.handed):

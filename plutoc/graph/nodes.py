@@ -165,7 +165,8 @@ def _event(
         return None
     name = _name(place, argument.value)
     if name is None:
-        example, mended = f"{param.name}: {known[0]}", _unquoted(argument, known)
+        example = f"{param.name}: {known[0]}"
+        mended = _unquoted(argument, known)
         span = argument.value.span
         place.found.append(
             value_errors.wrong_type(

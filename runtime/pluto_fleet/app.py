@@ -23,18 +23,19 @@ from .shared.domain.fields import Entity, Field, FieldType
 from .shared.domain.model import Category, Mission, Trip
 from .shared.domain.own_fields import OwnField
 from .shared.domain.quantities import Type
-from .shared.events.declared import Creator, EventType
-from .shared.events.part import PartOf
-from .shared.events.parts import (
+from .shared.events.declared import (
     FOLLOWING,
     AlongAction,
     AlongField,
     CompanyDeclared,
+    Creator,
     EventsDeclared,
+    EventType,
     FollowDeclared,
     TrackField,
     TracksDeclared,
 )
+from .shared.events.part import PartOf
 
 if TYPE_CHECKING:
     from .shared.brain import Brain

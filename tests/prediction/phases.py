@@ -94,7 +94,8 @@ class Craft:
 
 async def measured(drones: int, times: int) -> dict[str, list[float]]:
     """Return the seconds of each phase besides what was planned."""
-    log, folder = FlightLog(), Path(mkdtemp(prefix="phases-"))
+    log = FlightLog()
+    folder = Path(mkdtemp(prefix="phases-"))
     homes = [(1.0, 4.0 * place, 0.0) for place in range(drones)]
     builds = [
         Build(id=f"cf{place}", home=home, seed=place, flight=ENDURING)

@@ -46,7 +46,8 @@ def event_app(rng: Random) -> App:
 def _with_events(app: App, rng: Random) -> App:
     """Return an app whose limits are events now and then, and whose missions are made of one, too."""
     blocks = tuple(_reacting(block, rng) for block in app.blocks)
-    rest, arrows = ("event smoke", *app.rest), app.arrows
+    rest = ("event smoke", *app.rest)
+    arrows = app.arrows
     makers = {block.name for block in blocks if block.kind == "MissionCreator"}
     begun = [arrow for arrow in arrows if arrow.source in makers]
     if begun and rng.random() < 0.7:

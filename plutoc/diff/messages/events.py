@@ -53,7 +53,8 @@ def _spans(one: Event) -> tuple[Span, ...]:
 
 def leads_elsewhere(both: Both, event: str) -> Change:
     """Missions are made of an event, or are no more, or begin elsewhere."""
-    old, new = both.old.graph, both.new.graph
+    old = both.old.graph
+    new = both.new.graph
     was = [edge.target for edge in old.outgoing.get(event, ())]
     now = [edge.target for edge in new.outgoing.get(event, ())]
     if not was:

@@ -92,7 +92,8 @@ def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
     """Return the parameters that cannot be found, with what they count as."""
     known: dict[str, float] = {}
     for name, (kind, called) in _FROM.items():
-        count, least = sum(one.what == kind for one in moves), SPARE if kind == LEG else 3
+        count = sum(one.what == kind for one in moves)
+        least = SPARE if kind == LEG else 3
         if count < least:
             what.untold[name] = too_few(count, called, least)
             known[name] = getattr(what.model, name) if kind == LEG else 0.0
@@ -172,7 +173,8 @@ def _differs(residuals: Sequence[float], fit: Fit, groups: int) -> str:
     """Return by how much some commands are off on average, if that is more than chance."""
     if not residuals:
         return ""
-    spare, deviation = fit.spread.spare, fit.spread.value
+    spare = fit.spread.spare
+    deviation = fit.spread.value
     error = student(1 - CHANCE / 2 / groups, spare) * deviation / sqrt(len(residuals))
     mean = fmean(residuals)
     if abs(mean) <= error:
@@ -207,7 +209,8 @@ STEP = 1e-5
 """What the batteries of a journal are rounded to."""
 LITTLE = 0.01
 """How far off a flight, as a share of a battery, is never left out."""
-FULL, CHARGED = 0.985, 0.02
+FULL = 0.985
+CHARGED = 0.02
 """Shares of a battery: one that is full does not tell when it was; what must have been charged."""
 BESIDE = 0.3
 """Metres from where it landed, up to which a drone counts as not carried elsewhere."""
@@ -262,7 +265,8 @@ def _charges(run: Sequence[Command], taper: float) -> Iterator[tuple[float, floa
         for down, up in pairwise(commands):
             if (down.what, down.ended, up.what) != (LAND, DONE, TAKE_OFF) or up.charge_time <= 0:
                 continue
-            level, after = down.battery[1], up.battery[0]
+            level = down.battery[1]
+            after = up.battery[0]
             if after > FULL or after - level < CHARGED or dist(down.end, up.start) > BESIDE:
                 continue
             yield charging(level, after, up.charge_time, taper), up.began - down.ended_at
@@ -307,7 +311,8 @@ def find_own_actions(what: Calibration, journals: Sequence[Flights]) -> None:
 
 def _planned(name: str, plan: Mapping[str, Any]) -> Action:
     """Return the action, as far as it says how long it takes."""
-    parameter, seconds = plan.get("parameter"), plan["seconds"]
+    parameter = plan.get("parameter")
+    seconds = plan["seconds"]
     if parameter is None:
         return Action(name=name, takes=seconds)
     declared = Parameter(name=parameter, type=Type.TIME, default=seconds)

@@ -321,7 +321,10 @@ def _home(answer: DroneAnswer, airspace: Airspace, taken: list[Corner]) -> str:
 # Asking them
 
 
-CONNECT_WITHIN, ANSWER_WITHIN, CLOSE_WITHIN, SCAN_WITHIN = 15.0, 12.0, 10.0, 90.0
+CONNECT_WITHIN = 15.0
+ANSWER_WITHIN = 12.0
+CLOSE_WITHIN = 10.0
+SCAN_WITHIN = 90.0
 """Time-outs in seconds."""
 
 LOST = "it does not tell where it is"

@@ -185,7 +185,8 @@ async def disarm(session: CrazyflieSession) -> None:
 
 async def _armed(session: CrazyflieSession) -> bool:
     """Arm it as soon as possible, unless it arms automatically, and verify that."""
-    at, end = session.well(), session.loop.time() + _READY
+    at = session.well()
+    end = session.loop.time() + _READY
 
     def ready(now: State) -> bool:
         return _is_back(at, now) or (now.can_arm and not now.armed)
@@ -243,9 +244,11 @@ async def recover_from_crash(session: CrazyflieSession) -> None:
         )
 
 
-_STOPS, _EACH = 5, 0.2
+_STOPS = 5
+_EACH = 0.2
 """How often it is sent, and the seconds to wait for its effect each time."""
-_OLD_CHANNEL, _OLD_STOP = 1, b"\3"
+_OLD_CHANNEL = 1
+_OLD_STOP = b"\3"
 
 
 async def stop_motors(session: CrazyflieSession) -> None:

@@ -38,10 +38,12 @@ With beacons as noisy as UWB (0.15 m) that took up to 4.6 s in 400 simulated tra
 REST = 0.15
 """Metres per second below which it hovers: wind and noise make it sway."""
 
-_AHEAD, _BRAKE = 0.2, 3.6
+_AHEAD = 0.2
+_BRAKE = 3.6
 """The share of its braking distance at which to hover, as it cannot stop at once; and its deceleration, from
 one metre per second in one second."""
-_SOON, _RECENT = 0.05, 0.5
+_SOON = 0.05
+_RECENT = 0.5
 """Seconds between two states, by the drone's clock, from which a speed can be computed."""
 _LOOK = 0.3
 """Seconds for which it must hover, as an estimate is noisy."""
@@ -79,7 +81,8 @@ def braking(before: State | None, state: State) -> tuple[Point, float]:
 
     That is never far away, even if its telemetry is wrong; if unknown, it is its present position.
     """
-    target, seconds = state.position, SHORTEST
+    target = state.position
+    seconds = SHORTEST
     passed = 0.0 if before is None else state.since(before)
     if before is not None and _SOON <= passed <= _RECENT:
         speed = state.distance(before.position) / passed
@@ -111,7 +114,8 @@ class SpeedLimits:
     def seconds(self, start: Point, target: Point, speed: float) -> float:
         """Return the shortest duration of a trajectory that it can follow, below a maximum speed."""
         x, y, z = self.limits  # the first two are along its nose and across, wherever that points
-        across, up = dist(start[:2], target[:2]), abs(target[2] - start[2])
+        across = dist(start[:2], target[:2])
+        up = abs(target[2] - start[2])
         followed = PEAK * max(across / min(x, y), up / z)
         return max(shortest_duration(dist(start, target), speed), followed)
 

@@ -194,9 +194,11 @@ class PositionConfidence:
         return bool(self._told) and self._told[-1][0] - self._told[0][0] >= SETTLED_FOR
 
 
-_LEAST, _MOST = 0.05, 0.6
+_LEAST = 0.05
+_MOST = 0.6
 """The bounds of the voltage drop of hovering, which is the usual one until it is measured."""
-_SETTLED, _MEASURED = 1.0, 3.0
+_SETTLED = 1.0
+_MEASURED = 3.0
 """Seconds after take-off, between which the drop is measured."""
 _SMOOTH = 1.0
 """Seconds over which the voltage in the air is averaged."""
@@ -218,7 +220,8 @@ class BatteryGauge:
         """From 0 to 1."""
         self.rest: float | None = None
         """The last voltage of a cell without load; None: not measured yet."""
-        self._sag, self._sags = SAG, list[float]()
+        self._sag = SAG
+        self._sags = list[float]()
         self._smooth: float | None = None
         self._time = self._since = 0.0
         self._flew = False
@@ -231,13 +234,18 @@ class BatteryGauge:
         volts = self.cell(state)
         if not volts > 0.0:
             return
-        passed, self._time = state.time - self._time, state.time
+        passed = state.time - self._time
+        self._time = state.time
         if not state.flies:
-            self.rest, self._flew, self._smooth = volts, False, None
+            self.rest = volts
+            self._flew = False
+            self._smooth = None
             self.level = level_at(volts)
             return
         if not self._flew:
-            self._flew, self._since, self._sags = True, state.time, []
+            self._flew = True
+            self._since = state.time
+            self._sags = []
         if self._smooth is None:
             self._smooth = volts
         share = min(1.0, passed / _SMOOTH)
@@ -279,7 +287,8 @@ class AlarmDetector:
             if state.deck_failed:
                 why = f"one of its decks reports a fault, and {why}"
             yield DroneEvent(kind=LOCKED, reason=why)
-        self._crashed, self._locked = state.crashed, state.locked
+        self._crashed = state.crashed
+        self._locked = state.locked
         if self._battery_low(state):
             yield DroneEvent(kind=BATTERY_LOW, reason=f"its battery is down to {state.volts:.2f} V")
 

@@ -41,7 +41,8 @@ class CarriedBody(Body):
     ) -> None:
         """`shuts_down`: whether its build switches it off before it is empty."""
         super().__init__(id, home, category, world, clock)
-        self._cells, self._shuts_down = cells, shuts_down
+        self._cells = cells
+        self._shuts_down = shuts_down
         self._low = False
         self._below_low = self._below_empty = 0.0
 

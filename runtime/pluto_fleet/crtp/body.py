@@ -34,9 +34,12 @@ from typing import NamedTuple
 
 from .flight_log import Point
 
-NOISE, RATE = 0.01, 100.0
+NOISE = 0.01
+RATE = 100.0
 """The noise of fixes in metres, and their rate per second."""
-_LEAST, _PER_NOISE, _PER_GAP = 0.00022, 0.018, 0.004
+_LEAST = 0.00022
+_PER_NOISE = 0.018
+_PER_GAP = 0.004
 """Square metres: at best, for each metre of noise, for each second between fixes."""
 _GROWS = 2.5 / 11.0**2
 """Square metres of variance, and metres of error, after a second without a fix."""

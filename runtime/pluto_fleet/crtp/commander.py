@@ -20,13 +20,15 @@ from .packets import Errno, Port
 
 _HYSTERESIS = 2.0
 """Seconds after the motors have stopped within which it still counts as flying."""
-LANDED, _UNUSED = 3.0, 30.0
+LANDED = 3.0
+_UNUSED = 30.0
 """Seconds after which an armed drone is disarmed: after a landing, or without a take-off."""
 _RESETS = 0.12
 """Seconds after a disarming within which it cannot be armed: three cycles of its supervisor."""
 _NOTICES = 0.05
 """Seconds until it notices turning motors: a take-off just before the disarming is cancelled."""
-_LEVEL, _LOCK = 0.5, 2.0
+_LEVEL = 0.5
+_LOCK = 2.0
 """Seconds without a new low-level setpoint, after which it levels out, and then locks."""
 _FED = 1.0
 """The time-out of the emergency watchdog, once it was fed, in seconds."""
@@ -72,7 +74,9 @@ class Supervisor:
         if on and not self.armed:
             if not self.can_arm:
                 return False
-            self.armed, self._armed_at, self._thrust_at = True, now, _NEVER
+            self.armed = True
+            self._armed_at = now
+            self._thrust_at = _NEVER
         elif not on and self.armed:
             if self.flying:
                 return False
@@ -81,7 +85,9 @@ class Supervisor:
 
     def _reset(self, now: float) -> None:
         """Disarm it; for a moment it cannot be armed."""
-        self.armed, self._resets, self._resets_until = False, True, now + _RESETS
+        self.armed = False
+        self._resets = True
+        self._resets_until = now + _RESETS
 
     def recover(self) -> bool:
         """Leave the crashed state, if it stands upright; return whether that was done."""
@@ -90,7 +96,8 @@ class Supervisor:
         return not self.crashed
 
     def lock(self) -> None:
-        self.locked, self.armed = True, False
+        self.locked = True
+        self.armed = False
 
     def restart(self) -> None:
         self.armed = self.locked = self.crashed = self.flying = False
@@ -106,7 +113,9 @@ class Supervisor:
         self.tumbled = tumbled
         self.flying = now - self._thrust_at < _HYSTERESIS and not (self.locked or self.crashed)
         if tumbled and (self.flying or self.armed):
-            self.crashed, self.armed, self.flying = True, False, False
+            self.crashed = True
+            self.armed = False
+            self.flying = False
         self._watch(now)
         self._resets = self._resets and now < self._resets_until
         if self.armed and not self.flying:

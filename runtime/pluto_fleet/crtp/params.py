@@ -13,7 +13,8 @@ from .packets import TABLE_CHANNEL, Errno, Port, TableOfContents, packed
 _TYPES = {"b": 0x00, "h": 0x01, "i": 0x02, "f": 0x06, "B": 0x08, "H": 0x09, "L": 0x0A}
 _EXTENDED, _READ_ONLY = 0x10, 0x40
 _READ, _WRITE, _MISC = 1, 2, 3
-_EXTENDED_TYPE, _EXTENDED_TYPE_V2 = 2, 7
+_EXTENDED_TYPE = 2
+_EXTENDED_TYPE_V2 = 7
 """The commands of the miscellaneous channel that cflib sends as it connects."""
 _PERSISTENT = 1
 """The only extended type."""

@@ -51,7 +51,8 @@ class Team:
         feeding: LocalizationFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._kernel, self._real = kernel, real
+        self._kernel = kernel
+        self._real = real
         self._cargo, self._feed = Cargo(folder, say), feeding
         self._say, self._clock, self._folder = say, clock, folder
         self.vehicles: dict[str, Vehicle] = {}

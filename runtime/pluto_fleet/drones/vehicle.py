@@ -65,7 +65,8 @@ class CommandQueue:
                 raise
             finally:
                 over.cancel()
-                self._over, self.doing = None, ""
+                self._over = None
+                self.doing = ""
 
     def fail(self, error: FlightFailed) -> None:
         """Abort the command in progress, if any: it raises this."""
@@ -171,7 +172,9 @@ class Vehicle:
         parameters: Mapping[str, float] | None = None,
     ) -> None:
         """`parameters`: what it is set to when it is connected to."""
-        self.drone, self.id, self.navigation = drone, drone.id, navigation
+        self.drone = drone
+        self.id = drone.id
+        self.navigation = navigation
         self.parameters = parameters or {}
         self.position_problem: Callable[[], str | None] = lambda: None
         """Returns why it has no position from its localization, if it needs one."""

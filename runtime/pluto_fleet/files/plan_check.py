@@ -289,7 +289,8 @@ def impossible(
         missions = [replace(m, promises=kept_from(m.promises, hours)) for m in missions]
     named = {one.name: one for one in missions}
     order = TopologicalSorter({one.name: one.promises.get("after", ()) for one in missions})
-    found, ends = [*_in_vain(missions, app)], dict[str, float]()
+    found = [*_in_vain(missions, app)]
+    ends = dict[str, float]()
     for name in order.static_order():
         if name in named:
             late = _too_late(named[name], flights[name], ends)
@@ -339,7 +340,8 @@ def _too_late(
 
 def _window(promises: Mapping[str, Any]) -> float | None:
     """Return how long a window lasts; None: it is none."""
-    opens, due = promises.get("opens"), promises.get("deadline")
+    opens = promises.get("opens")
+    due = promises.get("deadline")
     if isinstance(opens, str) and isinstance(due, str):
         return (time_of_day(due) - time_of_day(opens)) % DAY
     return due - opens if isinstance(opens, float) and isinstance(due, float) else None
@@ -347,7 +349,8 @@ def _window(promises: Mapping[str, Any]) -> float | None:
 
 def _moments(promises: Mapping[str, Any]) -> tuple[float, float | None]:
     """Return from when to when a mission may fly, as far as that does not depend on the time of day."""
-    opens, due = promises.get("opens", 0.0), promises.get("deadline")
+    opens = promises.get("opens", 0.0)
+    due = promises.get("deadline")
     if isinstance(opens, str) or isinstance(due, str):
         return 0.0, None
     return opens, due
@@ -380,7 +383,8 @@ class _Bounds:
     """The least that flights of an app take with a fleet."""
 
     def __init__(self, app: App, fleet: FleetFile) -> None:
-        self._app, self._fleet = app, fleet
+        self._app = app
+        self._fleet = fleet
         self._homes: list[tuple[Category, list[Point]]] = []
         for kind in app.categories:
             homes = [one.home for one in fleet.drones if one.category == kind.name]
@@ -392,7 +396,8 @@ class _Bounds:
         goes_home = self._fleet.after_trip is AfterTrip.HOME
         below = chain[0].source or chain[0].target
         least = partial(min, default=0.0)
-        done, again = list[float](), list[float]()
+        done = list[float]()
+        again = list[float]()
         for length in range(1, len(chain) + 1):
             part = chain[:length]
             done.append(

@@ -60,7 +60,8 @@ def fleet_text(fleet: FleetFile) -> str:
 
 def motion_data(motion: Motion) -> dict[str, Any]:
     """Return the `[motion]` of a fleet file: what differs from its defaults."""
-    data, usual = asdict(motion), asdict(motion_of({"legs": motion.legs}))
+    data = asdict(motion)
+    usual = asdict(motion_of({"legs": motion.legs}))
     usual["legs"] = CRAZYFLIE_MOTION.legs
     return {key: data[key] for key in MOTION if data[key] != usual[key]}
 

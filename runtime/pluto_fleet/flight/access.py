@@ -29,7 +29,8 @@ class GatewayAccess:
 
     def __init__(self, flight: FlightSetup, records: Sequence[Mapping[str, Any]] = ()) -> None:
         """`records` are the missions of an earlier run, whose actions the drones must be capable of, too."""
-        self._flight, self._records = flight, records
+        self._flight = flight
+        self._records = records
         self._folder = gateway_folder(flight.journal)
 
     async def link(

@@ -16,7 +16,7 @@ from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
-from ..shared.events.parts import EventsDeclared
+from ..shared.events.declared import EventsDeclared
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
 from .mishaps import Mishaps

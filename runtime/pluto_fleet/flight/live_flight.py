@@ -75,7 +75,9 @@ class LiveFlight:
         begin: float,
     ) -> None:
         """`begin` is the time in the flight at which this run begins."""
-        self._flight, self._observer, self._access = flight, observer, access
+        self._flight = flight
+        self._observer = observer
+        self._access = access
         self._store = store
         self._loop = asyncio.get_running_loop()
         self._kernel = RealTime(flight.speed, begin)
@@ -98,7 +100,8 @@ class LiveFlight:
 
     async def live(self, stops: Stops) -> FlightResult:
         """Run until all missions have ended, it is stopped, or the gateway dies."""
-        flight, kernel = self._flight, self._kernel
+        flight = self._flight
+        kernel = self._kernel
         self._stops = stops
         lost = partial(self._end.set, End.LOST)
         fleet = with_joined(flight.app, flight.fleet, self._records.joined)
@@ -120,7 +123,8 @@ class LiveFlight:
         )
         life.driver.drift = self._drifted
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
-        life.patient, life.carried_home = self._observer.patient, flight.sim
+        life.patient = self._observer.patient
+        life.carried_home = flight.sim
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with hear_commands(commands_note(flight.journal), self.answer):

@@ -46,7 +46,7 @@ def _nothing() -> None:
 
 
 def _ignore(_: str) -> None:
-    """Does nothing: nobody wants to know of arrivals."""
+    """Does nothing: no caller follows arrivals."""
 
 
 class Executor:

@@ -227,7 +227,7 @@ class Gateway:
         self.rehearse: Rehearse | None = None
         """Has mishaps happen to simulated drones; None: they are real."""
         self.tracker: Callable[[], Mapping[str, Any]] | None = None
-        """Says where things are that move; None: nobody knows of any."""
+        """Says where things are that move; None: none is tracked."""
         self._looks = False
         """Whether it is looked at them."""
         self.traffic: Traffic | None = None

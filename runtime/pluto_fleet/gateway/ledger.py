@@ -128,7 +128,8 @@ class CutMotors:
     """
 
     def __init__(self, ledger: Ledger | None, flies: Callable[[str], bool]) -> None:
-        self._ledger, self._flies = ledger, flies
+        self._ledger = ledger
+        self._flies = flies
         self._cut = dict.fromkeys(() if ledger is None else ledger.cut, False)
         """By drone: whether its motors were cut by this gateway, and not by an earlier one."""
 

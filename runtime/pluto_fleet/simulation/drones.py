@@ -129,7 +129,9 @@ class SimulatedBody(Body):
 
     def reboot(self) -> None:
         """Restart it: it forgets what it has done."""
-        self.boot, self.done, self.settings = self.boot + 1, {}, {}
+        self.boot = self.boot + 1
+        self.done = {}
+        self.settings = {}
 
     def unload(self) -> None:
         self.carries = None
@@ -173,7 +175,8 @@ class SimulatedBody(Body):
 
         What it was told to do, it does to the end, and then it hovers.
         """
-        self.boot, self.carries = data["boot"], item_of(data["carries"])
+        self.boot = data["boot"]
+        self.carries = item_of(data["carries"])
         self.down = None
         self.reachable_at = data["reachable_at"] + shift
         if data["down"] is not None:
@@ -185,10 +188,12 @@ class SimulatedBody(Body):
         level, since, rate = data["charge"]
         self._charge = Charge(level, since + shift, rate, self.motion.taper)
         start, end, leaves, arrives = data["leg"]
-        leaves, arrives = leaves + shift, arrives + shift
+        leaves = leaves + shift
+        arrives = arrives + shift
         self._legs = [Leg(point_of(start), point_of(end), leaves, arrives, self.motion.smooth)]
         self._lands_at = data["lands_at"] + shift
-        self._landed, self._flown = data["landed"], data["flown"]
+        self._landed = data["landed"]
+        self._flown = data["flown"]
         self._look_ahead()
 
 

@@ -21,7 +21,8 @@ from .question import LATE, Question, swapping
 from .search import Search
 from .tries import Rule, Tally, Tries, Watch, flown
 
-RUNS, MOST_RUNS = 40, 300
+RUNS = 40
+MOST_RUNS = 300
 """Runs in which a change is tried: as many as it took to refuse the fleet, within these bounds."""
 
 AT_ONCE = 1.0
@@ -44,7 +45,8 @@ class Causes:
     """Looks for what keeps the largest fleets from succeeding."""
 
     def __init__(self, tries: Tries) -> None:
-        self._tries, self._question = tries, tries.question
+        self._tries = tries
+        self._question = tries.question
 
     def late_alone(self, counts: Counts) -> bool:
         """Return whether a mission takes too long that has a whole fleet for itself.
@@ -80,7 +82,8 @@ class Causes:
 
     def _too_long(self, mission: str, fleet: FleetFile, runs: int) -> float | None:
         """Return how long a mission takes with this fleet for itself, if that is always too long."""
-        within, tries = self._question.within, self._tries
+        within = self._question.within
+        tries = self._tries
         if within is None:
             return None
         alone = self._question.alone(mission)
@@ -97,7 +100,8 @@ class Causes:
         return Cause("alone", text)
 
     def _changes(self, best: Tally) -> Iterator[Cause]:
-        question, fleet = self._question, self._fleet(best)
+        question = self._question
+        fleet = self._fleet(best)
         drones = counted(best.drones, "drone")
         if question.faults != Faults():
             calm = replace(question, faults=Faults())
@@ -134,10 +138,12 @@ class Causes:
 
     def _more(self, best: Tally) -> Iterator[Cause]:
         """Yield what more runs may change."""
-        tallies, rate = self._tries.tallies.values(), best.succeeded / len(best.runs)
+        tallies = self._tries.tallies.values()
+        rate = best.succeeded / len(best.runs)
         equal = (one for one in tallies if one.succeeded / len(one.runs) == rate)
         best = min(equal, key=lambda one: one.drones)
-        rule, (low, high) = self._tries.rule, best.bounds
+        rule = self._tries.rule
+        low, high = best.bounds
         if high >= rule.confidence:
             text = (
                 f"{counted(best.drones, 'drone')} may be enough, at {percent_of(low)} to"
@@ -152,7 +158,8 @@ class Causes:
 
     def _holds(self, question: Question, fleet: FleetFile) -> bool:
         """Return whether a change makes the runs succeed, and not only luck: with the same seeds as before."""
-        rule, best = self._tries.rule, self._best
+        rule = self._tries.rule
+        best = self._best
         most = max(RUNS, min(len(best.runs), MOST_RUNS))
         tally = Tally(counts=())
         for run in flown(question, fleet, self._tries.seed, 0, most, self._tries.jobs):

@@ -22,7 +22,8 @@ from ..shared.domain.text import number
 from .fleets import Counts, Stock
 from .question import Question, Run
 
-SURE, SURER = 0.95, 0.99
+SURE = 0.95
+SURER = 0.99
 """The confidence level of a bound after all runs, and of one before that."""
 
 FIRST_LOOK = 20
@@ -44,7 +45,8 @@ def upper(runs: int, failed: int, sure: float = SURE) -> float:
 def _wilson(runs: int, failed: int, z: float) -> float:
     if not runs:
         return 0.0 if z < 0 else 1.0
-    share, square = 1 - failed / runs, z * z / runs
+    share = 1 - failed / runs
+    square = z * z / runs
     middle = share + square / 2
     half = z * sqrt((share * (1 - share) + square / 4) / runs)
     return min(1.0, max(0.0, (middle + half) / (1 + square)))

@@ -61,7 +61,9 @@ def of_drones(drones: Iterable[DroneRow], crashed: Collection[str]) -> Iterator[
     for row in drones:
         if row["status"] != "LOST":
             continue
-        fell, id, why = row["id"] in crashed, row["id"], row["why"]
+        fell = row["id"] in crashed
+        id = row["id"]
+        why = row["why"]
         text = f"{id} {'crashed' if fell else 'is lost'}" + (f": {why}" if why else "")
         kind: AlertKind = "crashed" if fell else "lost"
         at = None if row["x"] is None or row["y"] is None else [row["x"], row["y"]]
@@ -72,7 +74,8 @@ def of_drones(drones: Iterable[DroneRow], crashed: Collection[str]) -> Iterator[
 def of_reserves(drained: Iterable[tuple[int, Event]]) -> Iterator[Cause]:
     """Yield the drones that came home with less than their reserve, each time by its number."""
     for number, event in drained:
-        id, level = str(event["drone"]), float(str(event["level"]))
+        id = str(event["drone"])
+        level = float(str(event["level"]))
         said = words("alert.drained", sentence_of(event) or "", drone=id, level=level)
         yield Cause(kind="drained", about=str(number), said=said, drone=id)
 
@@ -80,11 +83,13 @@ def of_reserves(drained: Iterable[tuple[int, Event]]) -> Iterator[Cause]:
 def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
     """Yield the missions that ask something, that have failed, and that are late."""
     for row in missions:
-        name, reason = row["name"], row["reason"]
+        name = row["name"]
+        reason = row["reason"]
         called = quoted(cut_off(name, _LONGEST_NAME))
         if row["status"] in _ASKING:
             said = _uncertain(called, row)
-            drone, at = row["drone"], _place_of(row)
+            drone = row["drone"]
+            at = _place_of(row)
             yield Cause(
                 kind="uncertain",
                 about=name,
@@ -106,16 +111,16 @@ def of_missions(missions: Iterable[MissionRow]) -> Iterator[Cause]:
 
 
 def _uncertain(called: str, row: MissionRow) -> Words:
-    name, question = row["name"], row["question"]
-    asked, answers = row["reason"], list[str]()
+    name = row["name"]
+    question = row["question"]
+    asked = row["reason"]
+    answers = list[str]()
     facts: dict[str, Scalar | list[str]] = {"question": asked}
     key: SaidKey = "alert.uncertain"
     if question is not None:
-        asked, facts, answers = (
-            question["said"]["text"],
-            question["said"]["facts"],
-            question["answers"],
-        )
+        asked = question["said"]["text"]
+        facts = question["said"]["facts"]
+        answers = question["answers"]
         if question["said"]["key"] == "question.action":
             key = "alert.uncertain-action"
     return words(key, f"{called} needs you: {asked}", mission=name, answers=answers, **facts)
@@ -132,7 +137,8 @@ def _place_of(row: MissionRow) -> Point | None:
 def of_results(findings: Iterable[Result]) -> Iterator[Cause]:
     """Yield the results in which something was found."""
     for one in findings:
-        tags, trip = one["tags"], one["trip"] or ""
+        tags = one["tags"]
+        trip = one["trip"] or ""
         text = f"{', '.join(tags)}: found by {quoted(cut_off(one['mission'], _LONGEST_NAME))}"
         text += f" at {one['place'] or trip}" if one["place"] or trip else ""
         said = words(
@@ -186,7 +192,8 @@ def of_waiting(waiting: int, drones: Sequence[DroneRow], takes: float | None) ->
 
     `takes` is the level that the low drones need.
     """
-    low, soonest = _low(drones), None
+    low = _low(drones)
+    soonest = None
     count = {
         "charging": _count(drones, "CHARGING"),
         "recovering": _count(drones, "RECOVERING"),
@@ -224,7 +231,8 @@ def of_batteries(drones: Sequence[DroneRow], wait: bool) -> Iterator[Cause]:
     ids = [row["id"] for row in _low(drones)]
     if not ids or not wait:
         return
-    soonest, one = _first_ready(_low(drones)), len(ids) == 1
+    soonest = _first_ready(_low(drones))
+    one = len(ids) == 1
     facts: Facts = {"drones": ids}
     named = ", ".join(ids[:_NAMED])
     named += f" and {len(ids) - _NAMED} more" if len(ids) > _NAMED else ""
@@ -272,7 +280,8 @@ class Attention:
 
     def __init__(self, file: Path, now: Callable[[], float]) -> None:
         """`now` is in seconds since 1970."""
-        self._file, self._now = file, now
+        self._file = file
+        self._now = now
         self.rows: VersionedRows[Alert] = VersionedRows()
         self._alerts: dict[str, Alert] = {one["id"]: one for one in _kept(file)}
         self._open = {_key(id): id for id, one in self._alerts.items() if not one["over"]}
@@ -295,7 +304,8 @@ class Attention:
             alert = self._alerts[id]
             known = alert["by_at"] is not None
             if key not in found or (known and alert["kind"] in ONCE):
-                alert["over"], arisen = True, True
+                alert["over"] = True
+                arisen = True
                 del self._open[key]
         self._forget(found.keys())
         if arisen:

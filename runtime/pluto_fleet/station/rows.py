@@ -50,7 +50,8 @@ def row_in_flight(
 
     `why` returns why no drone flies its trip yet.
     """
-    record, at = records[name], where.get(name)
+    record = records[name]
+    at = where.get(name)
     if at is None or not at["lives"] or aside(record) is not None:
         return recorded_row(name, record, lives=True)
     priority = next((one.default for one in app.fields if one.name == PRIORITY), None)

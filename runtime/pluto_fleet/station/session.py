@@ -111,7 +111,9 @@ class FlightSession:
         self.trouble = ""
         """Why it could not be resumed."""
         self.task: asyncio.Task[None] | None = None
-        self._ended, self._seen, self._heard = ended, seen, heard
+        self._ended = ended
+        self._seen = seen
+        self._heard = heard
         self._idle = IdleDrones(flight.fleet.drones, flight.journal)
         self._sight = Sight(flight)
         self._waits = Waits()

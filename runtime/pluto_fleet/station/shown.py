@@ -14,7 +14,7 @@ from .wire import Alert, DroneRow, MissionRow, State, TripRow
 Row = Mapping[str, Any]
 
 Frame = dict[str, Any]
-"""A `Frame` of `wire.py`; its rows are whatever pages were shown."""
+"""A `Frame` of `wire.py`; its rows are those that pages were shown."""
 
 NAMED_BY = {"missions": "name", "drones": "id", "alerts": "id"}
 """The kinds of rows, and the field by which one is known."""
@@ -48,7 +48,8 @@ class Noted:
         return found
 
     def _changes(self, kind: str, rows: Iterable[Row]) -> dict[str, Any]:
-        known, changes = self._rows[kind], {}
+        known = self._rows[kind]
+        changes = {}
         for row in rows:
             name = row[NAMED_BY[kind]]
             before = known.get(name)
@@ -91,7 +92,8 @@ class Shown:
 
     def take_frame(self, frame: Frame) -> None:
         """Take a frame."""
-        self.t, self.state = frame["t"], frame["state"]
+        self.t = frame["t"]
+        self.state = frame["state"]
         for kind, by in NAMED_BY.items():
             self.rows[kind].update((row[by], row) for row in frame.get(kind, ()))
 

@@ -53,8 +53,10 @@ class Sight:
     def missions(self, life: RecordedFlight) -> Iterator[MissionRow]:
         """Yield the rows of all missions."""
         self.waiting.look(life.brain, life.fleet)
-        now, why = life.kernel.time(), self.waiting.why
-        missions, where = life.records.missions, life.brain.whereabouts()
+        now = life.kernel.time()
+        why = self.waiting.why
+        missions = life.records.missions
+        where = life.brain.whereabouts()
         for name, _ in in_order(life.records):
             yield rows.row_in_flight(name, missions, where, now, self._app, why)
 
@@ -64,7 +66,8 @@ class Sight:
         work = {one["drone"]: name for name, one in where.items() if one["drone"] is not None}
         for id, drone in life.brain.drones().items():
             low = self.waiting.why_low(drone)
-            why, status = low or drone["unready"], "LOW" if low else ""
+            why = low or drone["unready"]
+            status = "LOW" if low else ""
             silence = life.link.telemetry(id).silence
             heard = drone if isfinite(silence) else {**drone, "at": None, "battery": None}
             is_stale = isfinite(silence) and silence > STALE_AFTER
@@ -87,7 +90,8 @@ class Sight:
     ) -> None:
         """Write down what is shown differently than before; rows must not change afterwards."""
         if life is not self._life:
-            self._life, self._noted = life, Noted(MOVING)
+            self._life = life
+            self._noted = Noted(MOVING)
             for line in self._unsaid:
                 life.recorder.measure(line)
             self._unsaid.clear()
@@ -123,11 +127,13 @@ class Sight:
 
 def noting(flight: FlightSetup, stops: Stops) -> Callable[[LiveFlight], None]:
     """Return what notes what there is to see of the runs of a flight which no station shows."""
-    sight, due = Sight(flight), 0.0
+    sight = Sight(flight)
+    due = 0.0
 
     def look(one: LiveFlight) -> None:
         nonlocal due
-        life, begun = one.life, time.monotonic()
+        life = one.life
+        begun = time.monotonic()
         if life is None or begun < due:
             return
         if life.is_set_out:

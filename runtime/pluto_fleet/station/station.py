@@ -261,7 +261,8 @@ class Station:
 
     def _know_the_fleet(self) -> None:
         """Draw for, and show, the drones that have joined, too."""
-        known, fleet = self._known, self.history.fleet
+        known = self._known
+        fleet = self.history.fleet
         if known is not None:
             own = {one.id for one in self._config.fleet.drones}  # it may be in the file by now
             joined = [one for one in known.joined if one["id"] not in own]

@@ -89,7 +89,8 @@ class WaitReasons:
 
     def look(self, brain: Brain, fleet: FleetData) -> None:
         """Begin a sample of all missions and drones; drones may have joined the fleet."""
-        self._fleet, self._entries = fleet, {one.id: one for one in fleet.drones}
+        self._fleet = fleet
+        self._entries = {one.id: one for one in fleet.drones}
         now, self._left, self._drones = self._clock(), MISSIONS_A_LOOK, brain.drones()
         self._known = {
             which: (asked, said)

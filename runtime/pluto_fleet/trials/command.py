@@ -323,7 +323,8 @@ def report(
 
 
 def _outcomes(tally: Tally) -> Iterator[str]:
-    runs, missions = counted(tally.runs, "run"), counted(tally.missions.total(), "mission")
+    runs = counted(tally.runs, "run")
+    missions = counted(tally.missions.total(), "mission")
     again = tally.lives - tally.runs
     yield f"{runs}, in which the app was started anew {counted(again, 'time')} after it had died or was stopped."
     ends = [

@@ -16,11 +16,12 @@ from typing import Any, TypeVar
 from ..app import App
 from ..files.fleet import FleetFile
 from ..files.plan_check import problems
+from ..shared.alone.files import readers_of
 from ..shared.domain.actions import PICK, RELEASE, Plain
 from ..shared.domain.fields import Entity, Field, FieldType
 from ..shared.domain.model import Item, Mission, Point, Trip
 from ..shared.domain.quantities import Type
-from ..shared.events.parts import AlongField, TrackField
+from ..shared.events.declared import AlongField, TrackField
 from .case import DEATHS, FAIR, STOPS, Case, Strike, StrikeKind, Weather
 from .lives import tried
 from .record import TrialResult
@@ -153,11 +154,7 @@ class _Generator:
         if name is None:
             return None
         every = {"every": "5 s"} if name in self.app.actions else {}
-        for part in self.app.parts:
-            readers = part.readers(self.app)
-            if field.type in readers:
-                return readers[field.type]({"action": name, **every})
-        return None
+        return readers_of(self.app)[field.type]({"action": name, **every})
 
 
 FORGOTTEN = 100
@@ -378,7 +375,8 @@ def shrunk(case: Case, fails: Callable[[Case], bool], tries: int = SHRINKS) -> C
             if tries < 0:
                 return case
             if fails(smaller):
-                case, again = smaller, True
+                case = smaller
+                again = True
                 break
     return case
 

@@ -336,9 +336,11 @@ class TrialRun:
     """
 
     def __init__(self, app: App, case: Case) -> None:
-        self.app, self.case = app, case
+        self.app = app
+        self.case = case
         self.record = TrialRecord(app, case)
-        self.fired, self.found = self.record.fired, self.record.found
+        self.fired = self.record.fired
+        self.found = self.record.found
         self.chance = Random(f"{case.seed}/trial")
         self.world = world = VirtualTime()
         self.drones = fleet_drones(app, case.fleet)
@@ -505,7 +507,8 @@ class TrialRun:
     def raise_from(self, kernel: VirtualTime) -> None:
         """End the trial with an uncaught error, which is a bug of Pluto."""
         if kernel.crashed is not None:
-            error, kernel.crashed = kernel.crashed, None
+            error = kernel.crashed
+            kernel.crashed = None
             self.blame(error)
 
     def later(self, seconds: float, call: Callable[[], object]) -> None:
@@ -519,7 +522,8 @@ class TrialRun:
 
     def new_gateway(self) -> Gateway:
         """Return a new gateway over the same drones and ledger."""
-        fleet, radio = self.case.fleet, self.case.weather.radio
+        fleet = self.case.fleet
+        radio = self.case.weather.radio
         controls: Controls = self.navigation
         if radio:
             controls = Radio(self.world, self.navigation, self.radio_delay)
@@ -540,7 +544,8 @@ class TrialRun:
 
     def report_is_lost(self) -> bool:
         """Return whether a report is lost, and the connection with it."""
-        lost, self.loses_report = self.loses_report, False
+        lost = self.loses_report
+        self.loses_report = False
         return lost
 
 

@@ -11,11 +11,12 @@ from typing import Any
 
 from ..app import App
 from ..flight.offline import decided
+from ..flight.reconcile import id_of
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
 from ..shared.domain.trace import Event
-from ..shared.events.parts import FollowDeclared
+from ..shared.events.declared import FollowDeclared
 from .case import BrokenHook, Case
 from .invariants import Invariants, items_of
 from .rules import ENDS, at
@@ -65,17 +66,16 @@ class ExactlyOnce:
         match event["event"]:
             case "trip.launched":
                 place = (event["mission"], event["trip"], event["round"])
-                job = "/".join(map(str, (*place, event["attempt"])))
+                job = id_of(event["mission"], event)
                 self._launched[job] = place
                 self._handed_over[job] = 0
             case "trip.handed_over":
                 place = (event["mission"], event["trip"], event["round"])
-                job = "/".join(map(str, (*place, event["attempt"])))
+                job = id_of(event["mission"], event)
                 self._handed_over[job] += 1
                 self._launched[f"{job}+{self._handed_over[job]}"] = place
             case "trip.completed" if event["did"]["action"] in self._repeat:
-                place = (event["mission"], event["trip"], event["round"])
-                self._recorded["/".join(map(str, (*place, event["attempt"])))] = None
+                self._recorded[id_of(event["mission"], event)] = None
             case "mission.repeated":
                 self._round[event["mission"]] = event["round"]
             case "mission.extended":
@@ -140,7 +140,8 @@ def memory_of(record: Record) -> Memory:
     }
 
 
-_FLIGHTS, _DONE = "flights", "completed trips"
+_FLIGHTS = "flights"
+_DONE = "completed trips"
 
 
 def forgotten(name: str, before: Memory, after: Memory, since: Sequence[Event]) -> Iterator[str]:
@@ -281,7 +282,7 @@ class TrialRecord:
         if record["held"]:
             return "cancel"
         flight = record["flight"]
-        job = f"{name}/{flight['trip']}/{flight['round']}/{flight['attempt']}"
+        job = _TAKEN_OVER.sub("", id_of(name, flight))
         return "done" if any(act.job == job for act in self.acts) else "not-done"
 
     def decide(self, records: Standing) -> bool:

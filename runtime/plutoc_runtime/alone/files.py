@@ -7,7 +7,7 @@ what is promised, and how real drones are reached.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from math import dist
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -131,15 +131,23 @@ def _item(table: Table, action: str) -> Item | None:
     return None if None in given.values() else Item(**given)
 
 
+def readers_of(app: App) -> dict[Any, Callable[[Any], Any]]:
+    """Return how values of fields are read, by their types."""
+    readers: dict[Any, Any] = {
+        **values.READERS,
+        FieldType.EVALUATOR: partial(values.one_of, app.evaluators),
+    }
+    for part in app.parts:
+        readers.update(part.readers(app))
+    return readers
+
+
 def with_fields(
     app: App, entity: Entity, needed: Keys, others: Keys
 ) -> tuple[Keys, Keys, Mapping[str, str]]:
     """Return what `Table.read` takes: these keys, and the fields of this app's missions or trips."""
     fields = {field.name: field for field in app.fields if field.on is entity}
-    evaluator = partial(values.one_of, app.evaluators)
-    readers: dict[Any, Any] = {**values.READERS, FieldType.EVALUATOR: evaluator}
-    for part in app.parts:
-        readers.update(part.readers(app))
+    readers = readers_of(app)
     keys = {name: readers[field.type] for name, field in fields.items()}
     hints = {name: field.hint for name, field in fields.items() if field.hint}
     return {**needed, **{name: keys[name] for name in hints}}, {**others, **keys}, hints

@@ -19,8 +19,8 @@ from ..hooks.context import Context, LiveDrone
 from ..hooks.plain_data import keepable, point_of
 from ..time.kernel import Future, mission_key
 from .changes import keep
+from .declared import CompanyDeclared
 from .part import Part
-from .parts import CompanyDeclared
 from .tracks import Tracks
 
 if TYPE_CHECKING:
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
     from ..time.kernel import Task
-    from .parts import Along, AlongAction
+    from .declared import Along, AlongAction
 
 
 class FlyingDrone(LiveDrone):
@@ -139,10 +139,8 @@ class Company(Part):
             arrival.watch(partial(_cancel, task))
         return True
 
-    def hand_over(self, flight: Flight, drone: Drone) -> None:
-        """Let what goes on beside a flight go on with another drone; its id has just changed."""
-        before = flight.id.rpartition("+")[0]
-        before = before if flight.relieved == 1 else f"{before}+{flight.relieved - 1}"
+    def hand_over(self, flight: Flight, before: str, drone: Drone) -> None:
+        """Let what goes on beside a flight go on with another drone; `before` was the flight's id."""
         if before in self._arrivals:
             self._arrivals[flight.id] = self._arrivals.pop(before)
         if flight in self._live:
@@ -154,7 +152,9 @@ class Company(Part):
         self, state: MissionState, flight: Flight, action: AlongAction, given: Along
     ) -> Failed | None:
         """Call the hook of an action along the way; what it raises fails the trip."""
-        core, drone, trip = self._core, flight.flier, flight.trip
+        core = self._core
+        drone = flight.flier
+        trip = flight.trip
         parameters = given.get("parameters") or {}
         hook = action.hook
         assert hook is not None
@@ -239,7 +239,8 @@ class Company(Part):
 
     def _out_of_reach(self, drone: Drone, point: Point) -> str | None:
         """Return why a drone cannot fly to a point, and home from there, or None."""
-        core, category = self._core, drone.category
+        core = self._core
+        category = drone.category
         if (problem := core.airspace.problem(point)) is not None:
             return f"has gone where no drone may be: {problem}"
         share = needed(category, core.airspace, drone.location, ((point, 0.0),), drone.home)

@@ -1,19 +1,33 @@
-"""Events as an app declares them, and their occurrences as hooks see them."""
+"""What an app declares of events and of what moves: all that a library knows of it, and hooks see."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING, Any, Required, TypedDict, cast
+
+from ..domain.actions import Action, Parameter, Plain
+from ..domain.app import parameters_data
+from ..domain.fields import Entity, Field, FieldType
+from ..domain.quantities import Type
+from ..domain.values import Quantity, Table, one_of, read_parameters
+from .part import PartOf
+from .world import Mover, read_movers
 
 if TYPE_CHECKING:
-    from ..domain.actions import Parameter
+    from ..domain.app import App
     from ..domain.model import Point
 
 LATE = "late"
 """Happens when a promise of a mission is broken."""
 LOST = "lost"
 """Happens when a drone is lost."""
+FOLLOWING = "follow"
+"""The name of the built-in action that follows."""
+LONGEST = 60.0
+"""Seconds of following that the battery of one drone must hold before it sets out."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,3 +80,180 @@ def event_of(kind: EventType, facts: Mapping[str, Any]) -> Event:
     """Return an occurrence from its plain data."""
     at = facts.get("at")
     return kind.type(**{**facts, "at": None if at is None else tuple(at)})
+
+
+@dataclass(frozen=True, slots=True)
+class EventsDeclared(PartOf):
+    """The events of an app: those that it declares, and the built-in ones that it uses."""
+
+    types: tuple[EventType, ...] = ()
+    """Those that the app declares."""
+    creators: tuple[Creator, ...] = ()
+    """In the order in which they are asked."""
+
+    def about(self) -> dict[str, Any]:
+        """Return them as plain data: all that a library knows of them."""
+        events = [
+            {
+                "name": one.name,
+                "parameters": parameters_data(one.fields),
+                "creates": any(creator.event == one.name for creator in self.creators),
+            }
+            for one in self.types
+        ]
+        return {"events": events}
+
+
+class TracksDeclared(PartOf):
+    """What an app follows that moves."""
+
+    def movers(self, world: Table) -> tuple[Mover, ...]:
+        """Return what moves in the simulated world."""
+        return read_movers(world)
+
+    def about(self) -> dict[str, Any]:
+        """Return what a library knows of them: that there are any."""
+        return {"tracks": True}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrackField(Field):
+    """The field of a trip with the track that it follows."""
+
+    def wanted(self, value: object, evaluators: Container[str]) -> str:
+        """Return what a value must be that a hook has set, if it is not that."""
+        return "" if value is None or type(value) is str else "the id of a track"
+
+
+TRIP_FIELDS = (
+    TrackField(
+        name="track",
+        on=Entity.TRIP,
+        type=Type.TEXT,
+        label="Follows the track",
+        doc="What moves, and it follows; None: its target stands.",
+    ),
+    Field(
+        name="reach",
+        on=Entity.TRIP,
+        type=Type.LENGTH,
+        label="Within",
+        default=0.5,
+        doc="Metres within which what it follows is reached.",
+    ),
+    Field(
+        name="lost_after",
+        on=Entity.TRIP,
+        type=Type.TIME,
+        label="Lost after",
+        default=2.0,
+        doc="Seconds without news after which what it follows is lost.",
+    ),
+)
+"""What trips have that may follow what moves."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FollowDeclared(Action):
+    """Stays within reach of the trip's target for a time, and takes a picture each time that so much has passed."""
+
+    def lasts(self, parameters: Mapping[str, Plain]) -> float:
+        """Return how many seconds plans reckon with: what is longer is for several drones, one after the other."""
+        return min(LONGEST, Action.lasts(self, parameters))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlongAction(Action):
+    """An action of the app's own that goes on while a drone flies, and not at the end of its way."""
+
+    returns: type[object] | None = None
+    """The type of what its hook gives; None: the app does not say."""
+
+
+class Along(TypedDict, total=False):
+    """What is done on the way: one of the app's own actions once, a built-in one every so often."""
+
+    action: Required[str]
+    parameters: Mapping[str, Plain]
+    metres: float
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AlongField(Field):
+    """The field of a trip with the action along its way."""
+
+    actions: tuple[str, ...] = ()
+    """Those that can be."""
+
+    def wanted(self, value: object, evaluators: Container[str]) -> str:
+        """Return what a value must be that a hook has set, if it is not that."""
+        if value is None or (type(value) is dict and value.get("action") in self.actions):
+            return ""
+        return f'an Along, such as {{"action": "{self.actions[0]}"}}'
+
+
+@dataclass(frozen=True, slots=True)
+class CompanyDeclared(PartOf):
+    """What may go on beside the flights of an app."""
+
+    own: tuple[AlongAction, ...] = ()
+    """The app's own actions on the way."""
+
+    def about(self) -> dict[str, Any]:
+        """Return the actions along the way, for the library."""
+        actions = [
+            {"name": one.name, "parameters": parameters_data(one.parameters)} for one in self.own
+        ]
+        return {"along": actions}
+
+    def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
+        """Return how the action along a trip's way is read."""
+        named = [field for field in app.fields if isinstance(field, AlongField)]
+        names = [name for field in named for name in field.actions]
+        actions = {**app.actions, **{action.name: action for action in self.own}}
+        return {FieldType.ALONG: partial(_read_along, {name: actions[name] for name in names})}
+
+    def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Take a target that moves apart: `target = { track = "t7" }`; where it is, is known later."""
+        target = trip.get("target")
+        if not isinstance(target, dict) or "track" not in target:
+            return trip
+        of_target = {name: one for name, one in target.items() if name in _OF_TARGET}
+        unknown = {name: one for name, one in target.items() if name not in _OF_TARGET}
+        return {**trip, **of_target, "target": unknown or [0.0, 0.0]}
+
+
+_OF_TARGET = ("track", "reach", "lost_after")
+
+
+def _read_along(actions: Mapping[str, Action], value: object) -> Along:
+    """Read `"look"`, or `{ action = "take_photo", every = "2 m" }`; raise `ValueError`."""
+    table = Table(value if isinstance(value, dict) else {"action": value})
+    read = table.read({"action": partial(one_of, actions)}, {"every": _spacing, "parameters": None})
+    action = actions.get(str(read.get("action")))
+    if action is not None:
+        read["parameters"] = read_parameters(table.table("parameters"), action.parameters)
+        goes_on = isinstance(action, AlongAction)
+        if goes_on and "every" in table.data:
+            table.problem(f"{action.name} goes on all the way, and takes no every")
+        elif not goes_on and "every" not in table.data:
+            table.problem(f'{action.name} needs every, such as every = "2 m" or every = "1 s"')
+    if table.problems:
+        raise ValueError(f"is wrong: {table.problems[0].sentence}")
+    every = read.pop("every", {})
+    found: Any = {**read, **every}
+    return cast("Along", found)
+
+
+def _spacing(value: object) -> dict[str, float]:
+    """Read how far apart, in metres or in seconds, something is done."""
+    kinds = {
+        "metres": Quantity(Type.LENGTH, 0.1, 1000.0),
+        "seconds": Quantity(Type.TIME, 0.1, 3600.0),
+    }
+    for name, read in kinds.items():
+        with suppress(ValueError):
+            if isinstance(value, str):
+                return {name: read(value)}
+    raise ValueError('is no spacing: write a length or a time, such as "2 m" or "1 s"')

@@ -15,7 +15,7 @@ from ..flow.own_action import NO_MORE, way_home
 from ..time.kernel import EventKind, Future
 from .changes import keep
 from .company import track_of
-from .parts import FOLLOWING, FollowDeclared
+from .declared import FOLLOWING, FollowDeclared
 from .tracks import Tracks
 
 if TYPE_CHECKING:

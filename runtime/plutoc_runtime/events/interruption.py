@@ -25,7 +25,7 @@ def own(event: Event, mission: Mission[Any]) -> bool:
 
 
 def anything(event: Event, mission: Mission[Any]) -> bool:
-    """Return whether an event has come, whoever raised it."""
+    """Return whether an event has come, from any source."""
     return True
 
 

@@ -38,7 +38,7 @@ class PartOf:
         return {}
 
     def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
-        """Return what trips have for what somebody has written of one."""
+        """Return what trips have for what is written of one."""
         return trip
 
 

@@ -26,10 +26,18 @@ from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
 from .changes import keep
 from .context import Context, Outside
-from .declared import LATE, LOST, Creator, Event, EventType, event_of, facts_of
+from .declared import (
+    LATE,
+    LOST,
+    Creator,
+    Event,
+    EventsDeclared,
+    EventType,
+    event_of,
+    facts_of,
+)
 from .interruption import Interruption
 from .part import Part
-from .parts import EventsDeclared
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Mission, Trip
@@ -219,12 +227,12 @@ class Events(Part):
         if drone is None:
             return
         core.fleet.engage(drone)
-        put(drone, status=DroneStatus.FREE)  # for this instant alone, and nobody hears of it
+        put(drone, status=DroneStatus.FREE)  # for this instant alone, without an event
         core.queue.moved(drone)
 
         def look() -> None:
             if drone.status is DroneStatus.FREE and not drone.telemetry.landed:
-                core.fleet.dismiss(drone)  # nobody has taken it
+                core.fleet.dismiss(drone)  # no mission has taken it
 
         core.kernel.at(core.kernel.now, EventKind.ALLOCATE, FLEET, look)
 
@@ -272,7 +280,8 @@ class Events(Part):
 
     async def _mission_of(self, creator: Creator, event: Event) -> Mission[Any] | None:
         """Return the mission that a creator makes, checked; raise its fault."""
-        hook, core = creator.hook, self._core
+        hook = creator.hook
+        core = self._core
         outside = Outside(self._next_index())
         context = Context(self, core.kernel, core.results, core.log, outside, lambda: None)
         try:

@@ -171,10 +171,11 @@ def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:
     first = flight.flier
     if flight.own_action is None:  # it is on its way still
         core.orders.break_off(first.id)
+    before = flight.id
     flight.flier = drone
     flight.relieved += 1
     company: Company = core.parts[Company]
-    company.hand_over(flight, drone)
+    company.hand_over(flight, before, drone)
     hand_over(core, state.mission, flight.trip, drone)
     if flight.own_action is None:
         answer = partial(state.reported, flight)

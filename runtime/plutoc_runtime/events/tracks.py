@@ -1,4 +1,4 @@
-"""What moves: where each object is that somebody tracks, and where a drone will meet it."""
+"""What moves: where each tracked object is, and where a drone will meet it."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from ..fleet.reach import flight_seconds
 from ..hooks.plain_data import point_of
 from ..time.kernel import FLEET, EventKind, Future
 from .alone import EventDrones
+from .declared import TracksDeclared
 from .part import Part
-from .parts import TracksDeclared
 
 if TYPE_CHECKING:
     from ..domain.model import Drone, Point
@@ -30,7 +30,8 @@ class Track:
 
     def place(self, now: float) -> Point:
         """Return where it is at a time, if it goes on as it did."""
-        (x, y, z), (vx, vy, vz) = self.at, self.velocity
+        x, y, z = self.at
+        vx, vy, vz = self.velocity
         passed = now - self.time
         return x + passed * vx, y + passed * vy, z + passed * vz
 

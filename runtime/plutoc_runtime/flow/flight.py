@@ -83,7 +83,7 @@ class Flight(Future[Status]):
             "beside": action.repeat == "safe",
         }
 
-    def part(self) -> None:
+    def end_company(self) -> None:
         """End what goes on beside it."""
         for task in self.company:
             task.cancel()

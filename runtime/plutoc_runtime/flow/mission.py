@@ -193,7 +193,7 @@ class MissionState:
         flight.called_off = ""
         if flight.own_action is not None:
             flight.own_action.cancel()
-        flight.part()
+        flight.end_company()
         self.core.orders.break_off(flight.flier.id)
 
     def complete(self, flight: Flight, value: object) -> None:
@@ -268,11 +268,11 @@ class MissionState:
         """Fail a flight's trip; with an item aboard, or unless it `mends`, the mission ends as well."""
         mends = mends and self.carries is None
         why = self._take_failed(flight, reason)
-        self.core.fleet.recover(flight.flier, reason)  # its own trouble, whatever it carries
+        self.core.fleet.recover(flight.flier, reason)  # its own trouble, even with an item aboard
         if mends:
             flight.set(self.mission.status)
         else:
-            flight.part()
+            flight.end_company()
             self.end(why)
 
     def abort(self, reason: str) -> None:

@@ -1,4 +1,4 @@
-"""Events over restarts: whatever the moment at which the app is killed, each has happened once."""
+"""Events over restarts: killed at any moment, the app has each of them once."""
 
 from __future__ import annotations
 

@@ -19,9 +19,15 @@ from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, WorldData
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.company import CompanyOf
-from pluto_fleet.shared.events.declared import Creator, Event, EventType
+from pluto_fleet.shared.events.declared import (
+    TRIP_FIELDS,
+    AlongAction,
+    AlongField,
+    Creator,
+    Event,
+    EventType,
+)
 from pluto_fleet.shared.events.follow import FOLLOW
-from pluto_fleet.shared.events.parts import TRIP_FIELDS, AlongAction, AlongField
 from pluto_fleet.shared.events.raising import EventsOf
 from pluto_fleet.shared.events.tracks import TracksOf
 from pluto_fleet.shared.events.world import Mover
@@ -128,6 +134,17 @@ def following(**more: Any) -> Trip:
     return Trip(name="picture", action="take_photo", target=(4.0, 4.0, 1.2), track="t1", **more)
 
 
+def staying(seconds: float, *, every: float) -> Trip:
+    """Return a trip that follows what moves, and takes pictures of it."""
+    return Trip(
+        name="f",
+        action="follow",
+        target=(4.0, 4.0, 1.2),
+        track="t1",
+        parameters={"for": seconds, "every": every},
+    )
+
+
 def test_a_drone_meets_what_moves_and_has_it_on_its_picture() -> None:
     mover = walker((8.0, 8.0), (2.0, 2.0))
     (photo,) = photos(flown([following()], mover))
@@ -151,13 +168,7 @@ def test_a_track_without_news_fails_the_trip() -> None:
 
 
 def test_follow_stays_within_reach_and_takes_pictures() -> None:
-    trip = Trip(
-        name="f",
-        action="follow",
-        target=(4.0, 4.0, 1.2),
-        track="t1",
-        parameters={"for": 10.0, "every": 2.0},
-    )
+    trip = staying(10.0, every=2.0)
     outcome = flown([trip], walker((6.0, 8.0), (6.0, 1.0), speed=0.25))
     taken = photos(outcome)
     assert len(taken) == 6
@@ -167,13 +178,7 @@ def test_follow_stays_within_reach_and_takes_pictures() -> None:
 
 
 def test_one_drone_after_the_other_follows_without_a_gap() -> None:
-    trip = Trip(
-        name="f",
-        action="follow",
-        target=(4.0, 4.0, 1.2),
-        track="t1",
-        parameters={"for": 200.0, "every": 1.0},
-    )
+    trip = staying(200.0, every=1.0)
     there_and_back = walker((2.0, 6.0), (8.0, 6.0), (2.0, 6.0), (8.0, 6.0), (2.0, 6.0), speed=0.08)
     weak = Category(name="scout", flight_time=120.0, charge_time=100.0)
     outcome = flown([trip], there_and_back, drones=4, flow=relieved, category=weak)
@@ -189,13 +194,7 @@ def test_one_drone_after_the_other_follows_without_a_gap() -> None:
 
 
 def test_without_relief_a_battery_ends_the_trip() -> None:
-    trip = Trip(
-        name="f",
-        action="follow",
-        target=(4.0, 4.0, 1.2),
-        track="t1",
-        parameters={"for": 200.0, "every": 1.0},
-    )
+    trip = staying(200.0, every=1.0)
     weak = Category(name="scout", flight_time=120.0, charge_time=1e9)
     outcome = flown(
         [trip], walker((2.0, 6.0), (18.0, 6.0), speed=0.05), flow=relieved, category=weak

@@ -288,7 +288,8 @@ def _graph(app: Growth) -> None:
 def _events(app: Growth) -> None:
     """Events, and what makes missions of one: where it leads to is nearly always well."""
     parameters, _ = app.parameters()
-    event, hook = app.name("seen"), app.name("look_after")
+    event = app.name("seen")
+    hook = app.name("look_after")
     app.declared += [f"event {event}{parameters}", f"creator {hook}"]
     check = app.block("check", "MissionCreator", f"hook: {hook}")
     source = event if app.chance(0.8) else app.random.choice(("late", "lost", "start"))

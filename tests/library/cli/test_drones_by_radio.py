@@ -26,7 +26,8 @@ def test_crazyflies_are_found_by_radio_and_written_into_a_fleet_file(
     """With their homes where they stand. Without a dongle it is said what is missing."""
     monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
     monkeypatch.setenv("XDG_RUNTIME_DIR", str(tmp_path))
-    record, path = FlightLog(), tmp_path / "fleet.toml"
+    record = FlightLog()
+    path = tmp_path / "fleet.toml"
     builds = [Build(id=f"cf{n}", home=(float(n), 1.0, 0.0), seed=n) for n in (1, 2)]
     ether = Ether(builds, record)
     words = ["drones", "--address", "E7E7E7E701", "--address", "E7E7E7E702"]

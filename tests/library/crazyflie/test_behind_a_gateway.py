@@ -30,7 +30,8 @@ FAILS = {"away": Failure.LINK, "tumbler": Failure.CRASH}
 
 
 async def fly(folder: Path) -> None:
-    record, asked = FlightLog(), Asked()
+    record = FlightLog()
+    asked = Asked()
     builds = [Build(id=id, home=home) for id, home in HOMES.items()]
     server = Server(builds, record)
     await server.start()
@@ -39,7 +40,8 @@ async def fly(folder: Path) -> None:
         FleetDrone(id=one.id, category=QUICK, home=one.home, index=index)
         for index, one in enumerate(builds)
     ]
-    say, clock = asked.log.append, the_air().time
+    say = asked.log.append
+    clock = the_air().time
     team = Team(asked.kernel, crafts, flies, FIELD, folder=folder, say=say, clock=clock)
     gateway = Gateway(asked.kernel, team, crafts, FIELD, apart=0.5, slack=CRAZYFLIE.slack)
     team.begin()

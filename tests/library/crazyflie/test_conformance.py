@@ -34,7 +34,9 @@ class TestCrazyflie(NavigationContract):
     @staticmethod
     def loop_factory() -> asyncio.AbstractEventLoop:
         here, loop = TestCrazyflie, AirLoop()
-        here.server, here.fresh, here.flown = Server(BUILDS, FlightLog()), [*BUILDS], {}
+        here.server = Server(BUILDS, FlightLog())
+        here.fresh = [*BUILDS]
+        here.flown = {}
         loop.run_until_complete(here.server.start())
         return loop
 

@@ -49,7 +49,8 @@ async def _flying(wanted: Mapping[str, _Flight]) -> dict[str, FlightRecord]:
         records = await asyncio.gather(*(flight() for flight in wanted.values()))
     left = await left_since(before)
     for record in records:
-        record.blocked, record.left = loop.found, left
+        record.blocked = loop.found
+        record.left = left
     return dict(zip(wanted, records, strict=True))
 
 

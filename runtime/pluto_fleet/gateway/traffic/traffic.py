@@ -303,7 +303,9 @@ class Traffic:
             return None
         category = self._drones[section.drone].category
         target = section.points[-1]
-        best, least, soon = None, inf, section.seconds(category)
+        best = None
+        least = inf
+        soon = section.seconds(category)
         holder = self._space.holder(target, section.drone)
         holders = holder.points if holder is not None and holder.moves else None
         angle = best_angle(section.points, holders)

@@ -42,7 +42,8 @@ def frames_of(read: Callable[[], JournalText], phase: str | None) -> Iterator[Fr
     `phase` is how the flight has ended; None: it flies. The journal is read twice: where a drone was is known
     only once its command has ended.
     """
-    tracks, last = Tracks(), 0.0
+    tracks = Tracks()
+    last = 0.0
     for _, events in read().instants():
         for event in events:
             tracks.take(event)
@@ -52,7 +53,9 @@ def frames_of(read: Callable[[], JournalText], phase: str | None) -> Iterator[Fr
 
 class _Frames:
     def __init__(self, journal: JournalText, tracks: Tracks, step: float) -> None:
-        self._journal, self._tracks, self._step = journal, tracks, step
+        self._journal = journal
+        self._tracks = tracks
+        self._step = step
         self._shown = Shown()
         self._shown.state = _CONNECTING
         self._drones: dict[str, Any] = {}

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from ..wire import FlightSummary, Replay
     from .reading import Event, JournalText
 
-BATTERY_STEP, BATTERY_EVERY = 0.01, 60.0
+BATTERY_STEP = 0.01
+BATTERY_EVERY = 60.0
 """A level is told that differs by so much from the one before, or is so many seconds later."""
 
 LARGEST_PART = 1_000_000
@@ -92,7 +93,8 @@ class Past:
         book = logbook(self.app, self.read(), self.name_of)
         if book.said and book.said not in whole["said"]:
             whole["said"] = "; ".join(filter(None, (whole["said"], book.said)))
-        whole["log"], whole["results"] = book.lines[-LINES:], book.results[-RESULTS:]
+        whole["log"] = book.lines[-LINES:]
+        whole["results"] = book.results[-RESULTS:]
         alerts: dict[str, Any] = {}
         for _, events in self.read().instants():
             for event in events:

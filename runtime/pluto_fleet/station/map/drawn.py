@@ -146,7 +146,8 @@ def zones_of(landmarks: Landmarks) -> list[Zone]:
 
 def picture_of(picture: Picture, address: str) -> PictureData:
     """Return where the floor plan lies for pages."""
-    (x, y), (width, height) = picture.at, picture.size
+    x, y = picture.at
+    width, height = picture.size
     return {
         "address": address,
         "x": x,
@@ -229,7 +230,9 @@ class MapFile:
         if text is None:
             raise BadInput(f"{self._called} is not there any more: put it back first")
         _, found, _ = self._content(text)
-        self._text, before, self.landmarks = text, self.landmarks, found
+        self._text = text
+        before = self.landmarks
+        self.landmarks = found
         return found != before
 
     @property
@@ -263,7 +266,8 @@ class MapFile:
             write_whole(target, written_as, mode=mode, durable=True)
         except OSError as error:
             raise BadInput(f"{self._called} cannot be written: {error.strerror or error}") from None
-        self._text, self.landmarks = written, found
+        self._text = written
+        self.landmarks = found
 
     @property
     def _called(self) -> str:

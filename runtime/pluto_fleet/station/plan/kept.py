@@ -131,11 +131,14 @@ def _put_aside(path: Path, why: str, put: Callable[[Path], object]) -> str:
     return printable(str(aside))
 
 
-SUFFIX, TRASH = ".toml", "trash"
-MOST, MOST_IN_TRASH = 500, 100
+SUFFIX = ".toml"
+TRASH = "trash"
+MOST = 500
+MOST_IN_TRASH = 100
 """The most plans that are kept; of those in the trash the newest."""
 
-_LONGEST, _LONGEST_BYTES = 80, 200
+_LONGEST = 80
+_LONGEST_BYTES = 200
 _FORBIDDEN = re.compile(r'[/\\:*?"<>|]')
 _ABOUT = "# station: "
 """How the first line begins, which tells about the plan in JSON; a plan without it may be one, too."""
@@ -150,8 +153,10 @@ class PlanLibrary:
     """The plans of one folder, each in a file of its name."""
 
     def __init__(self, folder: Path, read: Read, now: Callable[[], float] = time.time) -> None:
-        self._folder, self._trash = folder, folder / TRASH
-        self._read, self._now = read, now
+        self._folder = folder
+        self._trash = folder / TRASH
+        self._read = read
+        self._now = now
         self.one_at_a_time = asyncio.Lock()
         """To be held while a thread does any of this."""
         self._known: dict[Path, tuple[object, SavedPlan]] = {}

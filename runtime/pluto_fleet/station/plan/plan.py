@@ -389,7 +389,9 @@ class FlightChanges:
 
     def __init__(self, app: App, plan: MissionPlan, flight_now: Callable[[], LiveFlight]) -> None:
         """`flight_now` returns the run that can be commanded, or raises `BadInput`."""
-        self._app, self._plan, self._flight_now = app, plan, flight_now
+        self._app = app
+        self._plan = plan
+        self._flight_now = flight_now
 
     async def edit(self, revision: int, missions: object) -> None:
         """Replace the plan by a page's; what has not flown of missions that fly is changed in flight.
@@ -405,11 +407,13 @@ class FlightChanges:
 
     async def change_trips(self, id: str, given: Mapping[str, Any]) -> str:
         """Change what has not flown of one mission, by a command with this id."""
-        name, replaces = str(given["mission"]), given["replaces"]
+        name = str(given["mission"])
+        replaces = given["replaces"]
         trips = trips_from(given["trips"], self._app)
 
         def do(life: RecordedFlight) -> str:
-            record, fixed = life.control.record(name), self._plan.launched_mission(name)
+            record = life.control.record(name)
+            fixed = self._plan.launched_mission(name)
             if replaces is not None:
                 refuse_if_stale(name, record, replaces)
             if fixed is None:  # it was started elsewhere, by a plan that was not drawn here
@@ -427,7 +431,8 @@ class FlightChanges:
         """Let missions that fly have these trips; all of that can be done, or nothing is."""
         changes = {}
         for name, trips in drawn.items():
-            record, fixed = life.control.record(name), self._plan.launched_mission(name)
+            record = life.control.record(name)
+            fixed = self._plan.launched_mission(name)
             if fixed is not None:
                 changes[name] = drawn_change(self._app, fixed, trips, record)
         made = [

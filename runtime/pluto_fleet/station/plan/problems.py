@@ -196,7 +196,8 @@ def _problem(missions: Sequence[Shape], place: KeyPath, text: str, alone: str) -
     inside: Sequence[str | int] = ()
     match place:
         case ("mission", int(i), "trip", int(j), *inside):
-            mission, trip = missions[i]["key"], missions[i]["trips"][j]["key"]
+            mission = missions[i]["key"]
+            trip = missions[i]["trips"][j]["key"]
         case ("mission", int(i), *inside):
             mission = missions[i]["key"]
     return PlanProblem(

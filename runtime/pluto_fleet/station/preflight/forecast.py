@@ -72,7 +72,8 @@ def _few(question: Question, waits: Waits) -> Iterator[Words]:
             action, kilograms = waits.lacks[name]
             found[able, action].append(kilograms)
     for (able, action), masses in found.items():
-        number, kilograms = len(masses), min(masses)
+        number = len(masses)
+        kilograms = min(masses)
         does = f"lift {mass(kilograms)}" if action == PICK else f"do {action}"
         who = "the one drone" if len(able) == 1 else f"the {len(able)} drones"
         wait = "waits" if number == 1 else "wait"
@@ -156,7 +157,8 @@ def forecast(
     problems: list[Words],
 ) -> Forecast:
     """Return what runs say; there is at least one. `keys` are those of the missions."""
-    runs, rehearsed = flown.runs, flown.rehearsed
+    runs = flown.runs
+    rehearsed = flown.rehearsed
     times = sorted(run.seconds for run in telling(runs))
     ends = question.until is None
     levels = [run.battery for run in runs if run.battery is not None]

@@ -114,7 +114,8 @@ class Preflight:
 
     async def _flown(self, question: Question, path: Path) -> Flown:
         """Return what is found in time: nothing more if the first run takes too long."""
-        flown, loop = Flown(), asyncio.get_running_loop()
+        flown = Flown()
+        loop = asyncio.get_running_loop()
         ends = loop.time() + WITHIN
         try:
             async with (
@@ -171,7 +172,10 @@ class StartForecasts:
         """
         self._fleet_now = fleet_now
         self._app = moving(app, config.fleet.motion, charges=config.fleet.charges_at_home)
-        self._config, self._plan, self._history, self._refuse = config, plan, history, refuse
+        self._config = config
+        self._plan = plan
+        self._history = history
+        self._refuse = refuse
         self.preflight = Preflight(config.own_folder)
         plan.on_change = lambda: self.preflight.give_up("the plan has changed")
 
@@ -223,7 +227,8 @@ class StartForecasts:
 
     def _present(self, session: FlightSession | None) -> Iterator[Present]:
         """Yield the drones as a Start would find them now."""
-        fleet, config = self._fleet_now(), self._config
+        fleet = self._fleet_now()
+        config = self._config
         life = session.life if session is not None else None
         if life is not None and life.is_set_out:
             entries = {entry.id: entry for entry in fleet.drones}
@@ -252,5 +257,7 @@ def _left_of(session: FlightSession | None) -> Iterator[Mission[Any]]:
             left = fresh(mission)
             left.promises = {}
             for trip in left.trips:  # one that flies now is supposed to fly again
-                trip.status, trip.start_time, trip.end_time = TripStatus.WAITING, None, None
+                trip.status = TripStatus.WAITING
+                trip.start_time = None
+                trip.end_time = None
             yield left

@@ -125,7 +125,8 @@ class Rehearsal:
         }
         found, waiting = list[MissionRow](), list[tuple[str, Mapping[str, Any]]]()
         for name, record in sorted(records.items(), key=lambda item: int(item[1]["index"])):
-            app, why = self._question.app, self._reasons.why
+            app = self._question.app
+            why = self._reasons.why
             row = rows.row_in_flight(name, records, where, self._now, app, why)
             if rows.waits_for_a_drone(row):
                 waiting.append((name, record))

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from ...process.apart import Answers
     from .flights import FlightResults, ResultsOfFlights
 
-INDEX, MISSING = "results.csv", "missing.txt"
+INDEX = "results.csv"
+MISSING = "missing.txt"
 
 
 def json_text(data: object) -> str:
@@ -174,7 +175,7 @@ def _picture(files: Files, flight: str, number: int, cache: Path | None) -> tupl
 
 
 def write_archive(flight: FlightResults, folder: Path) -> Path:
-    """Write the archive into a new file of a folder, and return it; whoever asked deletes it.
+    """Write the archive into a new file of a folder, and return it; the caller deletes it.
 
     It has `results.csv`, whose column `picture` names the files beside it, and `missing.txt` with a
     sentence for each picture that could not be read, if there are any.

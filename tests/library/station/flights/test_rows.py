@@ -43,7 +43,8 @@ TRIP = {"name": "1", "action": "measure", "target": [1.0, 1.0, 1.0]}
 
 
 def test_a_mission_waits_for_a_drone_that_can_do_its_next_trip() -> None:
-    record, block = record_of("STANDBY", TRIP), "allocate"
+    record = record_of("STANDBY", TRIP)
+    block = "allocate"
     assert text(row(record, block)) == "waits for a drone (1)"
     assert row(record, block, allocated=True, drone="cf1")["wait"] is None
     assert row(record, block, flies=True, drone="cf1")["drone"] == "cf1"
