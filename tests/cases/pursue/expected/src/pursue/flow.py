@@ -16,10 +16,9 @@ from ._runtime.domain.actions import BUILT_IN
 from ._runtime.domain.app import App
 from ._runtime.domain.status import COMPLETED, STANDBY, Status
 from ._runtime.events.company import CompanyOf
-from ._runtime.events.declared import Creator
+from ._runtime.events.declared import AlongAction, Creator
 from ._runtime.events.follow import FOLLOW
 from ._runtime.events.interruption import own
-from ._runtime.events.parts import AlongAction
 from ._runtime.events.raising import EventsOf
 from ._runtime.events.tracks import TracksOf
 from ._runtime.fleet.policies import nearest

@@ -11,8 +11,7 @@ from ._runtime.domain.actions import Parameter
 from ._runtime.domain.fields import Entity, Field, FieldType
 from ._runtime.domain.model import Category
 from ._runtime.domain.quantities import Type
-from ._runtime.events.declared import Event, EventType
-from ._runtime.events.parts import Along, AlongField, TrackField
+from ._runtime.events.declared import Along, AlongField, Event, EventType, TrackField
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
