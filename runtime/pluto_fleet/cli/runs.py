@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import timedelta
-from math import ceil, floor
 from pathlib import Path
-from statistics import mean, median
 from typing import TYPE_CHECKING, NamedTuple
 
 from ..process.text import in_shell
 from ..process.workers import WorkerDied, cores, in_workers
+from ..report.reactions import Reactions, reactions_of
 from ..report.report import exit_code, last_line, simulation_data
+from ..report.spread import spread
 from ..report.terminal import table
 from ..shared import output
 from ..shared.alone.simulate import trips_data
@@ -107,6 +107,9 @@ def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[st
     yield ""
     yield from _figures(runs)
     yield ""
+    if reactions := [*_reactions(runs).lines()]:
+        yield from reactions
+        yield ""
     broken = [run for run in runs if run.violations]
     if broken:
         yield from _broken(app, options, broken)
@@ -123,6 +126,14 @@ def _said(app: App, options: Options, runs: Sequence[RunFigures]) -> Iterator[st
 def _late(runs: Sequence[RunFigures]) -> dict[str, int]:
     """Return in how many runs missions were late, the most often first."""
     return dict(Counter(name for run in runs for name in run.late).most_common())
+
+
+def _reactions(runs: Sequence[RunFigures]) -> Reactions:
+    """Return what came of the events of all runs."""
+    whole = Reactions()
+    for run in runs:
+        whole.add(run.reactions)
+    return whole
 
 
 def _figures(runs: Sequence[RunFigures]) -> Iterator[str]:
@@ -210,6 +221,8 @@ class RunFigures:
     """The missions that were late."""
     violations: tuple[str, ...] = ()
     """The invariants that this run violated."""
+    reactions: Reactions = field(default_factory=Reactions)
+    """What came of its events."""
 
 
 def run_of(seed: int, outcome: SimulationResult, items: Items) -> RunFigures:
@@ -233,6 +246,7 @@ def run_of(seed: int, outcome: SimulationResult, items: Items) -> RunFigures:
         battery=min(levels, default=None),
         late=tuple(mission.name for mission in outcome.missions if mission.late),
         violations=tuple(invariants.over() if whole else invariants.found),
+        reactions=reactions_of(outcome.events),
     )
 
 
@@ -253,34 +267,12 @@ def summary(runs: Sequence[RunFigures]) -> dict[str, object]:
         "failed_trips": spread([float(run.failed) for run in runs]),
         "battery_level": spread([run.battery for run in runs if run.battery is not None]),
         **({"late": late} if (late := _late(runs)) else {}),
+        **_reactions(runs).data(),
         "failed_seeds": bad[:MOST_SEEDS],
         "violations": [
             {"seed": run.seed, "what": sentence} for run in runs for sentence in run.violations
         ],
     }
-
-
-def spread(values: Sequence[float]) -> dict[str, float] | None:
-    """Return the distribution of some numbers; None if there are none."""
-    if not values:
-        return None
-    ordered = sorted(values)
-    return {
-        "min": ordered[0],
-        "p5": percentile(ordered, 0.05),
-        "median": median(ordered),
-        "mean": mean(ordered),
-        "p90": percentile(ordered, 0.90),
-        "p95": percentile(ordered, 0.95),
-        "max": ordered[-1],
-    }
-
-
-def percentile(ordered: Sequence[float], share: float) -> float:
-    """Return a percentile, interpolated between two neighbours."""
-    place = share * (len(ordered) - 1)
-    below, above = ordered[floor(place)], ordered[ceil(place)]
-    return min(below + (above - below) * (place - floor(place)), above)
 
 
 def plot(path: Path, title: str, runs: Sequence[RunFigures]) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Container, Iterator
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..journal.facts import DRAINED, Event
+from ..journal.facts import Event
 from ..journal.facts import check as check_facts
 from ..journal.header import check
 from ..journal.reader import Reader
@@ -82,15 +82,15 @@ def aside(record: Record) -> tuple[Status, str] | None:
     return None
 
 
-def count_flights(journal: Path) -> tuple[int, int, float, list[Event]]:
+def count_flights(journal: Path, wanted: Container[str]) -> tuple[int, int, float, list[Event]]:
     """Count the flights and those that failed; return how many seconds the missions took, too.
 
-    With it come the events of broken reserves. The seconds are from when the drones were connected, as in a simulation; 0: none has ended.
+    With it come the entries of the kinds that are wanted. The seconds are from when the drones were connected, as in a simulation; 0: none has ended.
     """
     launched = failed = 0
     began = None
     ended = 0.0
-    drained = list[Event]()
+    told = list[Event]()
     with closing(Reader(journal)) as reader:
         for instant in reader.instants():
             with suppress(ValueError):
@@ -99,11 +99,11 @@ def count_flights(journal: Path) -> tuple[int, int, float, list[Event]]:
                     kind = event["event"]
                     launched += kind == "trip.launched"
                     failed += kind == "trip.failed"
-                    if kind == DRAINED:
-                        drained.append(event)
+                    if kind in wanted:
+                        told.append(event)
                     if began is None and kind == "brain.began":
                         began = event["t"]
                     if kind == "mission.ended":
                         ended = event["t"]
     seconds = max(ended - (began or 0.0), 0.0) if ended else 0.0
-    return launched, failed, seconds, drained
+    return launched, failed, seconds, told

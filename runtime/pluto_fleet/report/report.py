@@ -21,6 +21,7 @@ from ..shared.domain.text import (
     percent,
     printable,
 )
+from .reactions import TOLD_BY, reactions_of
 from .sentences import sentence_of
 from .terminal import table
 
@@ -55,6 +56,7 @@ def report(app: App, outcome: SimulationResult, fleet: FleetFile) -> Iterator[st
     yield ""
     yield from drone_table(outcome.drones, outcome.flown)
     yield ""
+    yield from _came_of(outcome.events)
     if outcome.given_up:
         yield f"given up: {printable(outcome.given_up)}"
     yield from broken_reserves(outcome.events)
@@ -129,7 +131,19 @@ def simulation_data(name: str, seed: int, outcome: SimulationResult) -> dict[str
         for event in outcome.events
         if event["event"] == ACTS_BESIDE
     ]
-    return {**outcome_data(name, seed, outcome), **({"beside": beside} if beside else {})}
+    reactions = reactions_of(outcome.events).data()
+    return {
+        **outcome_data(name, seed, outcome),
+        **({"beside": beside} if beside else {}),
+        **reactions,
+    }
+
+
+def _came_of(trace: Iterable[Event]) -> Iterator[str]:
+    """Yield what came of the app's events, if there were any."""
+    if lines := [*reactions_of(trace).lines()]:
+        yield from lines
+        yield ""
 
 
 def broken_reserves(events: Iterable[Event]) -> Iterator[str]:
@@ -211,12 +225,12 @@ def report_of(
     """Return the exit code of a flight that has a journal, and the lines of its report."""
     rows = [_recorded_row(name, record) for name, record in in_order(records)]
     statuses = [row.status for row in rows]
-    flights, failed, ended, drained = count_flights(journal)
+    flights, failed, ended, told = count_flights(journal, {DRAINED, *TOLD_BY})
     lines = [*mission_table(app, rows), ""]
     if drones:
         lines += [*drone_table(drones, {}), ""]
     late = sum(row.late for row in rows)
-    lines += broken_reserves(drained)
+    lines += [*_came_of(told), *broken_reserves(told)]
     lines.append(in_one_line(statuses, ended or records.time, flights, failed, late=late))
     return code_of(statuses), lines
 

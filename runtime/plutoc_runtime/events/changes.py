@@ -31,8 +31,11 @@ def relieve(core: Core, mission: Mission[Any], trip: Trip, drone: Drone) -> None
     core.transitions.note_trip("trip.relieving", mission, trip, drone=drone.id)
 
 
-def hand_over(core: Core, mission: Mission[Any], trip: Trip, drone: Drone) -> None:
-    """Give a trip in flight another drone: that is no attempt of its own."""
+def hand_over(
+    core: Core, mission: Mission[Any], trip: Trip, drone: Drone, away: float, reach: float
+) -> None:
+    """Give a trip in flight another drone, which is so far `away`: that is no attempt of its own."""
     before = trip.drone and trip.drone.id
     put(trip, drone=drone)
-    core.transitions.note_flight("trip.handed_over", mission, trip, of=before)
+    facts = {"of": before, "away": round(away, 3), "reach": reach}
+    core.transitions.note_flight("trip.handed_over", mission, trip, **facts)

@@ -113,7 +113,7 @@ class Events(Part):
         happening = Happening(event, (*self._creators.get(name, ()),))
         self.happenings[id] = happening
         self._changed[id] = None
-        self._note("event.raised", facts_of(event))
+        self._note("event.raised", _told_of(event))
         on_record = self._core.on_record
         recorded = None if on_record is None else on_record()  # not what is noted after it
         for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
@@ -354,9 +354,7 @@ class Events(Part):
 
     def _note(self, what: str, facts: Mapping[str, Any]) -> None:
         if self._core.trace.live:
-            self._core.trace.note(
-                what, **{_NOTED.get(name, name): one for name, one in facts.items()}
-            )
+            self._core.trace.note(what, **facts)
 
     # Rows
 
@@ -388,6 +386,14 @@ class Events(Part):
         """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
         for happening in self.happenings.values():
             self._ask_creators(happening, None)
+
+
+def _told_of(event: Event) -> dict[str, Any]:
+    """Return what the trace says of an occurrence: its own fields apart, as they may be called anything."""
+    facts = facts_of(event)
+    own = {name: facts.pop(name) for name in tuple(facts) if name not in _OF_ALL}
+    told = {_NOTED.get(name, name): one for name, one in facts.items()}
+    return {**told, "fields": own} if own else told
 
 
 def _row(happening: Happening) -> dict[str, Any]:

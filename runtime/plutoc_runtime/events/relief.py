@@ -169,6 +169,7 @@ def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:
     """Let the trip go on with this drone; the one before goes home."""
     core = state.core
     first = flight.flier
+    away = dist(drone.location, _where(state, flight))
     if flight.own_action is None:  # it is on its way still
         core.orders.break_off(first.id)
     before = flight.id
@@ -176,7 +177,7 @@ def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:
     flight.relieved += 1
     company: Company = core.parts[Company]
     company.hand_over(flight, before, drone)
-    hand_over(core, state.mission, flight.trip, drone)
+    hand_over(core, state.mission, flight.trip, drone, away, reach_of(flight.trip))
     if flight.own_action is None:
         answer = partial(state.reported, flight)
         core.orders.fly(drone.id, answer, {**flight.order, "company": True})

@@ -10,8 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pluto_fleet.cli.runs import RunFigures, spread, summary
+from pluto_fleet.cli.runs import RunFigures, summary
 from pluto_fleet.report.sentences import line_of
+from pluto_fleet.report.spread import spread
 from pluto_fleet.report.terminal import Progress, table
 from pluto_fleet.shared.alone.world import shares
 from pluto_fleet.shared.domain.trace import dumped

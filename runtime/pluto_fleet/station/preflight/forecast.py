@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from math import ceil, floor
 from statistics import median
 from typing import TYPE_CHECKING, Any
 
 from ...flight.simulate import has_traffic
+from ...report.spread import percentile
 from ...shared.domain.actions import PICK
 from ...shared.domain.text import counted, duration, mass, percent
 from ...shared.fleet.reach import docked
@@ -179,13 +179,6 @@ def forecast(
         "problems": [*problems, *_given_up(runs)],
         "rehearsal": rehearsal,
     }
-
-
-def percentile(ordered: Sequence[float], share: float) -> float:
-    """Return a percentile, interpolated between two neighbours."""
-    place = share * (len(ordered) - 1)
-    below, above = ordered[floor(place)], ordered[ceil(place)]
-    return min(below + (above - below) * (place - floor(place)), above)
 
 
 def readiness(question: Question, needs: Needs) -> list[Readiness]:

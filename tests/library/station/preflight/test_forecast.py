@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from pluto_fleet.cli.runs import spread
 from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.report.spread import spread
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.app import moving
 from pluto_fleet.shared.domain.errors import BadInput
