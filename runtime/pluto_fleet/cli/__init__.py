@@ -21,7 +21,7 @@ _MODULES = {"check": "plans", "decide": "tell", "resume": "fly"}
 """Where a command is whose module is not called as it is."""
 
 _WITHOUT_HOOKS = (["tell"], ["journal"], ["--version"])
-"""Commands that need only an app's name: a Stop must work even if hooks.py does not."""
+"""Commands that need only an app's name, but for events: a Stop must work even if hooks.py does not."""
 
 
 def start(name: str, load: Callable[[], object], package: str, seam: int) -> int:
@@ -45,7 +45,7 @@ def _run(name: str, load: Callable[[], object], package: str, seam: int) -> int:
 
     guard_hooks()
     parent = os.getpid()
-    if sys.argv[1:2] in _WITHOUT_HOOKS:
+    if sys.argv[1:2] in _WITHOUT_HOOKS and "event" not in sys.argv:
         return _heard(bare(name, package, seam))
     with interrupted_by_a_person(), refused():
         given = loaded(load)

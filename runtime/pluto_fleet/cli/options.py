@@ -89,6 +89,7 @@ class Options:
     priority: int | None = None
     given: Path | None = None
     kind: str | None = None
+    keep: float | None = None
     land: bool = False
     rtl: bool = False
     everyone: bool = False
@@ -380,6 +381,11 @@ TABLE = (
         "--kind",
         "mishap: what happens to a simulated drone, to rehearse it",
         choices=MISHAPS,
+    ),
+    row(
+        "tell",
+        "--keep TIME",
+        "event: how long it is kept while everything is stopped (default 60 s); resumed later, it is dropped",
     ),
     row("tell", "--land", "stop: land where the drones are (the default)", apart="how"),
     row("tell", "--rtl", "stop: fly home first", apart="how"),

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..files.reading import listed, read
 from ..flight import offline
-from ..flight.control import OF_AN_EVENT
+from ..flight.kept_events import OF_AN_EVENT, record_event
 from ..flight.mission_status import ANSWERS, records_in, waiting
 from ..flight.offline import record_decision
 from ..gateway.starting import cut_directly, stop_directly
@@ -51,6 +51,8 @@ def tell(app: App, options: Options) -> int:
         output.line(cut_motors(app, options.the_journal, options.mission))
     elif options.action == "bring-back":
         output.line(_bring_back(app, options, request))
+    elif options.action == "event":
+        output.line(_raise_event(app, options, request))
     else:
         output.line(asked(app, options, request))
     return 0
@@ -62,6 +64,14 @@ def _bring_back(app: App, options: Options, request: Mapping[str, object]) -> st
         return asked(app, options, request)
     except NotRunning:
         return offline.record_return(app, options.the_journal, str(request["drone"]))
+
+
+def _raise_event(app: App, options: Options, request: Mapping[str, object]) -> str:
+    """Tell the running app that something has happened, or have its journal keep that."""
+    try:
+        return asked(app, options, request)
+    except NotRunning:
+        return record_event(app, options.the_journal, str(request["event"]), request)
 
 
 def asked(app: App, options: Options, request: Mapping[str, object]) -> str:
@@ -111,7 +121,8 @@ def _request(app: App, options: Options) -> dict[str, object]:
         case "join" if options.given is not None:
             return {**drone_in(options.given, str(mission)), "command": action, "drone": mission}
         case "event":
-            return {"command": "raise-event", "event": mission, **_facts((trip, *options.more))}
+            facts = _facts((trip, *options.more))
+            return {"command": "raise-event", "event": mission, "keep": options.keep, **facts}
         case _:
             return {"command": action, "mission": mission}
 
@@ -154,6 +165,7 @@ def _wrong(options: Options) -> str:
         ("--all goes", options.everyone, ("cut-motors",)),
         ("--from goes", options.given is not None, ("change-trips", "join")),
         ("--kind goes", options.kind is not None, ("mishap",)),
+        ("--keep goes", options.keep is not None, ("event",)),
     )
     for flag, is_given, actions in only:
         if is_given and action not in actions:

@@ -16,9 +16,9 @@ from ..jobs.reports import Down
 from ..shared.domain.errors import BadInput
 from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
-from ..shared.events.declared import EventsDeclared
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
+from .kept_events import events_of, given_of, has_happened, is_kept, is_known, kept_one, noted
 from .mishaps import Mishaps
 from .mission_status import ANSWERS, aside
 from .reconcile import ANSWERS as DONE_OR_NOT
@@ -176,15 +176,22 @@ class Control(Suspending):
         return f"mission {quoted(mission)}: trip {quoted(trip)} has priority {priority}"
 
     def raise_event(self, event: str, facts: Mapping[str, object]) -> str:
-        """Raise an event of the app; one whose id has happened does not happen again."""
-        self._refuse_after_stop()
-        if not any(isinstance(part, EventsDeclared) for part in self._run.app.parts):
-            raise BadInput(f"{self._run.app.name} has no events")
-        given = {name: facts[name] for name in OF_AN_EVENT if facts.get(name) is not None}
-        if given.get("id") in self._run.records.happenings:
-            return f"event {quoted(str(given['id']))} has happened already"
-        self._run.command("raise", event=event, **given)
+        """Raise an event of the app, or keep it after a Stop; one whose id has happened does not happen again."""
+        run = self._run
+        events_of(run.app)
+        given = given_of(facts)
+        if "id" in given and is_known(run.records, str(given["id"])):
+            return has_happened(str(given["id"]))
+        if self._stops is not None:
+            return self._keep(kept_one(run.app, run.records, event, facts))
+        run.command("raise", event=event, **given)
         return f"event {quoted(event)} has happened"
+
+    def _keep(self, one: Record) -> str:
+        """Keep an event until everything goes on."""
+        self._run.recorder.fact("kept", [*self._run.records.kept, one])
+        self._run.take(noted(one, round(self._run.kernel.now, 6)))
+        return is_kept(one)
 
     def retire(self, drone: str) -> str:
         """Allocate a drone to no further trip, until it is brought back."""
@@ -358,9 +365,6 @@ def _named(those: Sequence[tuple[str, Record]]) -> str:
 
 
 _ASIDE = (Status.PAUSED, Status.UNCERTAIN, Status.HELD)
-
-OF_AN_EVENT = ("id", "at", "track", "mission", "trip", "drone", "fields")
-"""What may be said of an event that is raised."""
 
 _HOW = {
     Down.HOME: "all drones fly home and land",

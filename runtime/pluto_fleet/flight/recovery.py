@@ -14,6 +14,7 @@ from ..jobs.reports import reported_result, result_data
 from ..shared.domain.fields import Entity
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.status import Status
+from .kept_events import tell_kept
 from .reconcile import (
     ANSWERS,
     CANCELLED,
@@ -157,6 +158,7 @@ class Recovery:
     def go_on(self) -> None:
         """Have the brain go on; the drones that fly for no mission are called off."""
         self._run.driver.call(partial(self._run.brain.go_on, self._resumed, self._drones()))
+        tell_kept(self._run)
 
     def _drones(self) -> Mapping[str, Mapping[str, Any]]:
         wanted = {

@@ -27,7 +27,7 @@ from ..shared.domain.text import printable
 from ..shared.events.world import MovingWorld
 from ..shared.time.kernel import FLEET, EventKind, Future
 from ..simulation.drones import SimulatedNavigation
-from ..simulation.world_store import WorldStore, this_moment
+from ..simulation.world_store import WorldStore, this_moment, time_in_world
 from .drone_lock import LEAVING, lock_drones
 from .gateway import Gateway, Rehearse, TakeIn
 from .ledger import Ledger
@@ -163,8 +163,8 @@ def _settings(file: Path) -> Settings:
 
 async def run(folder: Path, settings: Settings) -> None:
     """Connect the drones, or resume the simulated world, and serve brains until the end."""
-    kernel = RealTime(settings.speed)
     if settings.real is None:
+        kernel = RealTime(settings.speed, time_in_world(folder, settings.speed, this_moment()))
         simulated, keeper = _simulated(folder, settings, kernel)
         seen = Sightings(folder / SEEN, simulated.telemetry, down=simulated.down)
 
@@ -179,6 +179,7 @@ async def run(folder: Path, settings: Settings) -> None:
         return
     from ..drones.team import make_team  # not needed in a simulation
 
+    kernel = RealTime(settings.speed)
     uris = {drone.id: drone.uri or drone.id for drone in settings.real.drones}
     with lock_drones(uris, patience=LEAVING), ExitStack() as joined:
         team = make_team(kernel, settings.drones, settings.real, settings.airspace, folder, _say)

@@ -58,7 +58,7 @@ TABLES = {
   text TEXT NOT NULL
 ) WITHOUT ROWID""",
     "app": """CREATE TABLE app (
-  fact TEXT PRIMARY KEY, -- epoch, clock, stopped, commands, joined
+  fact TEXT PRIMARY KEY, -- epoch, clock, stopped, commands, joined, kept
   text TEXT NOT NULL
 ) WITHOUT ROWID""",
 }

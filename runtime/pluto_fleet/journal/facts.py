@@ -219,6 +219,15 @@ class HappeningRow(TypedDict):
     why: NotRequired[str]
 
 
+class KeptRow(TypedDict):
+    """An event that was raised while everything was stopped, with what was given, and until when it counts."""
+
+    event: str
+    given: dict[str, Any]
+    since: float
+    keep: float
+
+
 class ClockRow(TypedDict):
     """When the app first began, and how far the clock of the hours has drifted since."""
 
@@ -312,6 +321,8 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.handed_over": {**_FLIGHT, "of?": str | None, "away?": float, "reach?": float},
     "event.raised": {"id": str, "kind": str, "raised": float, "fields?": dict[str, Any]},
     "event.over": {"id": str, "made?": str, "why?": str},
+    "event.kept": {"id": str, "kind": str, "keep": float},
+    "event.dropped": {"id": str, "kind": str, "why": str},
     "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
@@ -462,6 +473,7 @@ _APP: Mapping[str, Decoder[Any]] = {
     "stopped": Decoder(dict[Literal["is"], float | None]),
     "commands": Decoder(dict[Literal["is"], list[str]]),
     "joined": Decoder(dict[Literal["is"], list[dict[str, Any]]]),
+    "kept": Decoder(dict[Literal["is"], list[KeptRow]]),
 }
 _DELAY = fits(tuple[Place, float, float])
 _WAITED = fits(Place)

@@ -104,6 +104,11 @@ class Standing:
         """The drones that have joined the fleet, in their order, each as in a fleet file."""
         return list(self.app.get("joined", ()))
 
+    @property
+    def kept(self) -> list[Record]:
+        """The events that were raised while everything was stopped, to be told at Resume."""
+        return list(self.app.get("kept", ()))
+
     # Drones
 
     @property

@@ -139,12 +139,18 @@ _SENTENCES: Mapping[str, Say] = {
     "action.result": "trip {trip}: a result on the way ({drone})",
     "event.raised": _raised,
     "event.over": _over,
+    "event.kept": lambda event: (
+        f"event {event['kind']} is kept for {duration(event['keep'])} ({event['id']})"
+    ),
+    "event.dropped": "event {kind} is dropped: {why} ({id})",
     "trip.prioritised": "trip {trip} has priority {priority}",
     "drone.joined": "{drone} joins the fleet",
     "drone.mishap": "{drone}: a mishap is rehearsed: {kind}",
     "mission.waits": _waits,
     "drone.waits": lambda event: f"{event['drone']} {_waits(event)}",
-    "drone.landed": lambda event: f"{event['drone']} has landed at {place(event['at'])}, where nobody asked it to",
+    "drone.landed": lambda event: (
+        f"{event['drone']} has landed at {place(event['at'])}, where nobody asked it to"
+    ),
     "drone.retired": "{drone} is retired",
     "drone.brought_back": _brought_back,
     "drone.drained": lambda event: (

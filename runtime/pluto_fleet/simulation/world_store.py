@@ -60,13 +60,32 @@ DEEDS, DRONES = "world.jsonl", "drones.json"
 """The names of the files with the actions and with the drones' states."""
 
 
+def _saved(folder: Path) -> Mapping[str, Any]:
+    """Return the drones' states as they were stored last, and when; nothing if they never were."""
+    with suppress(OSError, ValueError):
+        saved: Mapping[str, Any] = json.loads((folder / DRONES).read_bytes())
+        return saved
+    return {}
+
+
+def time_in_world(folder: Path, speed: float, now: Moment) -> float:
+    """Return what time it is in a stored world, in seconds since it first began."""
+    saved = _saved(folder)
+    if not saved:
+        return 0.0
+    passed = now.since(Moment(**saved["moment"])) * speed
+    return float(saved["time"]) + passed
+
+
 class WorldStore:
     """The files of one simulated world. The file of actions is append-only."""
 
     def __init__(
         self, folder: Path, clock: Callable[[], float], speed: float, moment: Callable[[], Moment]
     ) -> None:
-        self._drones, self._clock, self._speed = folder / DRONES, clock, speed
+        self._folder = folder
+        self._clock = clock
+        self._speed = speed
         self._moment = moment
         self._bodies: Mapping[str, SimulatedBody] = {}
         self._counts: dict[str, int] = {}
@@ -83,9 +102,7 @@ class WorldStore:
     def take_over(self, bodies: Mapping[str, SimulatedBody]) -> None:
         """Restore the drones, and record them from now on."""
         self._bodies = bodies
-        saved: Mapping[str, Any] = {}
-        with suppress(OSError, ValueError):
-            saved = json.loads(self._drones.read_bytes())
+        saved = _saved(self._folder)
         now = self._moment()
         for id, data in saved.get("drones", {}).items():
             if id in bodies:
@@ -160,5 +177,5 @@ class WorldStore:
             {"moment": asdict(self._moment()), "time": self._clock(), "drones": drones}
         )
         with suppress(OSError):  # it is written again at the next change
-            write_whole(self._drones, text)
+            write_whole(self._folder / DRONES, text)
             self._stale = False

@@ -318,9 +318,13 @@ class Interface:
         trip: str | None = None,
         drone: str | None = None,
         fields: dict[str, Any] | None = None,
+        keep: Seconds | None = None,
         id: str | None = None,
     ) -> str:
-        """Raise an event of the app, with the fields that it declares; with one `id` it happens once."""
+        """Raise an event of the app, with the fields that it declares; with one `id` it happens once.
+
+        While everything is stopped it is kept for `keep` seconds, 60 if that is null.
+        """
 
     @_command("/api/retire")
     def retire(self, *, drone: Drone, id: str | None = None) -> str:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from ..files.fleet import with_joined
 from ..flight.commands import perform
 from ..flight.config import End, FlightSetup
+from ..flight.kept_events import record_event
 from ..flight.lives import flight_of, reopen
 from ..flight.offline import clear_stop, record_loss
 from ..flight.recorded_flight import RecordedFlight
@@ -170,6 +171,9 @@ class Station:
             case "bring-back" if self.session is None or not self.session.lives:
                 async with self._one_at_a_time:
                     return self._bring_back(id, given["drone"])
+            case "raise-event" if self.phase in (Phase.STOPPED, Phase.INTERRUPTED):
+                async with self._one_at_a_time:
+                    return self._keep_event(id, given)
             case "acknowledge":
                 return self.attention.acknowledge(given["alert"], by)
             case "discard":
@@ -244,6 +248,12 @@ class Station:
         if self.session is not None:
             self.session.records = self.history.records
         return said
+
+    def _keep_event(self, id: str, given: Mapping[str, Any]) -> str:
+        """Keep an event until the flight is resumed."""
+        if self.session is None or self.session.lives:
+            raise BadInput("the flight is just being resumed: try again in a moment")
+        return record_event(self._app, self.session.journal, given["event"], {**given, "id": id})
 
     def _lock_what_flies(self) -> None:
         """Lock the flight's missions in the plan, and no others."""

@@ -8,10 +8,14 @@ from dataclasses import dataclass, fields
 from functools import partial
 from typing import TYPE_CHECKING, Any, Required, TypedDict, cast
 
+from ..domain import values
 from ..domain.actions import Action, Parameter, Plain
 from ..domain.app import parameters_data
+from ..domain.errors import BadInput
 from ..domain.fields import Entity, Field, FieldType
+from ..domain.plain import plain_of
 from ..domain.quantities import Type
+from ..domain.text import quoted
 from ..domain.values import Quantity, Table, one_of, read_parameters
 from .part import PartOf
 from .world import Mover, read_movers
@@ -80,6 +84,39 @@ def event_of(kind: EventType, facts: Mapping[str, Any]) -> Event:
     """Return an occurrence from its plain data."""
     at = facts.get("at")
     return kind.type(**{**facts, "at": None if at is None else tuple(at)})
+
+
+FACTS = ("id", "track", "mission", "trip", "drone")
+"""What may be said of each occurrence, beside where it was, and the fields that its event declares."""
+
+
+def read_occurrence(
+    types: Mapping[str, EventType],
+    name: str,
+    given: Mapping[str, Any],
+    place: Callable[[object], Any],
+    wrong: Callable[[str], Exception] = BadInput,
+) -> dict[str, Any]:
+    """Return what is said of an occurrence, checked; raise what is `wrong` with it.
+
+    `given` may have FACTS, `at`, which `place` reads, and the event's own `fields`.
+    """
+    kind = types.get(name)
+    if kind is None:
+        raise wrong(f"there is no event {quoted(str(name))}; there are: {', '.join(types)}")
+    table = Table(given, who=f"event {name}")
+
+    def read_place(value: object) -> Any:
+        return place(list(value) if isinstance(value, tuple) else value)
+
+    facts = table.read({}, {**dict.fromkeys(FACTS, values.name), "at": read_place, "fields": None})
+    fields = {each: plain_of(one) for each, one in given.get("fields", {}).items()}
+    own = Table(fields, who=table.who)
+    own.problems = table.problems
+    facts.update(read_parameters(own, kind.fields))
+    if table.problems:
+        raise wrong(table.problems[0].sentence)
+    return facts
 
 
 @dataclass(frozen=True, slots=True)

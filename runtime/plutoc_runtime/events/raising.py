@@ -14,10 +14,9 @@ from ..domain.errors import BadInput, HookFault
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import keeper_of, put, reading, trips_of
-from ..domain.plain import plain_of
 from ..domain.status import DroneStatus, Status
-from ..domain.text import LONGEST_REASON, bounded, class_of, quoted
-from ..domain.values import Table, is_name, name, point, point_on, read_parameters
+from ..domain.text import LONGEST_REASON, bounded, class_of
+from ..domain.values import is_name, point, point_on
 from ..fleet.reach import miss_of
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
@@ -27,6 +26,7 @@ from ..time.kernel import FLEET, EventKind, Future
 from .changes import keep
 from .context import Context, Outside
 from .declared import (
+    FACTS,
     LATE,
     LOST,
     Creator,
@@ -35,12 +35,13 @@ from .declared import (
     EventType,
     event_of,
     facts_of,
+    read_occurrence,
 )
 from .interruption import Interruption
 from .part import Part
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Trip
+    from ..domain.model import Drone, Mission, Point, Trip
     from ..domain.trace import Row
     from ..flow.engine import Engine
     from ..flow.flight import Flight
@@ -113,7 +114,7 @@ class Events(Part):
         happening = Happening(event, (*self._creators.get(name, ()),))
         self.happenings[id] = happening
         self._changed[id] = None
-        self._note("event.raised", _told_of(event))
+        self._note("event.raised", **_as_noted(event, kind))
         on_record = self._core.on_record
         recorded = None if on_record is None else on_record()  # not what is noted after it
         for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
@@ -132,28 +133,15 @@ class Events(Part):
         self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception]
     ) -> dict[str, Any]:
         """Return the facts of an occurrence, checked; raise what is `wrong` with them."""
-        kind = self._types.get(name)
-        if kind is None:
-            there = ", ".join(self._types)
-            raise wrong(f"there is no event {quoted(str(name))}; there are: {there}")
-        table = Table(given, who=f"event {name}")
         space = self._core.airspace
 
-        def place(value: object) -> object:
-            listed = list(value) if isinstance(value, tuple) else value
-            x, y, z = point_on(space, space.cruise_height, point, listed)
+        def on_the_map(value: object) -> Point:
+            x, y, z = point_on(space, space.cruise_height, point, value)
             return round(x, 3), round(y, 3), round(z, 3)  # no camera sees more exactly
 
-        known = table.read({}, {**_FACTS, "at": place, "fields": None})
-        own = Table(
-            {each: plain_of(one) for each, one in given.get("fields", {}).items()}, who=table.who
-        )
-        own.problems = table.problems
-        known.update(read_parameters(own, kind.fields))
-        if table.problems:
-            raise wrong(table.problems[0].sentence)
-        known.setdefault("id", f"{name}-{len(self.happenings) + 1}")
-        return known
+        facts = read_occurrence(self._types, name, given, on_the_map, wrong)
+        facts.setdefault("id", f"{name}-{len(self.happenings) + 1}")
+        return facts
 
     def _hear(self, noted: Mapping[str, Any]) -> None:
         """Raise the built-in events when what they are about is noted."""
@@ -271,10 +259,10 @@ class Events(Part):
         self._changed[event.id] = None
         if mission is None:
             happening.why = happening.why or f"{creator.block} made no mission of it"
-            self._note("event.over", {"id": event.id, "why": happening.why})
+            self._note("event.over", id=event.id, why=happening.why)
         else:
             happening.made.append(mission.name)
-            self._note("event.over", {"id": event.id, "made": mission.name})
+            self._note("event.over", id=event.id, made=mission.name)
             self._engine.begin([mission], at=creator.block)
         self._engine.expect_no_more()
 
@@ -352,7 +340,7 @@ class Events(Part):
         """Keep a result of a flight that goes on."""
         keep(self._core, flight.mission, flight.trip, keepable(value))
 
-    def _note(self, what: str, facts: Mapping[str, Any]) -> None:
+    def _note(self, what: str, **facts: Any) -> None:
         if self._core.trace.live:
             self._core.trace.note(what, **facts)
 
@@ -388,14 +376,6 @@ class Events(Part):
             self._ask_creators(happening, None)
 
 
-def _told_of(event: Event) -> dict[str, Any]:
-    """Return what the trace says of an occurrence: its own fields apart, as they may be called anything."""
-    facts = facts_of(event)
-    own = {name: facts.pop(name) for name in tuple(facts) if name not in _OF_ALL}
-    told = {_NOTED.get(name, name): one for name, one in facts.items()}
-    return {**told, "fields": own} if own else told
-
-
 def _row(happening: Happening) -> dict[str, Any]:
     row: dict[str, Any] = {"event": facts_of(happening.event), "open": [*happening.open]}
     if happening.made:
@@ -405,8 +385,13 @@ def _row(happening: Happening) -> dict[str, Any]:
     return row
 
 
+def _as_noted(event: Event, kind: EventType) -> dict[str, Any]:
+    """Return what the trace says of an occurrence; its own fields apart, as they may have any name."""
+    facts = facts_of(event)
+    fields = {one.name: facts.pop(one.name) for one in kind.fields if one.name in facts}
+    noted = {"kind": facts.pop("name"), "raised": facts.pop("time"), **facts}
+    return {**noted, "fields": fields} if fields else noted
+
+
 BUILT_IN = (EventType(name=LATE), EventType(name=LOST))
-_FACTS = dict.fromkeys(("id", "track", "mission", "trip", "drone"), name)
-_OF_ALL = (*_FACTS, "name", "time", "at")
-_NOTED = {"name": "kind", "time": "raised"}
-"""How facts are called in the trace, where these names are taken."""
+_OF_ALL = (*FACTS, "name", "time", "at")

@@ -71,6 +71,13 @@ def kinds(brain: Brain) -> list[str]:
     return [str(event["event"]) for event in brain.events()]
 
 
+def test_the_trace_says_which_event_it_was_whatever_its_fields_are_called() -> None:
+    brain = charged(app=app_with())
+    raised(brain, 1.0, at=[4.0, 2.0], fields={"kind": "dog"})
+    (said,) = [event for event in brain.events() if event["event"] == "event.raised"]
+    assert (said["kind"], said["fields"]) == ("intruder", {"kind": "dog"})
+
+
 def test_an_event_makes_a_mission_that_flies() -> None:
     brain = charged(app=app_with())
     raised(brain, 1.0, at=[4.0, 2.0])

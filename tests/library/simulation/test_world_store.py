@@ -14,7 +14,14 @@ from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, varied, varies
-from pluto_fleet.simulation.world_store import DEEDS, DRONES, Moment, WorldStore, this_moment
+from pluto_fleet.simulation.world_store import (
+    DEEDS,
+    DRONES,
+    Moment,
+    WorldStore,
+    this_moment,
+    time_in_world,
+)
 from tests.library.gateway.flights import PILLS, SCOUT, THERE, Field, Task
 from tests.library.simulation.flights import failure, fly
 
@@ -64,6 +71,16 @@ def test_a_drone_flies_on_while_it_is_not_looked_at(tmp_path: Path) -> None:
     assert not telemetry.landed
     fly(field.kernel, field.navigation.do("cf1", Land()))
     assert field.later(tmp_path, 5).navigation.telemetry["cf1"].landed
+
+
+def test_time_goes_on_in_a_world_whose_process_has_ended(tmp_path: Path) -> None:
+    """So what moves in it is where it has got to, and not back where it was at first."""
+    now = this_moment()
+    assert time_in_world(tmp_path, 1.0, now) == 0.0
+    field = Kept(tmp_path)
+    field.advance(6)
+    later = replace(field.moment(), wall=field.wall() + 3.0)
+    assert time_in_world(tmp_path, 1.0, later) == pytest.approx(9.0)
 
 
 def test_what_was_done_and_is_aboard_is_remembered(tmp_path: Path) -> None:
