@@ -49,6 +49,7 @@ CAMPAIGNS = (
     "python -m tests.waits --flights 6 --load 8",
     "python -m tests.waits --flights 6 --crtp --load 8 --stall 4",
     "python -m tests.areas --areas 1000",
+    "python -m tests.geodesy --places 10000",
     "python -m tests.batteries --apps 400",
     "python -m tests.calibrating --cases 100",
     "python -m tests.prediction",
