@@ -11,6 +11,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from ..geodesy import LocalPlane
 from ..jobs.landing_sites import free_spots
 from ..jobs.reports import SILENCE
 from ..shared.alone.files import (
@@ -31,6 +32,7 @@ from ..shared.domain.text import number, quoted
 from ..shared.domain.values import Keys, Table
 from .addresses import SUCH_AS, address_of, crowded_air, which
 from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
+from .origin import read_plane
 from .reading import Document, PlanTable, listed, near, parsed, read, top
 
 if TYPE_CHECKING:
@@ -226,6 +228,8 @@ class FleetFile(FleetData):
     drones: tuple[DroneEntry, ...]
     landmarks: Landmarks = NO_LANDMARKS
     """What the map shows."""
+    plane: LocalPlane | None = None
+    """Where the map lies on the Earth."""
     apart: float = APART
     """The least distance between two drones, in metres."""
     silence: float = SILENCE
@@ -270,6 +274,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         **given,
         airspace=airspace or Airspace(),
         landmarks=read_landmarks(on_map, airspace),
+        plane=read_plane(on_map),
         motion=read_motion(whole),
         options=navigation_options(whole, used),
         localization_options=options_in(whole.table("localization")),

@@ -12,6 +12,7 @@ from ..shared.domain import values
 from ..shared.domain.airspace import EPSILON, Airspace, Corner, Polygon, distance, tidy
 from ..shared.domain.text import place
 from ..shared.domain.values import Keys, Table
+from .origin import north_by
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,7 +86,7 @@ def read_landmarks(table: Table, airspace: Airspace | None) -> Landmarks:
     return Landmarks(
         places=tuple(NamedPlace(**one) for one in places),
         zones=tuple(Zone(**one) for one in zones),
-        north=table.value("north", degrees) or 0.0,
+        north=north_by(table, table.value("north", degrees)),
         picture=_picture(table, (airspace or Airspace()).size),
     )
 

@@ -12,6 +12,7 @@ from itertools import dropwhile
 from typing import Any
 
 from ..app import App
+from ..geodesy import LocalPlane
 from ..jobs.reports import SILENCE
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fields import Entity, FieldType
@@ -35,8 +36,11 @@ def fleet_text(fleet: FleetFile) -> str:
     }
     if airspace.no_fly:
         of_map["no_fly"] = [[_floats(corner) for corner in area] for area in airspace.no_fly]
-    shown = {"north": float(fleet.landmarks.north), **landmark_tables(fleet.landmarks)}
+    north = 0.0 if fleet.plane else float(fleet.landmarks.north)
+    shown = {"north": north, **landmark_tables(fleet.landmarks)}
     of_map |= {key: value for key, value in shown.items() if value}
+    if fleet.plane:
+        of_map |= _on_earth(fleet.plane)
     behaviour: dict[str, Any] = {
         "after_trip": fleet.after_trip.value,
         "apart": float(fleet.apart),
@@ -56,6 +60,12 @@ def fleet_text(fleet: FleetFile) -> str:
         "world": None if fleet.world is None else _world(fleet.world),
     }
     return toml_text(_given(file))
+
+
+def _on_earth(plane: LocalPlane) -> dict[str, Any]:
+    """Return what says where a map lies; its bearing in radians, as that is exact."""
+    origin = {key: getattr(plane, key) for key in ("latitude", "longitude", "altitude")}
+    return {"origin": origin} | ({"bearing": plane.bearing} if plane.bearing else {})
 
 
 def motion_data(motion: Motion) -> dict[str, Any]:

@@ -184,7 +184,7 @@ def read_map(table: Table) -> Airspace | None:
     before = len(table.problems)
     plain = Airspace()
     keys: Keys = {"size": values.size, "cruise_height": values.HEIGHT, "ceiling": values.HEIGHT}
-    shown = dict.fromkeys(("image", "north", "places", "zones"))
+    shown = dict.fromkeys(("origin", "bearing", "image", "north", "places", "zones"))
     given = table.read({}, {**keys, "no_fly": values.areas, **shown})
     cruise = given.get("cruise_height", plain.cruise_height)
     ceiling = given.setdefault("ceiling", max(plain.ceiling, cruise))

@@ -74,19 +74,24 @@ def to_si(value: float, unit: str) -> float:
     return float(f"{value * factor + offset:.15g}")
 
 
+def a_kind(kind: Type) -> str:
+    """Return the name of a type with its article."""
+    return f"{'an' if kind is Type.ANGLE else 'a'} {kind.value}"
+
+
 def parse_quantity(text: str, kind: Type) -> float:
     """Read "3 min" as 180.0; raise ValueError with a sentence for a person."""
     wanted = ", ".join(units_of(kind))
     match = _QUANTITY.fullmatch(text)
     if match is None or match[2] not in (None, *UNITS):
-        raise ValueError(f"is not a {kind.value}: write a number and a unit ({wanted})")
+        raise ValueError(f"is not {a_kind(kind)}: write a number and a unit ({wanted})")
     number, unit = float(match[1]), match[2]
     if not isfinite(number):
         raise ValueError("is not a finite number")
     if unit is None:
         return number
     if UNITS[unit][0] is not kind:
-        raise ValueError(f"is a {UNITS[unit][0].value}, not a {kind.value}: it takes {wanted}")
+        raise ValueError(f"is {a_kind(UNITS[unit][0])}, not {a_kind(kind)}: it takes {wanted}")
     return to_si(number, unit)
 
 

@@ -16,7 +16,7 @@ from .airspace import covers_ground
 from .errors import BadInput
 from .fields import FieldType, time_of_day
 from .model import AfterTrip
-from .quantities import QUANTITIES, UNITS, Type, parse_quantity, units_of
+from .quantities import QUANTITIES, UNITS, Type, a_kind, parse_quantity, units_of
 from .text import LONGEST, cut_off, percent, place, quoted
 from .text import shown as written
 
@@ -112,9 +112,9 @@ class Quantity:
         if type(given) in (int, float) and (none or self.least <= given <= self.most):
             return float(given)
         units = ", ".join(units_of(self.kind))
-        kind = f"{self.kind.value} ({units})" if units else "number"
+        kind = f"{a_kind(self.kind)} ({units})" if units else "a number"
         least = "0, or " * self.or_none + self._written(self.least)
-        raise ValueError(f"is not a {kind} of {least} to {self._written(self.most)}")
+        raise ValueError(f"is not {kind} of {least} to {self._written(self.most)}")
 
     def _written(self, amount: float) -> str:
         if self.kind is Type.PERCENT:

@@ -20,7 +20,7 @@ PAGE = (ROOT / "docs" / "files.md").read_text(encoding="utf-8")
 def test_the_examples_are_a_plan_that_loads(tmp_path: Path) -> None:
     """The missions file, and the fleet file with its world, a carrier added."""
     parts = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
-    missions, (fleet, options, motion, world) = parts[0], parts[-4:]
+    missions, (fleet, options, motion, world, on_earth) = parts[0], parts[-5:]
     carrier = '[[drone]]\nid = "cf3"\ncategory = "carrier"\nhome = [1.5, 0.5]\n'
     (tmp_path / "m.toml").write_text(missions, encoding="utf-8")
     (tmp_path / "f.toml").write_text(fleet + carrier + options + motion + world, encoding="utf-8")
@@ -30,10 +30,13 @@ def test_the_examples_are_a_plan_that_loads(tmp_path: Path) -> None:
     assert team.world is not None
     left_out = {field.name for field in fields(team) if not getattr(team, field.name)}
     assert left_out == {
-        "localization_options",
+        "localization_options",  # goes with another localization
+        "plane",  # outdoors
         "began",
-    }  # the first goes with another localization
+    }
     assert problems(flown, APP, team, team.airspace) == []
+    (tmp_path / "f.toml").write_text(on_earth + carrier, encoding="utf-8")
+    assert load_fleet(tmp_path / "f.toml", APP).plane is not None
 
 
 def test_the_example_of_promises_is_read(tmp_path: Path) -> None:
