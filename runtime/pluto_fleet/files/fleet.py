@@ -32,7 +32,6 @@ from ..shared.domain.text import number, quoted
 from ..shared.domain.values import Keys, Table
 from .addresses import SUCH_AS, address_of, crowded_air, which
 from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
-from .origin import read_plane
 from .reading import Document, PlanTable, listed, near, parsed, read, top
 
 if TYPE_CHECKING:
@@ -228,8 +227,6 @@ class FleetFile(FleetData):
     drones: tuple[DroneEntry, ...]
     landmarks: Landmarks = NO_LANDMARKS
     """What the map shows."""
-    plane: LocalPlane | None = None
-    """Where the map lies on the Earth."""
     apart: float = APART
     """The least distance between two drones, in metres."""
     silence: float = SILENCE
@@ -241,6 +238,11 @@ class FleetFile(FleetData):
     localization: str = OWN
     """The localization of real drones: a name, or `module:Class`."""
     localization_options: Options = field(default_factory=dict)
+
+    @property
+    def plane(self) -> LocalPlane | None:
+        """Where the map lies on the Earth, if it says so."""
+        return self.landmarks.plane
 
 
 def default_fleet(app: App, size: int = DEFAULT_SIZE) -> FleetFile:
@@ -274,7 +276,6 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         **given,
         airspace=airspace or Airspace(),
         landmarks=read_landmarks(on_map, airspace),
-        plane=read_plane(on_map),
         motion=read_motion(whole),
         options=navigation_options(whole, used),
         localization_options=options_in(whole.table("localization")),

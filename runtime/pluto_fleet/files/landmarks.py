@@ -1,4 +1,4 @@
-"""What a fleet file's map shows beside where drones may fly: named places, zones, north, a floor plan."""
+"""What a fleet file's map shows beside where drones may fly: named places, zones, north, a floor plan; and where it lies."""
 
 from __future__ import annotations
 
@@ -8,11 +8,12 @@ from functools import cached_property, partial
 from itertools import pairwise
 from typing import Any
 
+from ..geodesy import LocalPlane
 from ..shared.domain import values
 from ..shared.domain.airspace import EPSILON, Airspace, Corner, Polygon, distance, tidy
 from ..shared.domain.text import place
 from ..shared.domain.values import Keys, Table
-from .origin import north_by
+from .origin import north_by, read_plane
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,13 +48,15 @@ class Picture:
 
 @dataclass(frozen=True, kw_only=True)
 class Landmarks:
-    """What the map shows; none of it changes how drones fly."""
+    """What the map shows, and where it lies on the Earth; none of it changes ways in metres."""
 
     places: tuple[NamedPlace, ...] = ()
     zones: tuple[Zone, ...] = ()
     north: float = 0.0
     """Degrees by which north is turned from up, clockwise."""
     picture: Picture | None = None
+    plane: LocalPlane | None = None
+    """None: that is not said, as indoors."""
 
     @cached_property
     def place(self) -> Mapping[str, tuple[float, ...]]:
@@ -88,6 +91,7 @@ def read_landmarks(table: Table, airspace: Airspace | None) -> Landmarks:
         zones=tuple(Zone(**one) for one in zones),
         north=north_by(table, table.value("north", degrees)),
         picture=_picture(table, (airspace or Airspace()).size),
+        plane=read_plane(table),
     )
 
 

@@ -17,7 +17,7 @@ BEARING = Quantity(Type.ANGLE, -2 * pi, 2 * pi)
 
 
 def read_plane(table: Table) -> LocalPlane | None:
-    """Return where the map of `[map]` lies, if it says so, and note what is wrong with that."""
+    """Return where the map of `[map]` lies on the Earth, if it says so, and note what is wrong with that."""
     if "origin" not in table.data:
         if "bearing" in table.data:
             said = (

@@ -172,7 +172,8 @@ def landmarks_from(given: Mapping[str, Any], was: Landmarks, airspace: Airspace)
     document = Document("", {"map": data})
     landmarks = read_landmarks(PlanTable(document, data, ("map",), "the map"), airspace)
     document.refuse_if_bad()
-    return landmarks if "image" in given else replace(landmarks, picture=was.picture)
+    picture = landmarks.picture if "image" in given else was.picture
+    return replace(landmarks, picture=picture, plane=was.plane)
 
 
 def _place(given: Mapping[str, Any]) -> object:
