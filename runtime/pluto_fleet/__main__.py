@@ -23,6 +23,8 @@ _COMMANDS = {
     _CALIBRATE: "find how drones really move, from the journals of their flights",
     "gateway": "command the drones of a flight; an app starts it by itself",
     "crtp": "simulate Crazyflies down to the radio; an app starts it by itself",
+    "autopilot": "simulate vehicles that speak MAVLink; an app starts it by itself",
+    "mavsdk": "speak MAVLink for a gateway, which starts it by itself",
 }
 
 
@@ -37,6 +39,14 @@ def main(argv: Sequence[str] | None = None) -> int:
         from .crtp.process import main as crtp
 
         return crtp(words[1:])
+    if words[:1] == ["autopilot"]:
+        from .autopilot.process import main as autopilot
+
+        return autopilot(words[1:])
+    if words[:1] == ["mavsdk"]:
+        from .mavlink.mavsdk_process import main as mavsdk
+
+        return mavsdk(words[1:])
     output.prepare()
     return exit_code(_NAME, lambda: _ran(words))
 

@@ -9,6 +9,7 @@ from importlib.util import find_spec
 EXTRAS = {
     "areas": ("shapely",),
     "crazyflie": ("cflib",),
+    "mavlink": ("mavsdk", "pymavlink"),
     "plot": ("matplotlib",),
     "station": ("mcap", "pillow", "starlette", "uvicorn", "websockets"),
 }

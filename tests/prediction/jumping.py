@@ -17,7 +17,8 @@ from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.drones.real_fleet import real_fleet
 from pluto_fleet.drones.team import Team, make_one
-from pluto_fleet.files.fleet import FleetFile, as_crtp_fleet
+from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.files.stand_ins import CRTP, StandIns, as_stand_ins
 from pluto_fleet.flight.driver import Driver, begun
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.controls import fleet_drones
@@ -56,7 +57,7 @@ async def _flown(
     say: Callable[[str], object],
     folder: Path,
 ) -> Flown:
-    fleet = as_crtp_fleet(fleet, len(fleet.drones))
+    fleet = as_stand_ins(fleet, StandIns(CRTP, len(fleet.drones)))
     app = moving(app, fleet.motion)
     crafts = fleet_drones(app, fleet)
     builds = [

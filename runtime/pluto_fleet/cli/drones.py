@@ -29,11 +29,12 @@ from ..drones.protocol import (
 from ..drones.real_fleet import RealDrone, real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which
-from ..files.fleet import APART, CRAZYFLIE, OWN, fleet_of, load_fleet, not_real
+from ..files.fleet import APART, CRAZYFLIE, MAVLINK, OWN, fleet_of, load_fleet, not_real
 from ..files.reading import near, parsed
 from ..files.toml import toml_value
 from ..gateway.drone_lock import DroneInUse, lock_drones
 from ..journal.place import folder_of
+from ..mavlink.needs import require as require_mavsdk
 from ..process.text import of
 from ..report.terminal import table
 from ..shared import output
@@ -63,6 +64,8 @@ def drones(app: App, options: Command) -> int:
     team = _Team(app, fleet, options.navigation)
     if CRAZYFLIE in team.navigations:
         require()
+    if MAVLINK in team.navigations:
+        require_mavsdk()
     if options.identify is not None:
         return _identify(app, team.one(options.identify))
     told = asyncio.run(_asked(app, options, team))

@@ -96,7 +96,7 @@ def _refused(app: App, options: Options, plan: LoadedPlan) -> Iterator[str]:
     except BadInput as error:
         yield f"{app.name} fly would not begin:\n{error}"
         return
-    if options.crtp_sim is not None:  # they have all the equipment that the plan needs
+    if options.stand_ins is not None:  # they have all the equipment that the plan needs
         return
     wanted = real_fleet(plan.fleet, plan.missions).wanted
     categories = {category.name: category for category in plan.app.categories}

@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..files.stand_ins import stand_ins_in
 from ..flight.config import End, FlightResult, FlightSetup, Stops, how_to_go_on
 from ..flight.live_flight import FlightObserver
 from ..flight.lives import (
@@ -66,7 +67,7 @@ def fly(app: App, options: Options) -> int:
         missions=plan.missions_text,
         fleet=plan.fleet_text,
         sim=options.sim,
-        crtp_sim=options.crtp_sim,
+        stand_ins=options.stand_ins.header if options.stand_ins else None,
         seed=options.seed,
         faults=options.fail,
     )
@@ -108,9 +109,9 @@ def resume(app: App, options: Options) -> int:
 
 def _check(options: Options, taken: Resumable) -> None:
     """Refuse flags that are not for the drones of this journal, and drones that cannot be flown."""
-    path, stand_ins = taken.store.path, taken.header.get("crtp_sim")
-    if options.crtp_sim not in (None, stand_ins):
-        raise BadInput(f"{path}: it was not begun with --crtp-sim {options.crtp_sim}")
+    path, stand_ins = taken.store.path, stand_ins_in(taken.header)
+    if options.stand_ins is not None and options.stand_ins != stand_ins:
+        raise BadInput(f"{path}: it was not begun with {options.stand_ins.flag}")
     if taken.header["sim"]:
         return
     if options.sim:

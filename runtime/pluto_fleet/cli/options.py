@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..arguments import Deadline, confidence, deadline, positive_number, whole_number
+from ..files.stand_ins import CRTP, MAVLINK_SIM, StandIns
 from ..jobs.link import MISHAPS
 from ..shared import output
 from ..shared.alone.world import FAULTS, shares
@@ -77,6 +78,7 @@ class Options:
     follow: bool = False
     sim: bool = False
     crtp_sim: int | None = None
+    mavlink_sim: int | None = None
     speed: float | None = None
     supervise: bool = False
     supervised: bool = False
@@ -124,8 +126,16 @@ class Options:
         return (self.start, self.date, self.zone) != (None, None, None)
 
     @property
+    def stand_ins(self) -> StandIns | None:
+        """The drones that are simulated down to their protocol, if they are meant."""
+        for kind, number in ((CRTP, self.crtp_sim), (MAVLINK_SIM, self.mavlink_sim)):
+            if number is not None:
+                return StandIns(kind, number)
+        return None
+
+    @property
     def is_real(self) -> bool:
-        """Whether real drones are meant, or Crazyflies that are simulated down to the radio."""
+        """Whether real drones are meant, or such that are simulated down to their protocol."""
         return self.command in ("fly", "serve") and not self.sim
 
     def supervised_words(self, *first: str) -> list[str]:
@@ -137,10 +147,10 @@ class Options:
         """Raise `BadInput` if flags for simulated drones are combined with real ones."""
         given = {"--speed": self.speed, "--fail": self.fail, "--seed": self.seed}
         for flag, value in given.items():
-            if value and self.crtp_sim is not None:
+            if value and self.stand_ins is not None:
                 raise BadInput(
-                    f"{flag} does not go with --crtp-sim, whose drones fly as real ones do: it goes"
-                    " with --sim"
+                    f"{flag} does not go with --{self.stand_ins.kind}-sim, whose drones fly as real ones"
+                    " do: it goes with --sim"
                 )
             if value and not self.sim:
                 raise BadInput(f"{flag} is for simulated drones: it goes with --sim")
@@ -243,6 +253,13 @@ TABLE = (
         "fly serve resume",
         "--crtp-sim N",
         "with N simulated Crazyflies, flown as real ones are, through cflib",
+        apart="drones",
+        type=whole_number(1, 50),
+    ),
+    row(
+        "fly serve resume",
+        "--mavlink-sim N",
+        "with N simulated vehicles that speak MAVLink, flown as real ones are, through MAVSDK",
         apart="drones",
         type=whole_number(1, 50),
     ),

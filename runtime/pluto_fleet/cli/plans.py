@@ -8,14 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet import (
-    FleetFile,
-    fleet_from,
-    fleet_of,
-    missing_categories,
-    shared_by_air,
-    too_fast,
-)
+from ..files.fleet import FleetFile, fleet_of, shared_by_air, too_fast
 from ..files.missions import missions_of
 from ..files.plan_check import (
     endless,
@@ -26,6 +19,7 @@ from ..files.plan_check import (
     waits,
 )
 from ..files.reading import parsed, read, text_of
+from ..files.stand_ins import fleet_from, missing_categories
 from ..files.writing import missions_text
 from ..shared import output
 from ..shared.domain.app import moving
@@ -118,11 +112,12 @@ def _beginning(options: Options) -> Mapping[str, Any]:
 def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
     """Return the fleet of a command's file, and that file's text; None: there is none."""
     text = text_of(options.fleet) if options.fleet else None
-    if text is not None and options.crtp_sim is not None and not options.supervised:
+    stand_ins = options.stand_ins
+    if text is not None and stand_ins is not None and not options.supervised:
         whole = fleet_of(parsed(str(options.fleet), text), app)
-        if missing := missing_categories(whole, options.crtp_sim):
+        if missing := missing_categories(whole, stand_ins):
             output.tell(missing)
-    return fleet_from(app, str(options.fleet), text, options.crtp_sim), text
+    return fleet_from(app, str(options.fleet), text, stand_ins), text
 
 
 FLEET = "fleet.toml"
@@ -144,7 +139,7 @@ def take_fleet_beside(options: Options) -> None:
 
 def _missions(options: Options) -> Path | None:
     """Return the missions file of a command that flies nothing real, if any."""
-    simulated = options.sim or options.crtp_sim is not None
+    simulated = options.sim or options.stand_ins is not None
     match options.command:
         case "simulate" | "check" | "size":
             return options.missions

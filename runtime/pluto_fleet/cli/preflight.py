@@ -17,7 +17,8 @@ from ..drones.loading import (
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which
-from ..files.fleet import CRAZYFLIE, OWN, navigation_of, not_real, shared_by_air
+from ..files.fleet import CRAZYFLIE, MAVLINK, OWN, navigation_of, not_real, shared_by_air
+from ..mavlink.needs import require as require_mavsdk
 from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.values import shortened
@@ -45,6 +46,8 @@ def check_real(
     names = dict.fromkeys(navigation_of(fleet, drone) for drone in fleet.drones)
     if CRAZYFLIE in names:
         require()
+    if MAVLINK in names:
+        require_mavsdk(simulated=stand_ins)
     for name in names:
         load_navigation(name)
     if fleet.localization != OWN:
@@ -60,7 +63,7 @@ def check_flight(app: App, fleet: FleetFile, options: Options) -> None:
     if not options.is_real:
         return
     where = str(options.fleet or app.name)
-    stand_ins = options.crtp_sim is not None
+    stand_ins = options.stand_ins is not None
     check_real(app, fleet, where, stand_ins=stand_ins, instead=OR_SIMULATED)
     if not stand_ins and not options.supervised:
         warn_of_the_radio(fleet, where)
@@ -99,5 +102,6 @@ def _check_alone(fleet: FleetFile, drone: DroneEntry, reached: dict[str, str]) -
 def made(app: App, fleet: FleetFile, drone: DroneEntry, folder: Path) -> DroneNavigation:
     """Create a drone's navigation, not connected; raise `BadInput` if its options are wrong."""
     (category,) = (one for one in app.categories if one.name == drone.category)
-    (how,) = (one for one in real_fleet(fleet, ()).drones if one.id == drone.id)
-    return make_one(how, drone.home, category.speed, folder)
+    real = real_fleet(fleet, ())
+    (how,) = (one for one in real.drones if one.id == drone.id)
+    return make_one(how, drone.home, category.speed, folder, real)

@@ -177,7 +177,7 @@ def _config(app: App, options: Options) -> StationConfig:
         fleet_text=text,
         fleet_path=options.fleet,
         sim=options.sim,
-        crtp_sim=options.crtp_sim,
+        stand_ins=options.stand_ins,
         seed=options.seed,
         faults=options.fail,
         speed=options.speed,

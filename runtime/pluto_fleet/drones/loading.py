@@ -92,7 +92,10 @@ class PluginKind:
 
 NAVIGATION = PluginKind(
     word="navigation",
-    ours={"crazyflie": "..crazyflie.navigation:Crazyflie"},
+    ours={
+        "crazyflie": "..crazyflie.navigation:Crazyflie",
+        "mavlink": "..mavlink.navigation:MavlinkVehicle",
+    },
     group="plutoc.navigations",
     argument="setup",
     such_as="my_drones.parrot:Parrot",

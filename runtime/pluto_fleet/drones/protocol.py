@@ -34,6 +34,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Protocol, runtime_checkable
 
+from ..geodesy import LocalPlane
 from ..jobs.reports import SILENCE
 from ..shared.domain.actions import Plain
 from ..shared.domain.model import Item, Point, Sighting
@@ -177,6 +178,8 @@ class DroneSetup:
     """An existing folder for files such as photos, shared by all drones."""
     silence: float = SILENCE
     """Seconds for which it may tell nothing in the air before its link counts as lost."""
+    plane: LocalPlane | None = None
+    """Where the map lies on the Earth; None: the fleet file does not say."""
 
 
 class DroneNavigation(Protocol):

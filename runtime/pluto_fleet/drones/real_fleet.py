@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import OWN, navigation_of, options_of
+from ..geodesy import LocalPlane
 from ..jobs.reports import SILENCE
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.model import Mission
@@ -47,6 +48,8 @@ class RealFleet:
     wanted: tuple[RequiredAction, ...] = ()
     silence: float = SILENCE
     """Seconds for which a drone in the air may tell nothing before its flight fails."""
+    plane: LocalPlane | None = None
+    """Where the map lies on the Earth, if that is known."""
 
 
 def real_fleet(
@@ -76,6 +79,7 @@ def real_fleet(
         localization_options=fleet.localization_options,
         wanted=_wanted([*_planned(missions), *_recorded(records)]),
         silence=fleet.silence,
+        plane=fleet.plane,
     )
 
 

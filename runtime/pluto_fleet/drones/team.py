@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from ..files.fleet import OWN
 from ..jobs.controls import Command, FleetDrone
-from ..jobs.reports import SILENCE, DroneReport
+from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Subscription, Telemetry
 from ..shared.domain.actions import BUILT_IN, Plain
 from ..shared.domain.airspace import Airspace
@@ -91,7 +91,7 @@ class Team:
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
         files = self._folder / FILES
-        navigation = make_one(how, drone.home, drone.category.speed, files, self._real.silence)
+        navigation = make_one(how, drone.home, drone.category.speed, files, self._real)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise deaf(self._feed.name, [drone.id])
@@ -221,9 +221,13 @@ FILES = "files"
 
 
 def make_one(
-    how: RealDrone, home: Point, speed: float, folder: Path, silence: float = SILENCE
+    how: RealDrone,
+    home: Point,
+    speed: float,
+    folder: Path,
+    fleet: RealFleet = RealFleet(),  # noqa: B008 - it is frozen
 ) -> DroneNavigation:
-    """Create one drone's navigation, with a maximum speed; nothing is connected yet.
+    """Create one drone's navigation, with a maximum speed, in its fleet; nothing is connected yet.
 
     `BadInput`: its options are wrong.
     """
@@ -234,7 +238,8 @@ def make_one(
         speed=speed,
         options=how.options,
         folder=folder,
-        silence=silence,
+        silence=fleet.silence,
+        plane=fleet.plane,
     )
     made = make_navigation(how.navigation, setup)
     if how.parameters and not isinstance(made, Readable):
@@ -258,7 +263,7 @@ def make_team(
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
     navigations = {
-        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real.silence)
+        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real)
         for drone in drones
     }
     return Team(

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from ..shared.domain.text import quoted
+from .vehicle_addresses import is_vehicle, vehicle_address
 
 SUCH_AS = "radio://0/80/2M/E7E7E7E7E7"
 USUAL = "E7E7E7E7E7"
@@ -182,8 +183,12 @@ def _by_wire(scheme: str, rest: str) -> str:
 def which(uri: str) -> str:
     """Return a drone's uri in a canonical form, whichever dongle it names.
 
-    What is no address of a Crazyflie is compared as a text.
+    What is no address that this library knows is compared as a text.
     """
+    if is_vehicle(uri):
+        with suppress(ValueError):
+            return vehicle_address(uri.strip()).uri
+        return uri.strip()
     with suppress(ValueError):
         return address_of(uri.strip()).drone
     return uri.strip().casefold().partition("?")[0].rstrip("/")

@@ -6,13 +6,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import date, time
 from functools import partial
-from itertools import count, cycle, islice
+from itertools import cycle, islice
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from ..geodesy import LocalPlane
-from ..jobs.landing_sites import free_spots
 from ..jobs.reports import SILENCE
 from ..shared.alone.files import (
     FLEET,
@@ -32,13 +31,17 @@ from ..shared.domain.text import number, quoted
 from ..shared.domain.values import Keys, Table
 from .addresses import SUCH_AS, address_of, crowded_air, which
 from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
-from .reading import Document, PlanTable, listed, near, parsed, read, top
+from .reading import Document, PlanTable, listed, near, read, top
+from .vehicle_addresses import SUCH_AS as VEHICLE_SUCH_AS
+from .vehicle_addresses import is_vehicle, vehicle_address
 
 if TYPE_CHECKING:
     from ..app import App
 
 CRAZYFLIE = "crazyflie"
 """The default navigation."""
+MAVLINK = "mavlink"
+"""The navigation of drones whose uri says that they speak MAVLink."""
 APART = 0.5
 """Metres: two Crazyflies closer than this disturb each other with their downwash."""
 
@@ -141,7 +144,7 @@ def drones_of(
     drones = list[DroneEntry]()
     uris = dict[str, Table]()
     for table, given in read_drones(top, app, airspace):
-        navigation = table.value("navigation", values.name)
+        navigation = table.value("navigation", values.name) or _navigation_by(table.data.get("uri"))
         uri = table.value("uri", partial(_uri, navigation or flown_by))
         _answers_alone(table, uris)
         real = {
@@ -210,10 +213,17 @@ def _named(table: Mapping[str, object], group: str) -> Iterator[tuple[str, float
             raise ValueError(f"sets {quoted(name)} to what {error}") from None
 
 
+def _navigation_by(uri: object) -> str | None:
+    """Return the navigation that follows from a uri; None: as the fleet is flown."""
+    return MAVLINK if isinstance(uri, str) and is_vehicle(uri) else None
+
+
 def _uri(navigation: str, value: object) -> str:
     uri: str = values.name(value)
     if navigation == CRAZYFLIE:
         address_of(uri)
+    elif navigation == MAVLINK:
+        vehicle_address(uri)
     return uri
 
 
@@ -314,15 +324,19 @@ def not_real(fleet: FleetFile) -> str | None:
     lost = [
         f"{quoted(drone.id)} (line {drone.line})" if drone.line else quoted(drone.id)
         for drone in fleet.drones
-        if drone.uri is None and navigation_of(fleet, drone) == CRAZYFLIE
+        if drone.uri is None and navigation_of(fleet, drone) in _SUCH_AS
     ]
     if not lost:
         return None
     one = len(lost) == 1
+    such = _SUCH_AS[CRAZYFLIE if fleet.navigation not in _SUCH_AS else fleet.navigation]
     return (
         f"{'drone' if one else 'drones'} {listed(lost)} {'has' if one else 'have'} no uri, where a real"
-        f" drone is reached: add {'one' if one else 'one to each'}, such as uri = {quoted(SUCH_AS)}"
+        f" drone is reached: add {'one' if one else 'one to each'}, such as uri = {quoted(such)}"
     )
+
+
+_SUCH_AS = {CRAZYFLIE: SUCH_AS, MAVLINK: VEHICLE_SUCH_AS}
 
 
 def too_fast(app: App, fleet: FleetFile) -> list[str]:
@@ -354,62 +368,3 @@ def shared_by_air(fleet: FleetFile) -> list[str]:
             if where and len(drones) > 1
         ),
     ]
-
-
-# As simulated Crazyflies
-
-
-def fleet_from(app: App, name: str, text: str | None, crtp_sim: int | None) -> FleetFile:
-    """Return the fleet of a file's text, or the default fleet; optionally as simulated Crazyflies."""
-    if text is None:
-        return default_fleet(app, crtp_sim or DEFAULT_SIZE)
-    fleet = fleet_of(parsed(name, text), app)
-    return fleet if crtp_sim is None else as_crtp_fleet(fleet, crtp_sim)
-
-
-def as_crtp_fleet(fleet: FleetFile, number: int) -> FleetFile:
-    """Return a fleet of this many drones, each a Crazyflie that is simulated down to its radio.
-
-    They are the first of the fleet file; further ones are copies of them, placed beside them.
-    """
-    drones = [_as_crazyflie(fleet, one) for one in fleet.drones[:number]]
-    for place in range(len(drones), number):
-        taken = [one.home for one in drones]
-        beside = max(fleet.apart, _APART)
-        home = next(free_spots(fleet.airspace, taken[-1], taken, beside), None)
-        if home is None:
-            raise BadInput(
-                f"--crtp-sim {number}: this map has room for {place} drones, which stand"
-                f" {beside:g} m apart: fly fewer, or let the fleet file say where they stand"
-            )
-        like = drones[place % len(fleet.drones)]
-        drones.append(replace(like, id=_free_id(drones), home=home))
-    return replace(fleet, drones=tuple(drones), navigation=CRAZYFLIE, localization=OWN)
-
-
-def missing_categories(fleet: FleetFile, number: int) -> str | None:
-    """Return a sentence that names the categories which the first drones of a fleet lack; None: none."""
-    there = {one.category for one in fleet.drones[:number]}
-    missing = dict.fromkeys(one.category for one in fleet.drones if one.category not in there)
-    if not missing:
-        return None
-    return (
-        f"no {' and no '.join(missing)} flies: --crtp-sim {number} takes only {number} of the fleet"
-        f" file's {len(fleet.drones)} drones, from its top"
-    )
-
-
-def _as_crazyflie(fleet: FleetFile, one: DroneEntry) -> DroneEntry:
-    """Return a drone as a Crazyflie; options for another navigation are dropped."""
-    options = one.options if navigation_of(fleet, one) == CRAZYFLIE else {}
-    return replace(one, navigation=None, uri=None, options=options)
-
-
-_APART = 0.7
-"""Metres between drones that the fleet file does not place."""
-
-
-def _free_id(drones: Sequence[DroneEntry]) -> str:
-    """Return the first unused default name."""
-    known = {one.id for one in drones}
-    return next(id for number in count(1) if (id := f"cf{number}") not in known)

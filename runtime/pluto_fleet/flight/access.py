@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..drones.real_fleet import real_fleet
 from ..files.fleet import not_real
+from ..files.stand_ins import CRTP
 from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
@@ -44,7 +45,7 @@ class GatewayAccess:
     async def joining(self, fleet: FleetFile) -> Mapping[str, object]:
         """Return the last drone of a fleet, as the gateway takes it in; raise `BadInput` if it cannot fly."""
         flight = self._flight
-        if not flight.sim and not flight.crtp and (why := not_real(fleet)):
+        if not flight.sim and not flight.stand_ins and (why := not_real(fleet)):
             raise BadInput(why)
         settings = await self._settings(fleet)
         real = None if settings.real is None else settings.real.drones[-1]
@@ -62,18 +63,20 @@ class GatewayAccess:
         )
 
     async def _real(self, fleet: FleetFile) -> RealFleet:
-        """Return the gateway's arguments for real drones; starts simulated Crazyflies if needed."""
+        """Return the gateway's arguments for real drones; starts those that stand in for them if needed."""
         flight = self._flight
         real = real_fleet(fleet, flight.missions, records=self._records)
-        if not flight.crtp:
+        if flight.stand_ins is None:
             return real
-        from ..crtp.equipment import fitted, settable
-        from ..crtp.process import Surroundings, start, told  # rarely needed
-        from ..shared.alone.world import invented
+        if flight.stand_ins.kind == CRTP:
+            return await self._crazyflies(fleet, real)
+        return await self._vehicles(fleet, real)
 
-        homes = {drone.id: drone.home for drone in fleet.drones}
+    def _batteries(self, fleet: FleetFile) -> Mapping[str, tuple[float, float]]:
+        """Return for each drone the seconds from full to empty in the air, and from empty to full."""
+        flight = self._flight
         kinds = {one.name: one for one in flight.app.categories}
-        batteries = {
+        return {
             drone.id: (
                 kind.flight_time / flight.fleet.motion.drain,
                 kind.charge_time if flight.charges else inf,
@@ -81,6 +84,34 @@ class GatewayAccess:
             for drone in fleet.drones
             for kind in (kinds[drone.category],)
         }
+
+    async def _vehicles(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
+        """Start simulated vehicles that speak MAVLink."""
+        from ..autopilot.process import SimulatedFleet, start  # rarely needed
+
+        assert fleet.plane is not None
+        batteries = self._batteries(fleet)
+        simulated = SimulatedFleet(
+            plane=fleet.plane,
+            homes={drone.id: drone.home for drone in fleet.drones},
+            flights={id: flight for id, (flight, _) in batteries.items()},
+            charges={
+                id: None if charge == inf else charge for id, (_, charge) in batteries.items()
+            },
+        )
+        uris = await asyncio.to_thread(start, self._folder, simulated)
+        drones = (replace(drone, uri=uris[drone.id]) for drone in real.drones)
+        return replace(real, drones=tuple(drones))
+
+    async def _crazyflies(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
+        """Start simulated Crazyflies."""
+        from ..crtp.equipment import fitted, settable
+        from ..crtp.process import Surroundings, start, told  # rarely needed
+        from ..shared.alone.world import invented
+
+        flight = self._flight
+        homes = {drone.id: drone.home for drone in fleet.drones}
+        batteries = self._batteries(fleet)
         data = invented(flight.seed, fleet.airspace) if fleet.world is None else fleet.world
         around = Surroundings(seed=flight.seed, data=data)
         uris = await asyncio.to_thread(start, self._folder, homes, None, batteries, around)

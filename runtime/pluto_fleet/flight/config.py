@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
     from ..app import App
     from ..files.fleet import FleetFile
+    from ..files.stand_ins import StandIns
     from ..jobs.reports import Down
     from ..journal.standing import Standing
     from ..shared.alone.world import Faults
@@ -43,13 +44,13 @@ class FlightSetup:
     faults: Faults
     sim: bool = True
     """Whether the drones are simulated."""
-    crtp: bool = False
-    """Whether the drones are Crazyflies that are simulated down to their radio."""
+    stand_ins: StandIns | None = None
+    """The drones that are simulated down to their protocol, if they are."""
 
     @property
     def charges(self) -> bool:
         """Whether a battery that is low may become full: what is real has its say itself."""
-        return self.fleet.charges_at_home or not (self.sim or self.crtp)
+        return self.fleet.charges_at_home or not (self.sim or self.stand_ins)
 
     @property
     def how_to_go_on(self) -> str:

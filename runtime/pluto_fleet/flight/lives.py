@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet import fleet_from
 from ..files.missions import missions_of
 from ..files.reading import parsed
+from ..files.stand_ins import fleet_from, stand_ins_in
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
 from ..journal import errors
@@ -76,7 +76,7 @@ def flight_of(
         seed=store.header["seed"],
         faults=Faults(**store.header["faults"]),
         sim=store.header["sim"],
-        crtp=store.header.get("crtp_sim") is not None,
+        stand_ins=stand_ins_in(store.header),
     )
 
 
@@ -105,7 +105,7 @@ def reopen(app: App, journal: Path) -> Resumable:
 
 def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
     """Return the fleet of a journal; raise `BadInput` if it does not fit the app any more."""
-    return fleet_from(app, f"{journal} (its fleet)", header["fleet"], header.get("crtp_sim"))
+    return fleet_from(app, f"{journal} (its fleet)", header["fleet"], stand_ins_in(header))
 
 
 async def run_flight(

@@ -258,6 +258,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
         "fleet?": str | None,
         "sim?": bool,
         "crtp_sim?": int | None,
+        "mavlink_sim?": int | None,
         "seed?": int,
         "faults?": dict[str, float],
         "lost?": dict[str, LossFacts],

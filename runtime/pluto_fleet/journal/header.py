@@ -25,7 +25,7 @@ def header(
     missions: str,
     fleet: str | None,
     sim: bool,
-    crtp_sim: int | None = None,
+    stand_ins: Mapping[str, object] | None = None,
     seed: int,
     faults: Mapping[str, float] | None = None,
     inherited: Mapping[str, object] | None = None,
@@ -33,6 +33,7 @@ def header(
 ) -> dict[str, object]:
     """Return the header of a new journal, with the texts of the two files for later runs.
 
+    `stand_ins` says which drones are simulated down to their protocol, and how many: `{"crtp_sim": 3}`.
     `inherited` has the drones that are lost, repaired or retired since earlier flights, or have joined; `by` is the
     name of the person who started it, if that is known.
     """
@@ -47,7 +48,7 @@ def header(
         "missions": missions,
         "fleet": fleet,
         "sim": sim,
-        "crtp_sim": crtp_sim,
+        **({"crtp_sim": None} if stand_ins is None else stand_ins),
         "seed": seed,
         "faults": dict(faults or {}),
         **({"by": by} if by else {}),
@@ -72,9 +73,8 @@ def check_whole(path: Path, header: Header, app: App) -> None:
     check(path, header, app)
     if lacking := sorted(_NEEDED - header.keys()):
         raise errors.header_lacks(path, ", ".join(lacking))
-    if (
-        not header["faults"].keys() <= set(FAULTS)
-        or not 0 < (header.get("crtp_sim") or 1) <= MOST_DRONES
+    if not header["faults"].keys() <= set(FAULTS) or not all(
+        0 < (header.get(key) or 1) <= MOST_DRONES for key in ("crtp_sim", "mavlink_sim")
     ):
         raise errors.strange(path, "its first row says how drones are simulated as nobody can")
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..files.fleet import with_joined
+from ..files.stand_ins import CRTP, stand_ins_in
 from ..flight.config import how_to_go_on
 from ..flight.lives import Resumable, fleet_in, reopen
 from ..flight.offline import record_loss, record_return, returned
@@ -139,8 +140,7 @@ def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -
     except BadInput as why:  # flown by another process, damaged, or another app's
         output.tell(f"the last flight cannot be shown: {why}")
         return None
-    same = taken.header["sim"], taken.header.get("crtp_sim") is not None
-    if same != (config.sim, config.crtp_sim is not None):
+    if _kind_in(taken.header) != _kind_of(config):
         taken.store.close()
         return None
     if not going_on and shown_fleet(taken.fleet) != shown_fleet(config.fleet):
@@ -153,6 +153,17 @@ def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -
         )
         return None
     return taken
+
+
+def _kind_of(config: StationConfig) -> tuple[bool, str | None]:
+    """Return whether drones are simulated, and as which drones down to their protocol."""
+    return config.sim, config.stand_ins.kind if config.stand_ins else None
+
+
+def _kind_in(header: Header) -> tuple[bool, str | None]:
+    """Return the same of a flight."""
+    stand_ins = stand_ins_in(header)
+    return bool(header.get("sim")), stand_ins.kind if stand_ins else None
 
 
 def shown_fleet(fleet: FleetFile) -> object:
@@ -179,7 +190,7 @@ class FleetHistory:
 
     def __init__(self, app: App, config: StationConfig) -> None:
         self._app, self._config = app, config
-        self._kind = [config.sim, config.crtp_sim is not None]
+        self._kind = _kind_of(config)
         self._file = config.own_folder / DRONES_FILE
         self.records = Standing()
         self._journal: Path | None = None
@@ -199,7 +210,7 @@ class FleetHistory:
         with closing(Store.open(journal)) as store:
             header: Header = store.header
             check_whole(journal, header, self._app)
-            if [header["sim"], header.get("crtp_sim") is not None] != self._kind:
+            if _kind_in(header) != self._kind:
                 return
             flown = fleet_in(self._app, journal, header)
             same = shown_fleet(flown) == shown_fleet(self._config.fleet)
@@ -287,8 +298,7 @@ class FleetHistory:
             return None
         with closing(Reader(journal)) as reader:  # its writer has it open
             header = reader.header
-        same = [header.get("sim"), header.get("crtp_sim") is not None] == self._kind
-        return process if same else None
+        return process if _kind_in(header) == self._kind else None
 
     def check_free(self) -> None:
         """Raise `BadInput` if another process commands the drones of the newest journal."""
@@ -314,12 +324,18 @@ class FleetHistory:
 
     def _world(self, folder: Path) -> Sequence[str]:
         """Return the files of the simulated world of a gateway that has ended."""
-        if self._config.crtp_sim is not None:
+        stand_ins = self._config.stand_ins
+        if stand_ins is not None and stand_ins.kind == CRTP:
             from ..crtp.process import DRONES as CRAZYFLIES  # rarely needed
             from ..crtp.process import end
 
             end(folder)
             return [CRAZYFLIES]
+        if stand_ins is not None:
+            from ..autopilot.process import VEHICLES, end
+
+            end(folder)
+            return [VEHICLES]
         return [DRONES] if self._config.sim else []
 
     def rows(self) -> Iterator[DroneRow]:

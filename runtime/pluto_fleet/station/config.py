@@ -18,6 +18,7 @@ from .results.meaning import SIMULATED_UNITS, Meanings
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
+    from ..files.stand_ins import StandIns
     from ..shared.domain.actions import Action
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
@@ -44,8 +45,8 @@ class StationConfig:
     fleet_text: str | None = None
     fleet_path: Path | None = None
     sim: bool = True
-    crtp_sim: int | None = None
-    """The number of simulated Crazyflies that are flown as real ones, or None."""
+    stand_ins: StandIns | None = None
+    """The drones that are simulated down to their protocol, and flown as real ones, or None."""
     seed: int = 0
     faults: Mapping[str, float]
     speed: float | None = None
@@ -77,7 +78,7 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
         "logo": config.logo.address if config.logo is not None else None,
         "server": server,
         "role": "fly",
-        "sim": config.sim or config.crtp_sim is not None,
+        "sim": config.sim or config.stand_ins is not None,
         "speed": config.speed or 1.0,
         "fields": {
             "mission": [_field(field) for field in app.fields if field.on is Entity.MISSION],

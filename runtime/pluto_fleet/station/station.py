@@ -301,7 +301,7 @@ class Station:
             missions=text,
             fleet=config.fleet_text,
             sim=config.sim,
-            crtp_sim=config.crtp_sim,
+            stand_ins=config.stand_ins.header if config.stand_ins else None,
             seed=config.seed,
             faults=config.faults,
             inherited=self.history.facts,

@@ -12,7 +12,8 @@ import msgspec
 import pytest
 
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet, RequiredAction, real_fleet
-from pluto_fleet.files.fleet import DroneEntry, FleetFile, as_crtp_fleet
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
+from pluto_fleet.files.stand_ins import CRTP, StandIns, as_stand_ins
 from pluto_fleet.flight.config import FlightSetup
 from pluto_fleet.flight.lives import aloft, may_hover
 from pluto_fleet.shared.alone.world import Faults
@@ -88,24 +89,30 @@ def test_a_real_fleet_is_read_as_it_was_written() -> None:
 
 def test_stand_ins_are_crazyflies_under_any_class_in_the_file() -> None:
     """So many as were asked for, reached where they are."""
-    one = as_crtp_fleet(FLEET, 1)
+    one = as_stand_ins(FLEET, StandIns(CRTP, 1))
     assert [drone.id for drone in one.drones] == ["a"]
-    both = real_fleet(as_crtp_fleet(FLEET, 2), (), {"a": "udp://x:1", "b": "udp://x:2"})
+    both = real_fleet(
+        as_stand_ins(FLEET, StandIns(CRTP, 2)), (), {"a": "udp://x:1", "b": "udp://x:2"}
+    )
     assert [(drone.navigation, drone.uri) for drone in both.drones] == [
         ("crazyflie", "udp://x:1"),
         ("crazyflie", "udp://x:2"),
     ]
     assert both.drones[1].options == both.drones[0].options  # nothing that was for a Tello
-    assert [drone.id for drone in as_crtp_fleet(FLEET, 3).drones] == ["a", "b", "cf1"]
+    assert [drone.id for drone in as_stand_ins(FLEET, StandIns(CRTP, 3)).drones] == [
+        "a",
+        "b",
+        "cf1",
+    ]
 
 
 def test_no_two_stand_ins_stand_at_one_place() -> None:
     """Where the map has no more room, none flies."""
     small = replace(FLEET, airspace=Airspace(size=(3.0, 3.0)))
-    homes = [one.home for one in as_crtp_fleet(small, 12).drones]
+    homes = [one.home for one in as_stand_ins(small, StandIns(CRTP, 12)).drones]
     assert min(dist(*pair) for pair in combinations(homes, 2)) >= 0.7
     with pytest.raises(BadInput, match="--crtp-sim 50: this map has room for"):
-        as_crtp_fleet(small, 50)
+        as_stand_ins(small, StandIns(CRTP, 50))
 
 
 @dataclass(frozen=True)

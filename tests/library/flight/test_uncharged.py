@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from pluto_fleet.files.stand_ins import CRTP, StandIns
 from pluto_fleet.flight.config import FlightSetup
 from pluto_fleet.shared.domain.model import Category
 from tests.kit import apps
@@ -81,6 +82,6 @@ def test_only_a_real_drone_has_its_say_of_its_battery(sim: bool, crtp: bool, cha
         seed=0,
         faults=apps.NO_FAULTS,
         sim=sim,
-        crtp=crtp,
+        stand_ins=StandIns(CRTP, 1) if crtp else None,
     )
     assert flight.charges is charges

@@ -1,0 +1,192 @@
+"""A simulated ArduPilot copter: its modes, its commands and its failsafes.
+
+Each behaviour names the source of ArduPilot that it follows; parameters have the values with which it comes.
+"""
+
+from __future__ import annotations
+
+from math import hypot, isfinite
+from typing import ClassVar
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from .body import Limits, Metres
+from .vehicle import (
+    ACCEPTED,
+    DENIED,
+    FAILED,
+    FORCED,
+    Asked,
+    Build,
+    Doing,
+    Parameter,
+    Vehicle,
+)
+
+STABILIZE, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 4, 5, 6, 9, 17
+"""ArduCopter/mode.h."""
+_HOLDS = {STABILIZE: Doing.HOLD, GUIDED: Doing.GO, LOITER: Doing.HOLD, BRAKE: Doing.HOLD}
+_BY_NUMBER = {**_HOLDS, RTL: Doing.RETURN, LAND: Doing.LAND}
+
+
+def _parameters() -> dict[str, Parameter]:
+    return {
+        "WPNAV_SPEED": Parameter(1000.0),
+        "WPNAV_SPEED_UP": Parameter(250.0),
+        "WPNAV_SPEED_DN": Parameter(150.0),
+        "WPNAV_ACCEL": Parameter(250.0),
+        "LAND_SPEED": Parameter(50.0, whole=True),
+        "LAND_ALT_LOW": Parameter(1000.0, whole=True),
+        "RTL_ALT": Parameter(1500.0, whole=True),
+        "FS_GCS_ENABLE": Parameter(0.0, whole=True),
+        "FS_GCS_TIMEOUT": Parameter(5.0),
+        "SYSID_MYGCS": Parameter(255.0, whole=True),
+        "BATT_FS_LOW_ACT": Parameter(0.0, whole=True),
+        "BATT_LOW_VOLT": Parameter(10.5),
+        "DISARM_DELAY": Parameter(10.0, whole=True),
+    }
+
+
+class ArduPilot(Vehicle):
+    MAKE = mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA
+    MODES: ClassVar = {
+        Doing.HOLD: STABILIZE,
+        Doing.TAKE_OFF: GUIDED,
+        Doing.GO: GUIDED,
+        Doing.RETURN: RTL,
+        Doing.LAND: LAND,
+    }
+    disarms_after = 1.0
+
+    def __init__(self, build: Build) -> None:
+        parameters = _parameters()
+        limits = Limits(
+            level=parameters["WPNAV_SPEED"].value / 100,
+            up=parameters["WPNAV_SPEED_UP"].value / 100,
+            down=parameters["WPNAV_SPEED_DN"].value / 100,
+            level_acceleration=parameters["WPNAV_ACCEL"].value / 100,
+            upright_acceleration=1.0,
+        )
+        super().__init__(build, limits, parameters)
+        self.mode = STABILIZE
+        self._speed = limits.level
+        self._armed_at = 0.0
+
+    @property
+    def mode_number(self) -> int:
+        return self.mode
+
+    # ArduCopter/GCS_MAVLink_Copter.cpp
+
+    def arm_or_disarm(self, asked: Asked) -> int:
+        arms, forced, *_ = asked.values
+        if arms == 1.0:
+            if self.armed:
+                return ACCEPTED
+            if self.problem or self.mode in (RTL, LAND, BRAKE):  # their allows_arming is false
+                why = self.problem or "Mode not armable"
+                self.tell(mavlink.MAV_SEVERITY_CRITICAL, f"Arm: {why}")
+                return FAILED
+            self.armed, self._armed_at = True, self.now
+            return ACCEPTED
+        if self.flies and forced != FORCED:
+            return FAILED
+        self.disarm()
+        return ACCEPTED
+
+    def take_off(self, asked: Asked) -> int:
+        """Rise in GUIDED to a height above home: ArduCopter/takeoff.cpp, do_user_takeoff."""
+        if not self.armed or self.high or self.mode != GUIDED or not isfinite(asked.height):
+            return FAILED
+        if asked.height <= self.body.at[2]:
+            return FAILED
+        self.doing = Doing.TAKE_OFF
+        self.body.goal = (self.body.at[0], self.body.at[1], asked.height)
+        return ACCEPTED
+
+    def go_to(self, asked: Asked) -> int:
+        """Fly to a place in GUIDED, at the speed of before: handle_command_int_do_reposition."""
+        _, flags, *_ = asked.values
+        changes = int(flags) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE
+        if not asked.exact or (self.mode != GUIDED and not changes):
+            return DENIED
+        if not self.flies:  # its guided target is set, and nothing moves before a take-off
+            return ACCEPTED
+        self.mode, self.doing = GUIDED, Doing.GO
+        self.body.goal = self.goal_of(asked)
+        return ACCEPTED
+
+    def set_mode(self, asked: Asked) -> int:
+        number = int(asked.values[1])
+        doing = _BY_NUMBER.get(number)
+        if doing is None or (self.faults.blind and number not in (STABILIZE, LAND)):
+            return FAILED
+        self.mode, self.doing = number, doing
+        if doing in (Doing.HOLD, Doing.GO):
+            self.stop_here()
+        return ACCEPTED
+
+    def change_speed(self, asked: Asked) -> int:
+        kind, speed, *_ = asked.values
+        if speed <= 0:
+            return DENIED
+        if kind in (0.0, 1.0):
+            self._speed = speed
+        return ACCEPTED
+
+    def terminate(self, asked: Asked) -> int:
+        if asked.values[0] <= 0.5:
+            return FAILED
+        self.disarm()
+        return ACCEPTED
+
+    def switch(self, doing: Doing) -> int:
+        if self.faults.blind and doing is not Doing.LAND:
+            return FAILED
+        self.doing = doing
+        self.mode = self.MODES[doing]
+        return ACCEPTED
+
+    # ArduCopter/events.cpp
+
+    def watch(self) -> None:
+        idle = self.now - self._armed_at > self.value("DISARM_DELAY")
+        if not self.high and self.doing is not Doing.TAKE_OFF and idle:
+            self.disarm()
+        if self.faults.blind:
+            self.fail_safe(Doing.LAND, "EKF Failsafe: changed to LAND Mode")
+        silent = self.now - self.heard
+        act = {1: Doing.RETURN, 5: Doing.LAND}.get(int(self.value("FS_GCS_ENABLE")))
+        # without a station that it ever heard there is nothing to lose
+        if act is not None and self.value("FS_GCS_TIMEOUT") < silent < 1e6:
+            self.fail_safe(act, "GCS Failsafe")
+
+    # What it flies
+
+    def steer(self) -> None:
+        body = self.body
+        x, y, z = body.at
+        body.limits.level = self._speed
+        body.limits.down = self.value("WPNAV_SPEED_DN") / 100
+        if self.doing is Doing.TAKE_OFF and abs(z - body.goal[2]) < 0.1 and body.speed < 0.2:
+            self.doing = Doing.GO
+        elif self.doing is Doing.LAND:
+            if z < self.value("LAND_ALT_LOW") / 100:
+                body.limits.down = self.value("LAND_SPEED") / 100
+            body.goal = (*body.goal[:2], -1.0)
+        elif self.doing is Doing.RETURN:
+            body.goal = self._homewards(x, y, z)
+
+    def _homewards(self, x: float, y: float, z: float) -> Metres:
+        """Return the next point of the way home: ArduCopter/mode_rtl.cpp, without a cone."""
+        back = self.value("RTL_ALT") / 100
+        if hypot(x, y) > 2.0:  # WPNAV_RADIUS
+            rises = z < back - 0.5 and self.body.goal[:2] != (0.0, 0.0)
+            return (*self.body.goal[:2], back) if rises else (0.0, 0.0, max(z, back))
+        self.switch(Doing.LAND)
+        return 0.0, 0.0, z
+
+    def landed_mode(self) -> None:
+        """Keep the mode: it must be changed before it is armed again."""
+        if self.doing is not Doing.LAND and self.doing is not Doing.RETURN:
+            self.doing = Doing.HOLD

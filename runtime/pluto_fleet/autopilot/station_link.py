@@ -1,0 +1,356 @@
+"""What a simulated vehicle hears from a ground station and tells it: messages, how often, and parameters."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from math import degrees, hypot, isfinite, pi
+from typing import Any
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from .vehicle import (
+    ACCEPTED,
+    ALL,
+    AUTOPILOT,
+    CAMERA,
+    DENIED,
+    READY,
+    SATELLITES,
+    SENSORS,
+    Asked,
+    Parameter,
+    Vehicle,
+)
+
+ARMED = mavlink.MAV_MODE_FLAG_SAFETY_ARMED | mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+_WHOLE, _REAL = mavlink.MAV_PARAM_TYPE_INT32, mavlink.MAV_PARAM_TYPE_REAL32
+_BYTEWISE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
+_BY_VALUE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_C_CAST
+_CAN = (
+    mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
+    | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
+)
+_USUAL = {
+    mavlink.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
+    mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: 2.0,
+    mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: 0.2,
+    mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: 0.2,
+    mavlink.MAVLINK_MSG_ID_GPS_RAW_INT: 1.0,
+    mavlink.MAVLINK_MSG_ID_HOME_POSITION: 2.0,
+}
+"""Seconds between two messages of a PX4 that was not asked otherwise; an ArduPilot sends none of them then."""
+FOCAL, SENSOR, PIXELS = 4.5, (6.2, 4.65), (4000, 3000)
+"""Millimetres of its camera, and the size of its pictures."""
+
+
+class StationLink:
+    """One vehicle's part of the protocol."""
+
+    def __init__(self, vehicle: Vehicle, send: Callable[[bytes], object]) -> None:
+        self.vehicle, self._send = vehicle, send
+        system = vehicle.build.system
+        self._writers = {
+            component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
+            for component in (AUTOPILOT, CAMERA)
+        }
+        self._every: dict[int, float] = {}
+        """Seconds between two messages, by their number."""
+        if vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4:
+            self._every.update(_USUAL)
+        self._due = dict.fromkeys(self._every, 0.0)
+        self._beat = 0.0
+        self._make: dict[int, Callable[[], Any]] = {
+            mavlink.MAVLINK_MSG_ID_SYS_STATUS: self._status,
+            mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: self._battery,
+            mavlink.MAVLINK_MSG_ID_GLOBAL_POSITION_INT: self._position,
+            mavlink.MAVLINK_MSG_ID_EXTENDED_SYS_STATE: self._landed,
+            mavlink.MAVLINK_MSG_ID_GPS_RAW_INT: self._satellites,
+            mavlink.MAVLINK_MSG_ID_HOME_POSITION: self._home,
+            mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION: self._version,
+        }
+
+    # Telling
+
+    def speak(self) -> None:
+        """Send what is due."""
+        vehicle = self.vehicle
+        now = vehicle.now
+        if now >= self._beat:
+            self._beat = now + 1.0
+            self._heartbeats()
+        for number, every in self._every.items():
+            if now >= self._due[number]:
+                self._due[number] = now + every
+                self._put(self._make[number]())
+        for severity, text in vehicle.said:
+            self._put(self._of().statustext_encode(severity, text.encode()[:50]))
+        vehicle.said.clear()
+
+    def _of(self, component: int = AUTOPILOT) -> Any:
+        return self._writers[component]
+
+    def _put(self, message: Any, component: int = AUTOPILOT) -> None:
+        self._send(message.pack(self._writers[component]))
+
+    def _heartbeats(self) -> None:
+        vehicle = self.vehicle
+        custom = mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
+        self._put(
+            self._of().heartbeat_encode(
+                mavlink.MAV_TYPE_QUADROTOR,
+                vehicle.MAKE,
+                ARMED if vehicle.armed else custom,
+                vehicle.mode_number,
+                mavlink.MAV_STATE_ACTIVE if vehicle.armed else mavlink.MAV_STATE_STANDBY,
+            )
+        )
+        invalid = mavlink.MAV_AUTOPILOT_INVALID
+        beat = self._of(CAMERA).heartbeat_encode(mavlink.MAV_TYPE_CAMERA, invalid, 0, 0, 0)
+        self._put(beat, CAMERA)
+
+    @property
+    def _boot(self) -> int:
+        return int(self.vehicle.now * 1000)
+
+    def _status(self) -> Any:
+        vehicle = self.vehicle
+        well = SENSORS | (0 if vehicle.faults.blind else SATELLITES)
+        well |= 0 if vehicle.problem else READY
+        volts, left = round(vehicle.volts * 1000), round(vehicle.charge * 100)
+        return self._of().sys_status_encode(ALL, ALL, well, 0, volts, -1, left, 0, 0, 0, 0, 0, 0)
+
+    def _battery(self) -> Any:
+        vehicle = self.vehicle
+        cells = [round(vehicle.volts * 1000), *[65535] * 9]
+        left = round(vehicle.charge * 100)
+        none = mavlink.INT16_MAX if hasattr(mavlink, "INT16_MAX") else 32767
+        return self._of().battery_status_encode(0, 0, 0, none, cells, -1, -1, -1, left)
+
+    def _position(self) -> Any:
+        vehicle = self.vehicle
+        latitude, longitude, altitude = vehicle.place
+        east, north, up = vehicle.body.velocity
+        return self._of().global_position_int_encode(
+            self._boot,
+            round(latitude * 1e7),
+            round(longitude * 1e7),
+            round(altitude * 1000),
+            round(vehicle.body.at[2] * 1000),
+            round(north * 100),
+            round(east * 100),
+            round(-up * 100),
+            round(degrees(vehicle.body.heading % (2 * pi)) * 100) % 36000,
+        )
+
+    def _landed(self) -> Any:
+        state = self.vehicle.landed_state
+        return self._of().extended_sys_state_encode(mavlink.MAV_VTOL_STATE_UNDEFINED, state)
+
+    def _satellites(self) -> Any:
+        vehicle = self.vehicle
+        blind = vehicle.faults.blind
+        latitude, longitude, altitude = vehicle.place
+        return self._of().gps_raw_int_encode(
+            int(vehicle.now * 1e6),
+            mavlink.GPS_FIX_TYPE_NO_FIX if blind else mavlink.GPS_FIX_TYPE_3D_FIX,
+            round(latitude * 1e7),
+            round(longitude * 1e7),
+            round(altitude * 1000),
+            70,
+            100,
+            round(hypot(*vehicle.body.velocity) * 100),
+            65535,
+            0 if blind else 14,
+        )
+
+    def _home(self) -> Any:
+        latitude, longitude, altitude = self.vehicle.build.home
+        return self._of().home_position_encode(
+            round(latitude * 1e7),
+            round(longitude * 1e7),
+            round(altitude * 1000),
+            *(0.0, 0.0, 0.0),
+            (1.0, 0.0, 0.0, 0.0),
+            *(0.0, 0.0, 0.0),
+        )
+
+    def _version(self) -> Any:
+        px4 = self.vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4
+        can = _CAN | (_BYTEWISE if px4 else _BY_VALUE)
+        version = (1 << 24 | 16 << 16 if px4 else 4 << 24 | 6 << 16) | 255  # a release
+        nothing = [0] * 8
+        uid = self.vehicle.build.system
+        return self._of().autopilot_version_encode(
+            can, version, 0, 0, 0, nothing, nothing, nothing, 0, 0, uid
+        )
+
+    # Hearing
+
+    def hear(self, message: Any) -> None:
+        """Take a message that is for this vehicle, or for all."""
+        match message.get_type():
+            case "HEARTBEAT" if message.type == mavlink.MAV_TYPE_GCS:
+                self._station(message)
+            case "COMMAND_LONG" | "COMMAND_INT":
+                self._command(message)
+            case "PARAM_REQUEST_READ":
+                self._read(message)
+            case "PARAM_REQUEST_LIST":
+                for name in self.vehicle.parameters:
+                    self._parameter(name)
+            case "PARAM_SET":
+                self._set(message)
+
+    def _station(self, message: Any) -> None:
+        mine = self.vehicle.parameters.get("SYSID_MYGCS", Parameter(message.get_srcSystem()))
+        if message.get_srcSystem() == int(mine.value):
+            self.vehicle.heard = self.vehicle.now
+
+    def _command(self, message: Any) -> None:
+        asked = asked_by(message)
+        if message.target_component == CAMERA:
+            result: int | None = self._of_camera(asked)
+            component = CAMERA
+        else:
+            result, component = self._of_autopilot(asked), AUTOPILOT
+        if result is not None:
+            answer = self._of(component).command_ack_encode(
+                asked.command,
+                result,
+                0,
+                0,
+                message.get_srcSystem(),
+                message.get_srcComponent(),
+            )
+            self._put(answer, component)
+        if asked.command == mavlink.MAV_CMD_IMAGE_START_CAPTURE and result == ACCEPTED:
+            self._put(self._picture(), CAMERA)
+
+    def _of_autopilot(self, asked: Asked) -> int | None:
+        number = int(asked.values[0]) if isfinite(asked.values[0]) else -1
+        if asked.command == mavlink.MAV_CMD_REQUEST_MESSAGE:
+            if number not in self._make:
+                return DENIED
+            self._put(self._make[number]())
+            return ACCEPTED
+        if asked.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
+            if number not in self._make:
+                return DENIED
+            if asked.values[1] > 0:
+                self._every[number] = asked.values[1] / 1e6
+                self._due.setdefault(number, 0.0)
+            return ACCEPTED
+        return self.vehicle.do(asked)
+
+    def _of_camera(self, asked: Asked) -> int:
+        if asked.command == mavlink.MAV_CMD_REQUEST_MESSAGE:
+            writes = {
+                mavlink.MAVLINK_MSG_ID_CAMERA_INFORMATION: self._camera,
+                mavlink.MAVLINK_MSG_ID_CAMERA_CAPTURE_STATUS: self._captures,
+            }.get(int(asked.values[0]))
+            if writes is None:
+                return DENIED
+            self._put(writes(), CAMERA)
+            return ACCEPTED
+        if asked.command == mavlink.MAV_CMD_IMAGE_START_CAPTURE:
+            return ACCEPTED
+        return DENIED
+
+    def _camera(self) -> Any:
+        name = [*b"Simulated"]
+        return self._of(CAMERA).camera_information_encode(
+            self._boot,
+            [*b"Pluto", *[0] * 27],
+            [*name, *[0] * (32 - len(name))],
+            1,
+            FOCAL,
+            *SENSOR,
+            *PIXELS,
+            0,
+            mavlink.CAMERA_CAP_FLAGS_CAPTURE_IMAGE,
+            0,
+            b"",
+        )
+
+    def _captures(self) -> Any:
+        images = self.vehicle.images
+        return self._of(CAMERA).camera_capture_status_encode(self._boot, 0, 0, 0.0, 0, 1e4, images)
+
+    def _picture(self) -> Any:
+        vehicle = self.vehicle
+        taken = not vehicle.faults.blank
+        if taken:
+            x, y, z = vehicle.body.at
+            vehicle.record.photos.append((x, y, z))
+            vehicle.images += 1
+        latitude, longitude, altitude = vehicle.place
+        return self._of(CAMERA).camera_image_captured_encode(
+            self._boot,
+            int(vehicle.now * 1e6),
+            0,
+            round(latitude * 1e7),
+            round(longitude * 1e7),
+            round(altitude * 1000),
+            round(vehicle.body.at[2] * 1000),
+            (1.0, 0.0, 0.0, 0.0),
+            vehicle.images - 1,
+            int(taken),
+            f"mftp:///{vehicle.build.id}-{vehicle.images}.jpg".encode(),
+        )
+
+    # Parameters
+
+    def _read(self, message: Any) -> None:
+        name = message.param_id
+        if message.param_index >= 0:
+            names = [*self.vehicle.parameters]
+            name = names[message.param_index] if message.param_index < len(names) else ""
+        if name in self.vehicle.parameters:
+            self._parameter(name)
+
+    def _set(self, message: Any) -> None:
+        known = self.vehicle.parameters.get(message.param_id)
+        if known is not None:
+            px4 = self.vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4
+            given = message.param_value
+            if px4 and message.param_type == _WHOLE:
+                (given,) = struct.unpack("<i", struct.pack("<f", given))
+            known.value = float(given)
+            self._parameter(message.param_id)
+
+    def _parameter(self, name: str) -> None:
+        """Tell a parameter: PX4 sends the bytes of a whole number, ArduPilot the number as a float."""
+        parameters = self.vehicle.parameters
+        one = parameters[name]
+        value = one.value
+        if one.whole and self.vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4:
+            (value,) = struct.unpack("<f", struct.pack("<i", int(value)))
+        kind = _WHOLE if one.whole else _REAL
+        index = [*parameters].index(name)
+        self._put(self._of().param_value_encode(name.encode(), value, kind, len(parameters), index))
+
+
+def asked_by(message: Any) -> Asked:
+    """Return the command of a message of either kind."""
+    values = (message.param1, message.param2, message.param3, message.param4)
+    if message.get_type() == "COMMAND_INT":
+        place = (message.x / 1e7, message.y / 1e7)
+        return Asked(
+            command=message.command,
+            values=values,
+            place=place if message.x != 0x7FFFFFFF else None,
+            height=message.z,
+            frame=message.frame,
+            exact=True,
+        )
+    finite = isfinite(message.param5) and isfinite(message.param6)
+    return Asked(
+        command=message.command,
+        values=values,
+        place=(message.param5, message.param6) if finite else None,
+        height=message.param7,
+        frame=mavlink.MAV_FRAME_GLOBAL,
+        exact=False,
+    )

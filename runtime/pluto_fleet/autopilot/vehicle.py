@@ -1,0 +1,314 @@
+"""One simulated vehicle: what every autopilot has, whichever its make; `px4.py` and `ardupilot.py` have the rest.
+
+Messages are written and read by pymavlink, commands are answered as MAVLink's documents say: an answer says
+that a command was accepted, and never that it is done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from math import atan2, hypot, inf, isfinite
+from typing import ClassVar
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from ..geodesy import Degrees, LocalPlane
+from .body import Body, Limits, Metres
+
+AUTOPILOT, CAMERA = 1, mavlink.MAV_COMP_ID_CAMERA
+"""The components of a vehicle."""
+
+ACCEPTED: int = mavlink.MAV_RESULT_ACCEPTED
+BUSY: int = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
+DENIED: int = mavlink.MAV_RESULT_DENIED
+FAILED: int = mavlink.MAV_RESULT_FAILED
+UNSUPPORTED: int = mavlink.MAV_RESULT_UNSUPPORTED
+
+FORCED = 21196.0
+"""The second parameter of a command to disarm that is meant even in the air."""
+FULL_VOLTS, EMPTY_VOLTS = 16.8, 14.0
+SENSORS = (
+    mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO
+    | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
+    | mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
+)
+READY = mavlink.MAV_SYS_STATUS_PREARM_CHECK
+SATELLITES = mavlink.MAV_SYS_STATUS_SENSOR_GPS
+ALL = SENSORS | SATELLITES | READY
+TOUCHED = 0.02
+"""Metres above the ground at which it has touched down."""
+
+
+class Doing(Enum):
+    """What a vehicle is at; each make has a mode for it."""
+
+    HOLD = "hold"
+    TAKE_OFF = "take off"
+    GO = "go"
+    RETURN = "return"
+    LAND = "land"
+
+
+@dataclass(slots=True)
+class Faults:
+    """What is wrong with a vehicle."""
+
+    silent: bool = False
+    """Nothing reaches it, and nothing is heard of it."""
+    late: float = 0.0
+    """Seconds by which it is heard of later."""
+    unanswered: int = 0
+    """How many of the next commands it carries out without an answer."""
+    denied: int = 0
+    """How many of the next commands it denies."""
+    busy: int = 0
+    """How many of the next commands it rejects for now."""
+    blind: bool = False
+    """It has no satellites."""
+    dead: bool = False
+    """A motor is dead."""
+    blank: bool = False
+    """Its camera takes no picture."""
+    unready: str = ""
+    """Why it will not arm."""
+
+
+@dataclass(frozen=True, slots=True)
+class Build:
+    """How a vehicle is built."""
+
+    id: str
+    system: int
+    home: Degrees
+    flight: float = 1200.0
+    """Seconds in the air from full to empty."""
+    charge: float = inf
+    """Seconds on the ground from empty to full."""
+
+
+@dataclass(slots=True)
+class Parameter:
+    value: float
+    whole: bool = False
+
+
+@dataclass(slots=True)
+class Asked:
+    """A command, from either of the two messages that carry one."""
+
+    command: int
+    values: tuple[float, float, float, float]
+    place: tuple[float, float] | None
+    """Latitude and longitude in degrees, if it names some."""
+    height: float
+    frame: int
+    exact: bool
+    """Whether it came with whole numbers, and its place is not rounded to a metre."""
+
+
+@dataclass(slots=True)
+class Record:
+    """What a vehicle has done, for tests to check flights against."""
+
+    orders: list[str] = field(default_factory=list)
+    photos: list[Metres] = field(default_factory=list)
+    fell: bool = False
+    landings: int = 0
+
+
+class Vehicle:
+    """What is common to both makes."""
+
+    MAKE: ClassVar[int]
+    MODES: ClassVar[Mapping[Doing, int]]
+    """The number of each mode, as heartbeats have it."""
+
+    def __init__(self, build: Build, limits: Limits, parameters: dict[str, Parameter]) -> None:
+        self.build, self.parameters = build, parameters
+        self.plane = LocalPlane(*build.home)
+        self.body = Body(limits)
+        self.doing = Doing.HOLD
+        self.armed = False
+        self.charge = 1.0
+        self.faults, self.record = Faults(), Record()
+        self.now = self.touched = 0.0
+        """Seconds since it was switched on, and when it has touched down."""
+        self.heard = -inf
+        """When it last heard of a ground station; never: minus infinity."""
+        self.images = 0
+        self.said: list[tuple[int, str]] = []
+        """Texts to be sent, with their severity."""
+        self.commands: dict[int, Callable[[Asked], int]] = {
+            mavlink.MAV_CMD_COMPONENT_ARM_DISARM: self.arm_or_disarm,
+            mavlink.MAV_CMD_NAV_TAKEOFF: self.take_off,
+            mavlink.MAV_CMD_DO_REPOSITION: self.go_to,
+            mavlink.MAV_CMD_NAV_LAND: lambda _: self.switch(Doing.LAND),
+            mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH: lambda _: self.switch(Doing.RETURN),
+            mavlink.MAV_CMD_DO_SET_MODE: self.set_mode,
+            mavlink.MAV_CMD_DO_CHANGE_SPEED: self.change_speed,
+            mavlink.MAV_CMD_DO_FLIGHTTERMINATION: self.terminate,
+            mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: lambda _: ACCEPTED,
+        }
+
+    def value(self, name: str) -> float:
+        return self.parameters[name].value
+
+    # What the makes do in different ways
+
+    def arm_or_disarm(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def take_off(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def go_to(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def set_mode(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def change_speed(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def terminate(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def switch(self, doing: Doing) -> int:
+        raise NotImplementedError
+
+    def watch(self) -> None:
+        """Look whether a failsafe must act."""
+        raise NotImplementedError
+
+    def steer(self) -> None:
+        """Give the body its goal for what it is at."""
+        raise NotImplementedError
+
+    def landed_mode(self) -> None:
+        """Take the mode that it has once it has disarmed."""
+
+    # Its state
+
+    @property
+    def mode_number(self) -> int:
+        """Its mode, as its heartbeat has it."""
+        return self.MODES[self.doing]
+
+    @property
+    def high(self) -> bool:
+        return self.body.at[2] > TOUCHED
+
+    @property
+    def flies(self) -> bool:
+        return self.armed and self.high
+
+    @property
+    def volts(self) -> float:
+        return EMPTY_VOLTS + (FULL_VOLTS - EMPTY_VOLTS) * self.charge
+
+    @property
+    def problem(self) -> str:
+        """Why it would not arm; nothing: it would."""
+        if self.faults.blind:
+            return "no position: it has no satellites"
+        return self.faults.unready
+
+    @property
+    def landed_state(self) -> int:
+        if not self.high:
+            return int(mavlink.MAV_LANDED_STATE_ON_GROUND)
+        states = {
+            Doing.TAKE_OFF: mavlink.MAV_LANDED_STATE_TAKEOFF,
+            Doing.LAND: mavlink.MAV_LANDED_STATE_LANDING,
+        }
+        return int(states.get(self.doing, mavlink.MAV_LANDED_STATE_IN_AIR))
+
+    @property
+    def place(self) -> Degrees:
+        x, y, z = self.body.at
+        return self.plane.to_degrees((x, y, z))
+
+    def stop_here(self) -> None:
+        self.body.goal = self.body.stopping_place
+
+    def disarm(self) -> None:
+        self.armed = False
+        self.landed_mode()
+
+    def fail_safe(self, doing: Doing, why: str) -> None:
+        """Do what a failsafe does, once."""
+        if self.flies and self.doing is not doing:
+            self.tell(mavlink.MAV_SEVERITY_CRITICAL, why)
+            self.switch(doing)
+
+    def tell(self, severity: int, text: str) -> None:
+        self.said.append((severity, text))
+
+    def step(self, seconds: float) -> None:
+        """Let time pass."""
+        self.now += seconds
+        body = self.body
+        if self.armed and not self.faults.dead:
+            self.watch()
+            self.steer()
+            body.fly(seconds)
+        elif self.high:
+            self.record.fell = True
+            body.fall(seconds)
+        east, north, _ = body.velocity
+        if hypot(east, north) > 0.5:
+            body.heading = atan2(east, north)
+        self._charge(seconds)
+        if self.doing is Doing.LAND and self.armed and not self.high:
+            self._touch_down()
+        elif self.high:
+            self.touched = self.now
+
+    def _charge(self, seconds: float) -> None:
+        change = -1 / self.build.flight if self.armed else 1 / self.build.charge
+        self.charge = min(1.0, max(0.0, self.charge + change * seconds))
+        if self.charge == 0.0 and self.armed:
+            self.disarm()
+
+    def _touch_down(self) -> None:
+        """Disarm, when it has stood for a moment."""
+        if self.now - self.touched >= self.disarms_after:
+            self.record.landings += 1
+            self.disarm()
+
+    disarms_after = 2.0
+    """Seconds on the ground after which a landing is over."""
+
+    def height_of(self, asked: Asked) -> float:
+        """Return the height above home that a command names."""
+        if asked.frame == mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT:
+            return asked.height
+        return asked.height - self.build.home[2]
+
+    def goal_of(self, asked: Asked) -> Metres:
+        """Return where a command sends it: what it does not name stays as it is."""
+        x, y, z = self.body.at
+        if asked.place is not None:
+            x, y, _ = self.plane.to_metres((*asked.place, self.build.home[2]))
+        if isfinite(asked.height):
+            z = self.height_of(asked)
+        return x, y, max(0.0, z)
+
+    def do(self, asked: Asked) -> int | None:
+        """Carry out a command; return its answer, or None where that is lost."""
+        faults = self.faults
+        if faults.busy > 0:
+            faults.busy -= 1
+            return BUSY
+        if faults.denied > 0:
+            faults.denied -= 1
+            return DENIED
+        does = self.commands.get(asked.command)
+        result = UNSUPPORTED if does is None else does(asked)
+        self.record.orders.append(f"{asked.command}: {result}")
+        if faults.unanswered > 0:
+            faults.unanswered -= 1
+            return None
+        return result

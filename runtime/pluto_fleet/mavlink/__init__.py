@@ -1,0 +1,1 @@
+"""Vehicles that speak MAVLink, such as PX4's and ArduPilot's, flown by way of MAVSDK."""

@@ -1,0 +1,195 @@
+"""What PX4 and ArduPilot must be told, each in its own way, and what their modes are called.
+
+Each fact names the source that it was read in (docs/mavlink.md). A command that is accepted is not yet done.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Protocol
+
+ARM, TAKEOFF, LAND, SET_MODE, CHANGE_SPEED, REPOSITION = 400, 22, 21, 176, 178, 192
+"""MAV_CMD."""
+CUT = 21196
+"""The second parameter of a command to disarm in the air (MAV_CMD_COMPONENT_ARM_DISARM)."""
+_CUSTOM_MODE = 1
+_TAKES_MODE = 1
+"""MAV_DO_REPOSITION_FLAGS_CHANGE_MODE."""
+_ABOVE_SEA = 5
+"""MAV_FRAME_GLOBAL_INT: metres above sea level, as both makes take it."""
+
+ACCEPTED = 0
+ANSWERS = {
+    1: "it rejects that for now",
+    2: "it denies that",
+    3: "it does not know that command",
+    4: "it could not do that",
+    6: "it broke that off",
+}
+"""MAV_RESULT."""
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """A command as it is sent."""
+
+    message: str
+    fields: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where to fly, as autopilots are told: degrees, and metres above sea level and above home."""
+
+    latitude: float
+    longitude: float
+    above_sea: float
+    above_home: float
+
+
+def long(command: int, *values: float | None) -> Order:
+    given = {f"param{number}": value for number, value in enumerate(values, 1)}
+    return Order("COMMAND_LONG", {"command": command, **given})
+
+
+def reposition(place: Place, speed: float | None) -> Order:
+    """Return the command to fly to a place; as COMMAND_INT, for as a float a latitude would be a metre off."""
+    fields = {
+        "command": REPOSITION,
+        "frame": _ABOVE_SEA,
+        "param1": speed,
+        "param2": _TAKES_MODE,
+        "x": round(place.latitude * 1e7),
+        "y": round(place.longitude * 1e7),
+        "z": place.above_sea,
+    }
+    return Order("COMMAND_INT", fields)
+
+
+CUT_MOTORS = long(ARM, 0, CUT)
+LAND_HERE = long(LAND)
+
+
+class Make(Protocol):
+    """How one make is told."""
+
+    name: str
+
+    def rises(self, place: Place) -> Sequence[Order]:
+        """Return the commands that arm it and let it take off, one after the other."""
+        ...
+
+    def goes(self, place: Place, speed: float) -> Sequence[Order]:
+        """Return the commands that send it to a place at no more than a speed."""
+        ...
+
+    def holds(self) -> Sequence[Order]:
+        """Return the commands that stop it."""
+        ...
+
+    def mode_name(self, number: int) -> str:
+        """Return what its present mode is called."""
+        ...
+
+    modes: ClassVar[Mapping[str, frozenset[int]]]
+    """In which modes it may be, by what it was told: `rise`, `go`, `hold`, `land`."""
+
+
+class Px4:
+    name = "PX4"
+    _AUTO = 4
+    _SUB: ClassVar[Mapping[int, str]] = {
+        1: "Ready",
+        2: "Takeoff",
+        3: "Hold",
+        4: "Mission",
+        5: "Return",
+        6: "Land",
+    }
+    _MAIN: ClassVar[Mapping[int, str]] = {
+        1: "Manual",
+        2: "Altitude",
+        3: "Position",
+        5: "Acro",
+        6: "Offboard",
+        7: "Stabilized",
+    }
+
+    modes: ClassVar[Mapping[str, frozenset[int]]] = {
+        "rise": frozenset({_AUTO << 16 | 2 << 24, _AUTO << 16 | 3 << 24}),
+        "go": frozenset({_AUTO << 16 | 3 << 24}),
+        "hold": frozenset({_AUTO << 16 | 3 << 24}),
+        "land": frozenset({_AUTO << 16 | 6 << 24}),
+    }
+
+    def rises(self, place: Place) -> Sequence[Order]:
+        """It takes the mode first, and rises once it is armed; a height above sea level is taken as it is."""
+        return [
+            self._mode(3),  # it does not arm in the mode in which it has landed
+            long(ARM, 1, 0),
+            long(TAKEOFF, None, None, None, None, None, None, place.above_sea),
+        ]
+
+    def goes(self, place: Place, speed: float) -> Sequence[Order]:
+        """The speed is that of the command: DO_CHANGE_SPEED is accepted, and is for missions."""
+        return [reposition(place, speed)]
+
+    def holds(self) -> Sequence[Order]:
+        return [self._mode(3)]
+
+    def _mode(self, sub: int) -> Order:
+        return long(SET_MODE, _CUSTOM_MODE, self._AUTO, sub)
+
+    def mode_name(self, number: int) -> str:
+        main, sub = number >> 16 & 0xFF, number >> 24
+        name = self._SUB.get(sub) if main == self._AUTO else self._MAIN.get(main)
+        return name or f"{main}.{sub}"
+
+
+class ArduPilot:
+    name = "ArduPilot"
+    _GUIDED, _LAND, _BRAKE = 4, 9, 17
+    _NAMES: ClassVar[Mapping[int, str]] = {
+        0: "Stabilize",
+        2: "AltHold",
+        3: "Auto",
+        4: "Guided",
+        5: "Loiter",
+        6: "RTL",
+        9: "Land",
+        16: "PosHold",
+        17: "Brake",
+        21: "SmartRTL",
+    }
+    modes: ClassVar[Mapping[str, frozenset[int]]] = {
+        "rise": frozenset({_GUIDED}),
+        "go": frozenset({_GUIDED}),
+        "hold": frozenset({_BRAKE}),
+        "land": frozenset({_LAND}),
+    }
+
+    def rises(self, place: Place) -> Sequence[Order]:
+        return [
+            self._mode(self._GUIDED),
+            long(ARM, 1, 0),
+            long(TAKEOFF, 0, None, None, None, None, None, place.above_home),
+        ]
+
+    def goes(self, place: Place, speed: float) -> Sequence[Order]:
+        """The speed comes after the place: a new leg begins at that of its parameters."""
+        return [reposition(place, None), long(CHANGE_SPEED, 1, speed, -1)]
+
+    def holds(self) -> Sequence[Order]:
+        """Brake, as in Loiter the sticks of a transmitter count: with the throttle down it would sink."""
+        return [self._mode(self._BRAKE)]
+
+    def _mode(self, number: int) -> Order:
+        return long(SET_MODE, _CUSTOM_MODE, number)
+
+    def mode_name(self, number: int) -> str:
+        return self._NAMES.get(number, str(number))
+
+
+MAKES: Mapping[str, Make] = {"px4": Px4(), "ardupilot": ArduPilot()}
+"""By what MAVSDK calls them."""

@@ -1,0 +1,278 @@
+"""The process in which MAVSDK runs, apart from the gateway: it decides nothing, and passes on what is asked and told.
+
+It is a process of its own as MAVSDK aborts the one in which it is destroyed at the wrong moment, and as its heartbeats
+go on while ours hangs: a vehicle would believe that somebody watches it. So this process ends when the gateway says
+nothing for a while, and the vehicles' own failsafes act.
+
+Lines of JSON: it is asked on its standard input, and answers and tells on its standard output.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import sys
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import Any
+
+from mavsdk.asyncio import Configuration, Mavsdk
+from mavsdk.asyncio.plugins.camera import CameraAsync
+from mavsdk.asyncio.plugins.mavlink_direct import MavlinkDirectAsync
+from mavsdk.asyncio.plugins.param import ParamAsync
+from mavsdk.asyncio.plugins.telemetry import TelemetryAsync
+from mavsdk.autopilot import Autopilot
+from mavsdk.component_type import ComponentType
+from mavsdk.exceptions import MavsdkError
+from mavsdk.plugins.mavlink_direct import MavlinkMessage
+
+COMMAND = "mavsdk"
+
+PATIENCE = 3.0
+"""Seconds without a word of the gateway after which this process ends, and its heartbeats with it."""
+_AT_ONCE = 64
+"""Requests that wait for answers of vehicles at the same time, each in a thread."""
+_LOOK = 0.1
+_AUTOPILOT = 1
+"""The component of a vehicle that flies it."""
+RATES = {33: 10.0, 245: 5.0, 1: 1.0, 147: 1.0, 242: 0.5}
+"""How often a second these are to be told: GLOBAL_POSITION_INT, EXTENDED_SYS_STATE, SYS_STATUS, BATTERY_STATUS,
+HOME_POSITION. An ArduPilot tells none of them unasked."""
+_SET_INTERVAL = 511
+
+Message = Mapping[str, Any]
+
+
+@dataclass(slots=True)
+class Opened:
+    """A vehicle that is told of."""
+
+    system: Any
+    direct: Any
+    params: Any
+    cameras: Any
+    told: list[asyncio.Task[None]] = field(default_factory=list)
+
+
+class Desk:
+    """Does what is asked."""
+
+    def __init__(self, tell: Callable[[Message], None]) -> None:
+        self._tell = tell
+        self._links: dict[str, asyncio.Task[Any]] = {}
+        self._open: dict[int, Opened] = {}
+
+    async def answer(self, asked: Message) -> None:
+        """Do it, and tell what came of it."""
+        try:
+            value = await getattr(self, f"do_{asked['do']}")(asked)
+            self._tell({"answer": asked["ask"], "value": value})
+        except (MavsdkError, OSError, TimeoutError, RuntimeError, KeyError, ValueError) as error:
+            said = getattr(getattr(error, "result", None), "name", "") or str(error)
+            self._tell({"answer": asked["ask"], "error": said or type(error).__name__})
+
+    async def do_open(self, asked: Message) -> Message:
+        """Find a vehicle's autopilot, and tell of it from now on under a number."""
+        number, link, system = asked["vehicle"], asked["link"], asked["system"]
+        found = await self._system(link, system)
+        await self.do_close(asked)
+        opened = Opened(found, MavlinkDirectAsync(found), ParamAsync(found), CameraAsync(found))
+        self._open[number] = opened
+        self._follow(number, opened, TelemetryAsync(found))
+        await asyncio.gather(
+            *(self._ask_for(opened, system, kind, rate) for kind, rate in RATES.items())
+        )
+        make = await found.autopilot_type()
+        return {"make": Autopilot(make).name.lower()}
+
+    async def _system(self, link: str, number: int) -> Any:
+        """Return a system with this number that has an autopilot: not a camera's, nor another station's."""
+        if link not in self._links:
+            self._links[link] = asyncio.ensure_future(_connected(link))
+        try:
+            mavsdk = await asyncio.shield(self._links[link])
+        except MavsdkError:
+            del self._links[link]  # such as a device that is not there yet
+            raise
+        while True:
+            for one in await mavsdk.get_systems():
+                alive = await one.has_autopilot() and await one.is_connected()
+                if alive and await one.get_system_id() == number:
+                    return one
+            await asyncio.sleep(_LOOK)
+
+    async def _ask_for(self, opened: Opened, system: int, kind: int, rate: float) -> None:
+        """Ask for a message so often; what does not come is noticed by who waits for it."""
+        fields = {"command": _SET_INTERVAL, "param1": kind, "param2": 1e6 / rate}
+        with suppress(MavsdkError, RuntimeError):
+            await _command(opened, system, "COMMAND_LONG", fields)
+
+    def _follow(self, number: int, opened: Opened, told: Any) -> None:
+        latest: dict[str, Any] = {"velocity": [0.0, 0.0, 0.0], "heading": None}
+
+        def tell(kind: str, facts: Any) -> None:
+            self._tell({"vehicle": number, "told": kind, "facts": facts})
+
+        def on_velocity(one: Any) -> None:
+            latest["velocity"] = [one.north_m_s, one.east_m_s, one.down_m_s]
+
+        def on_heading(one: Any) -> None:
+            latest["heading"] = one.heading_deg
+
+        def on_position(one: Any) -> None:
+            place = [one.latitude_deg, one.longitude_deg]
+            heights = [one.absolute_altitude_m, one.relative_altitude_m]
+            tell("position", {"place": place, "heights": heights, **latest})
+
+        def on_battery(one: Any) -> None:
+            tell("battery", {"volts": one.voltage_v, "percent": one.remaining_percent})
+
+        def on_heartbeat(one: Any) -> None:
+            if one.component_id == _AUTOPILOT:
+                fields = json.loads(one.fields_json)
+                tell("beat", {"mode": fields["custom_mode"], "base": fields["base_mode"]})
+
+        def on_health(one: Any) -> None:
+            tell("health", {name: bool(value) for name, value in vars(one).items()})
+
+        def on_home(one: Any) -> None:
+            tell("home", [one.latitude_deg, one.longitude_deg, one.absolute_altitude_m])
+
+        def on_text(one: Any) -> None:
+            tell("text", {"severity": int(one.type), "text": one.text})
+
+        def on_photo(one: Any) -> None:
+            at = one.position
+            place = [at.latitude_deg, at.longitude_deg]
+            heights = [at.absolute_altitude_m, at.relative_altitude_m]
+            taken = {"success": one.is_success, "index": one.index, "file": one.file_url}
+            tell("photo", {"place": place, "heights": heights, **taken})
+
+        opened.told = [
+            asyncio.ensure_future(_each(stream, hear))
+            for stream, hear in (
+                (told.subscribe_velocity_ned(), on_velocity),
+                (told.subscribe_heading(), on_heading),
+                (told.subscribe_position(), on_position),
+                (told.subscribe_battery(), on_battery),
+                (told.subscribe_health(), on_health),
+                (told.subscribe_home(), on_home),
+                (told.subscribe_status_text(), on_text),
+                (told.subscribe_landed_state(), lambda one: tell("landed", int(one))),
+                (opened.direct.subscribe_message("HEARTBEAT"), on_heartbeat),
+                (opened.cameras.subscribe_capture_info(), on_photo),
+                (
+                    opened.cameras.subscribe_camera_list(),
+                    lambda one: tell("cameras", [_lens(camera) for camera in one.cameras]),
+                ),
+            )
+        ]
+
+    async def do_close(self, asked: Message) -> None:
+        opened = self._open.pop(asked["vehicle"], None)
+        if opened is not None:
+            for task in opened.told:
+                task.cancel()
+            await asyncio.gather(*opened.told, return_exceptions=True)
+
+    async def do_command(self, asked: Message) -> int:
+        """Send a command, again until it is answered; return the answer, a MAV_RESULT."""
+        opened = self._open[asked["vehicle"]]
+        return await _command(opened, asked["system"], asked["message"], asked["fields"])
+
+    async def do_photo(self, asked: Message) -> None:
+        await self._open[asked["vehicle"]].cameras.take_photo(asked["camera"])
+
+    async def do_read(self, asked: Message) -> float:
+        """Read a parameter, of whichever type."""
+        params, name = self._open[asked["vehicle"]].params, asked["name"]
+        with suppress(MavsdkError):
+            return float(await params.get_param_float(name))
+        return float(await params.get_param_int(name))
+
+    async def do_write(self, asked: Message) -> None:
+        params, name = self._open[asked["vehicle"]].params, asked["name"]
+        try:
+            await params.set_param_float(name, asked["value"])
+        except MavsdkError:
+            await params.set_param_int(name, int(asked["value"]))
+
+
+async def _connected(link: str) -> Any:
+    settings = Configuration.create_with_component_type(ComponentType.GROUND_STATION)
+    mavsdk = await asyncio.to_thread(Mavsdk, settings)
+    await mavsdk.add_any_connection(link)
+    return mavsdk
+
+
+async def _command(opened: Opened, system: int, message: str, fields: Message) -> int:
+    whole: dict[str, Any] = {"target_system": system, "target_component": _AUTOPILOT}
+    if message == "COMMAND_LONG":
+        whole |= {"confirmation": 0, **{f"param{number}": None for number in range(1, 8)}}
+    else:
+        whole |= {"current": 0, "autocontinue": 0, "param3": 0, "param4": None}
+    text = json.dumps({**whole, **fields})  # null is a number that is not given
+    asked = MavlinkMessage(message, 0, 0, system, _AUTOPILOT, text)
+    told = await opened.direct.send_command(asked)
+    return int(json.loads(told.fields_json)["result"])
+
+
+def _lens(camera: Any) -> Message:
+    """Return what is known of a camera."""
+    return {
+        "component": camera.component_id,
+        "name": f"{camera.vendor_name} {camera.model_name}".strip(),
+        "focal": camera.focal_length_mm,
+        "sensor": [camera.horizontal_sensor_size_mm, camera.vertical_sensor_size_mm],
+    }
+
+
+async def _each(stream: AsyncIterator[Any], hear: Callable[[Any], object]) -> None:
+    async for one in stream:
+        hear(one)
+
+
+async def _run(out: int) -> None:
+    loop = asyncio.get_running_loop()
+    loop.set_default_executor(ThreadPoolExecutor(_AT_ONCE))
+
+    def tell(message: Message) -> None:
+        try:
+            os.write(out, json.dumps(message).encode() + b"\n")
+        except OSError:  # the gateway has ended
+            os._exit(0)
+
+    desk = Desk(tell)
+    asked = asyncio.StreamReader()
+    await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(asked), sys.stdin)
+    doing = set[asyncio.Task[None]]()
+    while True:
+        async with asyncio.timeout(PATIENCE):
+            line = await asked.readline()
+        if not line:
+            return
+        message = json.loads(line)
+        if "do" in message:
+            task = asyncio.ensure_future(desk.answer(message))
+            doing.add(task)
+            task.add_done_callback(doing.discard)
+
+
+def main(_: Sequence[str]) -> int:
+    """Serve the gateway until it has enough, or says nothing; never returns, as to destroy MAVSDK may abort."""
+    out = os.dup(1)
+    os.dup2(2, 1)  # where MAVSDK and its wrappers print
+    code = 0
+    try:
+        asyncio.run(_run(out))
+    except TimeoutError:
+        print(
+            "the gateway says nothing: no vehicle is told any more that it is watched",
+            file=sys.stderr,
+        )
+        code = 1
+    sys.stderr.flush()
+    os._exit(code)

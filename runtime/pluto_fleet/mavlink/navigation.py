@@ -1,0 +1,345 @@
+"""The navigation of a MAVLink vehicle: the public protocol, implemented with MAVSDK in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from math import dist
+from typing import Any
+
+from ..drones.protocol import (
+    LINK_LOST,
+    ActionNotDone,
+    DroneEvent,
+    DroneSetup,
+    DroneTelemetry,
+    LinkLost,
+    NavigationError,
+    NotReady,
+    OutsideArea,
+    Rejected,
+)
+from ..drones.telemetry import Reports
+from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
+from ..shared.domain.actions import PHOTO, Plain
+from ..shared.domain.errors import BadInput
+from ..shared.domain.model import Item, Photo, Point
+from .makes import ACCEPTED, ANSWERS, CUT_MOTORS, LAND_HERE, MAKES, Make, Order
+from .mavsdk_client import ENDED, MavsdkClient, client
+from .options import options_of
+from .preflight import problems
+from .state import VehicleState
+
+_FINDING = 12.0
+"""Seconds in which a vehicle must be heard of: a heartbeat comes every second."""
+_KNOWN = 3.0
+"""Seconds in which it must then tell where it is, and how it is."""
+_ANSWER = 6.0
+"""Seconds for a command, which is sent again three times."""
+_CAMERA = 8.0
+"""Seconds within which a camera must tell what it has taken."""
+_RESTS = 0.5
+"""Seconds for which it must stay at its target, to have arrived."""
+_SETTLES = 2.0
+"""Seconds in which its mode may be another one than what it was told to do."""
+_LONGEST = 3600.0
+_LANDING = 600.0
+_HOLDING = 30.0
+
+
+class MavlinkVehicle:
+    """One vehicle, told apart by its system id from others behind the same address."""
+
+    def __init__(self, setup: DroneSetup) -> None:
+        self._id = setup.id
+        if setup.plane is None:
+            raise BadInput(
+                f"{setup.id}: a MAVLink vehicle flies by degrees: say where the map is, in [map]:"
+                " origin = { latitude = 47.3977, longitude = 8.5456, altitude = 488 }"
+            )
+        self._setup = setup
+        self._options = options_of(setup.options)
+        self._reports = Reports(setup)
+        self._state = VehicleState(setup.plane, setup.home[2])
+        self._make: Make | None = None
+        self._client: MavsdkClient | None = None
+        self._number = 0
+        self._photo: asyncio.Future[Mapping[str, Any]] | None = None
+        self._since = 0.0
+        """Since when it has been where it is to be."""
+
+    # The link
+
+    async def connect(self) -> None:
+        """Find its autopilot, and wait until it has told where it is and how it is."""
+        await self._part()
+        plane = self._state.plane
+        self._state = VehicleState(plane, self._setup.home[2])
+        address = self._address
+        self._client = client()
+        self._number = self._client.join(self._hear)
+        try:
+            found = await self._ask("open", _FINDING, link=address.link, system=address.system)
+        except LinkLost:
+            raise LinkLost(
+                f"{self._id}: no autopilot with the system id {address.system} answers at {address.link}"
+            ) from None
+        self._make = MAKES.get(found["make"])
+        if self._make is None:
+            makes = " nor ".join(one.name for one in MAKES.values())
+            raise NotReady(f"{self._id}: its autopilot is neither {makes}")
+        began = time.monotonic()
+        while not self._state.is_known:
+            if time.monotonic() - began > _KNOWN:
+                raise LinkLost(f"{self._id} answers, and does not tell {self._untold()}")
+            await asyncio.sleep(0.05)
+        while not self._state.is_well and time.monotonic() - began < _KNOWN:
+            await asyncio.sleep(
+                0.05
+            )  # MAVSDK begins with a bad health, and hears of it once a second
+        self._tell()
+
+    @property
+    def _address(self) -> VehicleAddress:
+        if self._setup.uri is None:
+            raise NotReady(f"{self._id} has no uri in the fleet file, such as {SUCH_AS}")
+        return vehicle_address(self._setup.uri)
+
+    def _untold(self) -> str:
+        state = self._state
+        missing = {
+            "where it is": state.position is None,
+            "its mode": not state.beaten,
+            "whether it has landed": state.landed == 0,
+        }
+        return " and ".join(what for what, is_missing in missing.items() if is_missing)
+
+    async def _part(self) -> None:
+        if self._client is not None:
+            former, self._client = self._client, None
+            await former.leave(self._number)
+
+    async def close(self) -> None:
+        """Part from it; if it flies by our command, it is landed first."""
+        try:
+            if self.telemetry.flying and self._client is not None:
+                await self.land(1.0)
+        except NavigationError:
+            pass  # it cannot be reached: its own failsafe acts
+        finally:
+            await self._part()
+            self._reports.close()
+
+    @property
+    def telemetry(self) -> DroneTelemetry:
+        return self._reports.telemetry
+
+    def events(self) -> AsyncIterator[DroneEvent]:
+        return self._reports.events()
+
+    def _hear(self, told: str, facts: Any) -> None:
+        state = self._state
+        if told == ENDED:
+            self._client = None
+            self._reports.happened(LINK_LOST, str(facts))
+            return
+        if told == "photo" and self._photo is not None and not self._photo.done():
+            self._photo.set_result(facts)
+        state.hear(told, facts)
+        if told in ("position", "beat") and state.is_known:
+            self._tell()
+
+    def _tell(self) -> None:
+        state = self._state
+        assert state.position is not None
+        self._reports.tell(
+            position=state.position,
+            flying=state.flying,
+            yaw=state.yaw,
+            voltage=state.volts,
+            battery_level=1.0 if state.battery is None else state.battery,
+            crashed="its motors stopped in the air" if state.fell else "",
+        )
+
+    async def _ask(self, do: str, seconds: float, **facts: Any) -> Any:
+        if self._client is None:
+            raise LinkLost(f"{self._id} is not connected")
+        try:
+            return await self._client.ask(do, seconds, vehicle=self._number, **facts)
+        except LinkLost as error:
+            raise LinkLost(f"{self._id}: {error}") from None
+
+    async def _order(self, orders: Sequence[Order]) -> None:
+        """Give commands one after the other; raise `Rejected` with what it says against one."""
+        began = time.monotonic()
+        for order in orders:
+            try:
+                result = await self._ask(
+                    "command",
+                    _ANSWER,
+                    system=self._address.system,
+                    message=order.message,
+                    fields=order.fields,
+                )
+            except Rejected as error:
+                raise LinkLost(f"{self._id} does not answer a command: {error}") from None
+            if result != ACCEPTED:
+                await asyncio.sleep(0.2)  # its reason may follow
+                said = self._state.since(began) or ANSWERS.get(result, f"it answers {result}")
+                raise Rejected(f"{self._id} refuses a command: {said}")
+
+    @property
+    def _known_make(self) -> Make:
+        if self._make is None:
+            raise LinkLost(f"{self._id} is not connected")
+        return self._make
+
+    # Flying
+
+    async def preflight(self) -> Sequence[str]:
+        if self._client is None:
+            return [f"{self._id} is not connected"]
+        return problems(self._state, self._setup.home, self._options)
+
+    async def takeoff(self, height: float, speed: float) -> None:
+        """Take off straight up, at the speed that its autopilot has for that."""
+        state = self._state
+        if state.position is None:
+            raise LinkLost(f"{self._id} is not connected")
+        target = (state.position[0], state.position[1], height)
+        if not state.flying:
+            reasons = await self.preflight()
+            if reasons:
+                raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
+            await self._order(self._known_make.rises(self._place(target)))
+        await self._until("rise", lambda: self._is_at(target), _LONGEST)
+
+    async def go_to(self, target: Point, speed: float) -> None:
+        self._reports.refuse(target, speed)
+        await self._order(self._known_make.goes(self._place(target), speed))
+        await self._until("go", lambda: self._is_at(target), _LONGEST)
+
+    async def hold(self) -> None:
+        if self.telemetry.flying:
+            await self._order(self._known_make.holds())
+            await self._until("hold", self._is_still, _HOLDING)
+
+    async def land(self, speed: float) -> None:
+        """Land straight down, at the speed that its autopilot has for that."""
+        if self.telemetry.flying:
+            await self._order([LAND_HERE])
+            await self._until("land", lambda: not self._state.flying, _LANDING)
+
+    async def emergency_stop(self) -> None:
+        await self._order([CUT_MOTORS])
+
+    def _place(self, target: Point) -> Any:
+        try:
+            return self._state.place(target)
+        except ValueError as error:
+            raise OutsideArea(f"{self._id}: the target {error}") from None
+
+    async def _until(self, order: str, done: Callable[[], bool], seconds: float) -> None:
+        """Wait until it is done, as long as the vehicle does what it was told.
+
+        A mode that it takes by itself, as a failsafe or a pilot does, ends the command.
+        """
+        make, began = self._known_make, time.monotonic()
+        self._since = 0.0
+        agrees = began
+
+        def look(_: DroneTelemetry) -> bool:
+            nonlocal agrees
+            now = time.monotonic()
+            state = self._state
+            if state.mode in make.modes[order]:
+                agrees = now
+            elif done():
+                return True
+            elif now - agrees > _SETTLES:
+                said = state.since(began)
+                mode = make.mode_name(state.mode)
+                raise Rejected(
+                    f"{self._id} acts by itself: it is in the mode {mode}{f' ({said})' if said else ''}"
+                )
+            return done()
+
+        await self._reports.until(look, seconds)
+
+    def _is_at(self, target: Point) -> bool:
+        position = self._state.position
+        near = position is not None and dist(position, target) <= self._options.reach
+        return self._lasts(near and self._is_slow)
+
+    def _is_still(self) -> bool:
+        return self._lasts(self._is_slow)
+
+    @property
+    def _is_slow(self) -> bool:
+        return self._state.speed <= self._options.still
+
+    def _lasts(self, holds: bool) -> bool:
+        """Return whether something has been so for long enough."""
+        now = time.monotonic()
+        if not holds:
+            self._since = 0.0
+            return False
+        self._since = self._since or now
+        return now - self._since >= _RESTS
+
+    # Optional abilities
+
+    def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
+        if action != PHOTO:
+            return f"{self._id} has no action {action}"
+        if self._client is not None and not self._state.cameras:
+            return f"{self._id} has no camera that speaks MAVLink"
+        return None
+
+    async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
+        if (why := self.why_not(action, parameters)) is not None:
+            raise Rejected(why)
+        return await self._take_photo()
+
+    async def _take_photo(self) -> Photo:
+        """Take a photo; that its camera has taken one, only its own message says."""
+        lens = self._state.cameras[0]
+        self._photo = asyncio.get_running_loop().create_future()
+        try:
+            async with asyncio.timeout(_CAMERA):
+                await self._ask("photo", _CAMERA, camera=lens["component"])
+                taken = await self._photo
+        except (TimeoutError, Rejected) as error:
+            said = f": {error}" if isinstance(error, Rejected) else " of no picture"
+            raise ActionNotDone(f"{self._id}: its camera tells{said}") from error
+        finally:
+            self._photo = None
+        if not taken["success"]:
+            raise ActionNotDone(f"{self._id}: its camera has taken no picture")
+        x, y, z = self._state.point(taken)
+        across, along = (z * size / (lens["focal"] or size) for size in lens["sensor"])
+        return Photo(position=(x, y, z), width=across, height=along)
+
+    async def read(self, name: str) -> float:
+        """Return a parameter of its autopilot."""
+        try:
+            return float(await self._ask("read", _ANSWER, name=name))
+        except Rejected:
+            raise Rejected(f"{self._id} has no parameter {name}") from None
+
+    async def write(self, name: str, value: float) -> None:
+        """Set a parameter of its autopilot."""
+        try:
+            await self._ask("write", _ANSWER, name=name, value=value)
+        except Rejected as error:
+            raise Rejected(f"{self._id}: {name} was not set: {error}") from None
+
+    async def facts(self) -> Mapping[str, str]:
+        make = self._known_make
+        mode = make.mode_name(self._state.mode)
+        return {"autopilot": make.name, "mode": mode}
+
+    @staticmethod
+    def canonical_uri(uri: str) -> str:
+        return vehicle_address(uri).uri

@@ -1,0 +1,48 @@
+"""The options of MAVLink vehicles in a fleet file: `[navigation.mavlink]`, overridden by `[drone.options]`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from typing import Annotated
+
+from msgspec import Meta, Struct, ValidationError, convert
+
+from ..shared.domain.errors import BadInput
+from ..shared.domain.text import quoted
+
+_Metres = Annotated[float, Meta(gt=0.0, le=20.0)]
+_Speed = Annotated[float, Meta(gt=0.0, le=20.0)]
+
+
+class VehicleOptions(Struct, frozen=True, kw_only=True):
+    """The validated options."""
+
+    reach: _Metres = 0.5
+    """Metres from a target within which it has arrived."""
+    still: _Speed = 0.3
+    """Metres per second below which it counts as hovering."""
+    dock: _Metres = 3.0
+    """Metres from its home within which it must stand to take off."""
+
+
+_WANTED = {
+    "reach": "a number of metres above 0, at most 20",
+    "still": "a number of metres per second above 0, at most 20",
+    "dock": "a number of metres above 0, at most 20",
+}
+"""What each must be, for people."""
+
+
+def options_of(given: Mapping[str, object]) -> VehicleOptions:
+    """Read the options; raise `BadInput` with the key that is invalid."""
+    for key in given:
+        if key not in _WANTED:
+            raise BadInput(
+                f"a MAVLink vehicle has no option {quoted(key)}; it has {', '.join(_WANTED)}"
+            )
+    try:
+        return convert(dict(given), VehicleOptions)
+    except ValidationError as error:
+        key = re.split(r"[`.\[]", str(error).rpartition("`$.")[2])[0]
+        raise BadInput(f"its option {key} must be {_WANTED[key]}") from error

@@ -1,0 +1,140 @@
+"""What a vehicle has told: its place on the map, whether it flies, why it would not take off."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import hypot, inf, isfinite, pi, radians
+from typing import Any
+
+from ..geodesy import LocalPlane
+from ..shared.domain.model import Point
+from .makes import Place
+
+ON_GROUND = 1
+"""MAV_LANDED_STATE."""
+_ARMED = 128
+"""MAV_MODE_FLAG_SAFETY_ARMED."""
+_WARNING = 4
+"""Texts that are at least so severe say why something is refused: 0 to 7, and 0 is the severest."""
+
+
+@dataclass(slots=True)
+class VehicleState:
+    """The latest of all that it tells.
+
+    Heights are those above where it was switched on or armed last, which stands on the map's ground: its height above
+    sea level may be metres off that of the map, and both are only used together.
+    """
+
+    plane: LocalPlane
+    ground: float
+    """The height of its home on the map, in metres."""
+    position: Point | None = None
+    sea: float = 0.0
+    """By how much its height above sea level is more than that on the map."""
+    yaw: float = 0.0
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    volts: float = 0.0
+    battery: float | None = None
+    """The charge, from 0 to 1; None: it tells none."""
+    landed: int = 0
+    armed: bool = False
+    mode: int = -1
+    """Its custom mode; -1: not told yet."""
+    beaten: bool = False
+    flew: bool = False
+    """Whether it has left the ground since it was armed."""
+    fell: bool = False
+    health: Mapping[str, bool] = field(default_factory=dict)
+    home: tuple[float, float] | None = None
+    cameras: tuple[Mapping[str, Any], ...] = ()
+    texts: list[tuple[float, str]] = field(default_factory=list)
+    """Its latest warnings, with when they came."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether all has been told that a flight needs to know."""
+        return self.position is not None and self.beaten and self.landed != 0
+
+    @property
+    def is_well(self) -> bool:
+        """Whether it says of itself that it could take off."""
+        return bool(self.health) and all(self.health.values()) and self.battery is not None
+
+    @property
+    def speed(self) -> float:
+        return hypot(*self.velocity)
+
+    @property
+    def flying(self) -> bool:
+        """Whether it flies: landed is what says so, and has its motors off."""
+        return self.armed and (self.flew or self.landed != ON_GROUND)
+
+    def hear(self, told: str, facts: Any) -> None:
+        """Take what it tells."""
+        match told:
+            case "position":
+                self._position(facts)
+            case "beat":
+                self._beat(facts)
+            case "landed":
+                self.landed = int(facts)
+                self.flew = self.flew or (self.armed and self.landed > ON_GROUND)
+            case "battery":
+                self._battery(facts)
+            case "health":
+                self.health = facts
+            case "home":
+                self.home = (facts[0], facts[1])
+            case "cameras":
+                self.cameras = tuple(facts)
+            case "text" if facts["severity"] <= _WARNING:
+                self.texts = [*self.texts[-4:], (time.monotonic(), facts["text"])]
+
+    def _position(self, facts: Mapping[str, Any]) -> None:
+        absolute, relative = facts["heights"]
+        latitude, longitude = facts["place"]
+        x, y, _ = self.plane.to_metres((latitude, longitude, self.plane.altitude))
+        z = relative + self.ground
+        self.position = (x, y, z)
+        self.sea = absolute - z
+        north, east, down = facts["velocity"]
+        self.velocity = (north, east, down)
+        heading = facts["heading"]
+        if heading is not None and isfinite(heading):
+            self.yaw = (pi / 2 + self.plane.bearing - radians(heading)) % (2 * pi)
+
+    def _beat(self, facts: Mapping[str, Any]) -> None:
+        was_armed, self.armed = self.armed, bool(facts["base"] & _ARMED)
+        self.mode, self.beaten = int(facts["mode"]), True
+        if self.armed and not was_armed:
+            self.flew = self.fell = False
+        if was_armed and not self.armed:
+            self.fell = self.flew and self.landed != ON_GROUND
+            self.flew = False
+
+    def _battery(self, facts: Mapping[str, Any]) -> None:
+        volts, percent = facts["volts"], facts["percent"]
+        self.volts = volts if volts is not None and isfinite(volts) else 0.0
+        known = percent is not None and isfinite(percent) and percent >= 0
+        self.battery = min(1.0, percent / 100) if known else None
+
+    def place(self, point: Point) -> Place:
+        """Return a point of the map as it is told to an autopilot; raise `ValueError` if it is out of reach."""
+        latitude, longitude, _ = self.plane.to_degrees(point)
+        return Place(latitude, longitude, point[2] + self.sea, point[2] - self.ground)
+
+    def point(self, facts: Mapping[str, Any]) -> Point:
+        """Return where on the map something was, such as a photo."""
+        latitude, longitude = facts["place"]
+        x, y, _ = self.plane.to_metres((latitude, longitude, self.plane.altitude))
+        return x, y, facts["heights"][1] + self.ground
+
+    def since(self, began: float) -> str:
+        """Return what it has warned of since then."""
+        return "; ".join(text for at, text in self.texts if at >= began)
+
+
+NEVER = -inf
