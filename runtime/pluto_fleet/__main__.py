@@ -1,4 +1,4 @@
-"""The library's own program, `pluto-fleet`: its version, `calibrate`, and the processes that apps start.
+"""The library's own program, `pluto-fleet`: its version, `calibrate`, `map`, and the processes that apps start.
 
 No app is imported here: drones are commanded, and simulated, by what their files say. So this
 process uses the library's own copy of the brain.
@@ -18,9 +18,10 @@ from .shared.domain.text import quoted
 _NAME = "pluto-fleet"
 _ABOUT = "The library that flies apps compiled by plutoc."
 _APPS = "an app is flown by its own program, such as: greenhouse fly missions.toml"
-_CALIBRATE = "calibrate"
+_CALIBRATE, _MAP = "calibrate", "map"
 _COMMANDS = {
     _CALIBRATE: "find how drones really move, from the journals of their flights",
+    _MAP: "put what another program has drawn into the map of a fleet file",
     "gateway": "command the drones of a flight; an app starts it by itself",
     "crtp": "simulate Crazyflies down to the radio; an app starts it by itself",
     "autopilot": "simulate vehicles that speak MAVLink; an app starts it by itself",
@@ -56,6 +57,10 @@ def _ran(words: Sequence[str]) -> int:
         from .cli.calibrate import main as calibrate
 
         return calibrate(words[1:])
+    if words[:1] == [_MAP]:
+        from .cli.map import main as put_on_map
+
+        return put_on_map(words[1:])
     return _said(words)
 
 

@@ -67,6 +67,8 @@ class Options:
     most: int | None = None
     swap: float | None = None
     write: Path | None = None
+    drawing: Path = field(default_factory=Path)
+    no_fly: bool = False
     until: float | None = None
     start: float | None = None
     date: date | None = None
@@ -234,6 +236,9 @@ TABLE = (
         "the map and the drones; default: the fleet.toml beside the missions, or else five drones on"
         " a plain of 20 × 20 m; real drones need it",
     ),
+    row("map", "fleet F.toml", "the fleet file; it is made if there is none"),
+    row("map", "drawing FILE", "what is drawn"),
+    row("map", "--no-fly", "nothing may fly over any of its areas", dest="no_fly"),
     row("calibrate", "journals JOURNAL", "flown journals", nargs="+", type=Path),
     row(
         "calibrate",
@@ -344,7 +349,8 @@ TABLE = (
     row(
         "check",
         "--write P.toml",
-        "write the missions into a new file, with plain trips instead of areas and lists",
+        "write the missions into a new file, with plain trips instead of areas and lists; or, on a map with an"
+        " origin, their places into a .geojson, .kml, .plan or .csv",
     ),
     row(
         "fly",

@@ -39,6 +39,10 @@ if TYPE_CHECKING:
     from .options import Options
 
 
+DRAWN = (".geojson", ".kml", ".plan", ".csv")
+"""How names of files end that are written for other programs."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LoadedPlan:
     """What is to be flown, with which fleet."""
@@ -77,6 +81,9 @@ def load(app: App, options: Options) -> LoadedPlan:
     document = read(options.missions)
     document.landmarks = fleet.landmarks
     missions = missions_of(document, app, fleet.airspace)
+    if not options.supervised:
+        for note in document.notes:
+            output.tell(f"{options.missions}: warning: {printable(note)}")
     sizes = options.command == "size"  # it says what no fleet can do
     found = [] if sizes else problems(missions, app, fleet, fleet.airspace)
     if (sizes or options.command == "simulate" or options.dry_run) and options.until is None:
@@ -118,6 +125,22 @@ def load_fleet(app: App, options: Options) -> tuple[FleetFile, str | None]:
         if missing := missing_categories(whole, stand_ins):
             output.tell(missing)
     return fleet_from(app, str(options.fleet), text, stand_ins), text
+
+
+def _written_as(path: Path, plan: LoadedPlan) -> str:
+    """Return the missions as the name of a file says: as a missions file, or as a drawing for other programs."""
+    if path.suffix.lower() not in DRAWN:
+        return plan.missions_text
+    from ..files.drawings.writing import WRITERS  # few ask for it
+    from ..files.drawn_missions import features_of
+
+    if plan.fleet.plane is None:
+        raise BadInput(
+            f"{path}: its places would be degrees on the Earth, and the map has no origin: write one below"
+            " [map] of the fleet file"
+        )
+    output.tell(f"{path}: places, heights and actions; all else stands in a missions file alone")
+    return WRITERS[path.suffix.lower()](features_of(plan.missions, plan.fleet.plane))
 
 
 FLEET = "fleet.toml"
@@ -194,7 +217,7 @@ def check(app: App, options: Options) -> int:
     for sentence in waiting(plan):
         output.line(sentence)
     if options.write is not None:
-        write_new(options.write, plan.missions_text, "the missions")
+        write_new(options.write, _written_as(options.write, plan), "the missions")
     last = (
         ""
         if plan.fleet.charges_at_home

@@ -14,31 +14,14 @@ from typing import Any
 
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import counted, quoted
+from ..shared.domain.text import quoted
 from ..shared.domain.values import MOST_TOLD, KeyPath, Read, Table
+from .csv_rows import Row, UnusableList, rows_of
 from .reading import PlanTable, advised, listed, near, text_of
 
 MOST = {"missions": 10_000, "values": 1_000_000, "characters": 10_000_000}
 """What all lists of a file make at most; it is counted before it is made."""
-MOST_COLUMNS = 1_000
-
-_LONGEST_VALUE = csv.field_size_limit()  # in characters
-_SAID = {
-    f"field larger than field limit ({_LONGEST_VALUE})": f"a value is longer than {_LONGEST_VALUE:,} characters",
-    "unexpected end of data": "a quoted value begins there, and no quote ends it",
-    "',' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
-    "';' expected after '\"'": "something stands behind a quoted value: a quote within one is written twice",
-}
-"""What the module `csv` says, for people."""
-
 _SAVE = 'save it as "CSV UTF-8"'
-
-Row = tuple[int, Mapping[str, str]]
-"""Its number, as a spreadsheet counts, and its values by column."""
-
-
-class _Unusable(ValueError):
-    """What is wrong with a list; the message continues after its name."""
 
 
 class RowTable(PlanTable):
@@ -116,8 +99,9 @@ def _of_rows(table: PlanTable, left: dict[str, int]) -> Iterator[PlanTable]:
         table.problem(f"each {quoted(list_)} {said}, --missions M.toml", "each")
         return
     try:
-        rows, odd = _rows(document.folder / list_, left["missions"])
-    except _Unusable as wrong:
+        text = _text(document.folder / list_)
+        rows, odd = rows_of(text, left["missions"], _at_most("missions"))
+    except UnusableList as wrong:
         rows = []
         odd = [f"{wrong}"]
     for wrong_row in odd:
@@ -189,52 +173,6 @@ def _key(path: KeyPath) -> str:
     return next((str(part) for part in reversed(path) if isinstance(part, str)), "")
 
 
-# The file
-
-
-def _rows(path: Path, left: int) -> tuple[list[Row], list[str]]:
-    """Return the rows of a list that have values, at least one, and what is wrong with others.
-
-    Raises `_Unusable` if it cannot be read as a whole.
-    """
-    text = _text(path)
-    if not text.strip():
-        raise _Unusable("is empty: its first line names the columns")
-    lines = csv.reader(StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
-    rows: list[Row] = []
-    odd: list[str] = []
-    columns: list[str] = []
-    number = 0
-    width = 0
-    try:
-        for number, cells in enumerate(lines, 1):
-            stripped = [cell.strip() for cell in cells]
-            if not any(stripped):
-                continue
-            while not stripped[-1] and len(stripped) > len(columns):
-                stripped.pop()  # of a comma at the end
-            if not columns:
-                columns = _columns(stripped)
-                width = len(cells)
-                continue
-            if len(columns) < len(stripped) <= width:
-                raise _Unusable(_nameless(len(columns) + 1))
-            if len(stripped) != len(columns):
-                odd.append(
-                    f"has {counted(len(stripped), 'value')} in row {number}, and its first line"
-                    f" names {len(columns)}"
-                )
-            rows.append((number, dict(zip(columns, stripped, strict=False))))
-            if len(rows) > left:
-                raise _Unusable(f"has too many rows: {_at_most('missions')}")
-    except csv.Error as error:
-        said = _SAID.get(str(error), str(error))
-        raise _Unusable(f"cannot be read in row {number + 1}: {said}") from None
-    if not rows:
-        raise _Unusable("has no row below the one that names its columns")
-    return rows, odd
-
-
 def _text(path: Path) -> str:
     try:
         return text_of(path, "CSV")
@@ -242,7 +180,7 @@ def _text(path: Path) -> str:
         said = re.sub(rf"^{re.escape(str(path))}(:\d+)?: ", "", str(error))
         if isinstance(error.__cause__, UnicodeDecodeError):
             said = f"{said.partition(':')[0]}{_first_odd(error.__cause__)}"
-        raise _Unusable(f"cannot be used: {said}") from None
+        raise UnusableList(f"cannot be used: {said}") from None
 
 
 def _first_odd(error: UnicodeDecodeError) -> str:
@@ -254,42 +192,6 @@ def _first_odd(error: UnicodeDecodeError) -> str:
     row = sum(1 for _ in csv.reader(StringIO(f"{before}.", newline="")))
     line = content[content.rfind(b"\n", 0, error.start) + 1 :].partition(b"\n")[0]
     return f", in row {row}, {quoted(line.decode('cp1252', 'replace').strip())}: {_SAVE}"
-
-
-def _delimiter(text: str) -> str:
-    """Return what separates the columns: what splits the first line into more of them."""
-    first = next(line for line in text.splitlines() if line.strip())[:_LONGEST_VALUE]
-    counts = {mark: len(next(csv.reader([first], delimiter=mark), ())) for mark in (",", ";")}
-    return ";" if counts[";"] > counts[","] else ","
-
-
-def _columns(names: Sequence[str]) -> list[str]:
-    if len(names) > MOST_COLUMNS:
-        raise _Unusable(f"has more than {MOST_COLUMNS:,} columns")
-    for place, name in enumerate(names, 1):
-        if not name:
-            raise _Unusable(_nameless(place))
-        if len(name) > values.LONGEST_NAME:
-            raise _Unusable(
-                f"has a column {quoted(name)}: its name is longer than {values.LONGEST_NAME} characters"
-            )
-        if name in names[: place - 1]:
-            raise _Unusable(f"has two columns {quoted(name)}: names must differ")
-        if "\t" in name:
-            raise _Unusable("has tabs between its columns: separate them by commas or semicolons")
-        if set(name) & set("{}"):
-            raise _Unusable(f"has a column {quoted(name)}: a column's name has no braces")
-    if all(_is_number(name) for name in names):
-        raise _Unusable("has no line that names its columns: its first line holds numbers")
-    return [*names]
-
-
-def _nameless(place: int) -> str:
-    return f"has no name for its column {place}: its first line names the columns"
-
-
-def _is_number(text: str) -> bool:
-    return re.fullmatch(r"[+-]?[\d.,]+", text) is not None
 
 
 _PART = re.compile(r"\{\{|\}\}|\{([^{}]*)\}|[{}]")

@@ -51,6 +51,10 @@ def read_missions(
 
     `known` are the missions that fly already.
     """
+    if document.drawing is not None:
+        from .drawn_missions import take_drawing  # most plans are none
+
+        take_drawing(document, app)
     tables = [*each_row(top(document, MISSIONS))]
     missions = list[Any]()
     names = dict[str, Table]()

@@ -16,12 +16,15 @@ from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, cut_off, number, percent, printable, quoted
 from ..shared.domain.values import KeyPath, Keys, Problem, Read, Table, shortened
-from .advice import advice, foreign
+from .advice import advice
+from .drawings.feature import Drawing, Unusable
+from .kinds import TO_MISSIONS, drawing_in, foreign, is_drawing
 from .landmarks import NO_LANDMARKS
 from .toml import TomlLines, line_of, line_of_long_key, places
 
 LARGEST = 1 << 20
 """In bytes: a plan is written by people, and anything larger is another file."""
+LARGEST_DRAWING = 8 << 20
 ELSEWHERE = {
     "mission": ("safe_time", "repeat", "evaluator", "at", "every"),
     "trip": ("delay", "priority", "gap"),
@@ -70,6 +73,10 @@ class Document:
         self.data = data
         self.text = text
         self.problems: list[Problem] = []
+        self.drawing: Drawing | None = None
+        """What another program has drawn, which becomes missions; None: it is a plan of ours."""
+        self.notes: list[str] = []
+        """What of a drawing was left out."""
         self.folder: Path | None = None
         """Where it lies; None: it is no file."""
         self.landmarks = NO_LANDMARKS
@@ -175,6 +182,8 @@ def no_such_name(what: str, name: str, names: Iterable[str]) -> str:
 
 def top(document: Document, keys: Sequence[str]) -> PlanTable:
     """Return all of a file as a table, which may have these keys."""
+    if document.drawing is not None:
+        raise BadInput(f"{document.name}: is {document.drawing.what}, and not TOML: {TO_MISSIONS}")
     table = PlanTable(document, document.data)
     table.read({}, dict.fromkeys(keys))
     return table
@@ -191,7 +200,7 @@ def text_of(path: Path, wanted: str = "TOML") -> str:
     """Return the text of a plan file, or of a list, `CSV`; raise `BadInput` if it cannot be one."""
     try:
         with open(path, "rb", opener=_opened) as file:
-            content = file.read(LARGEST + 1)
+            content = file.read(LARGEST_DRAWING + 1)
     except (OSError, ValueError) as error:
         said = f"cannot be read: {getattr(error, 'strerror', None) or error}"
         raise BadInput(f"{path}: {_UNREADABLE.get(type(error), said)}") from None
@@ -207,12 +216,16 @@ def _opened(path: str, flags: int) -> int:
     return descriptor
 
 
-def decoded(content: bytes, path: object, wanted: str = "TOML") -> str:
-    """Return the text of what a user brings from a file; raise `BadInput` if it is another kind of file."""
-    if other := foreign(content, wanted):
+def decoded(content: bytes, path: object, wanted: str = "TOML", *, drawn: bool = True) -> str:
+    """Return the text of what a user brings from a file; raise `BadInput` if it is another kind of file.
+
+    `drawn`: a drawing of another program will do as well.
+    """
+    if other := foreign(content, wanted, drawn=drawn):
         raise BadInput(f"{path}: {other}")
-    if len(content) > LARGEST:
-        raise BadInput(f"{path}: is larger than {LARGEST // 1024} KiB: this is not a plan file")
+    most = LARGEST_DRAWING if is_drawing(content) else LARGEST
+    if len(content) > most:
+        raise BadInput(f"{path}: is larger than {most // 1024} KiB: this is not a plan file")
     try:
         return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
     except UnicodeDecodeError as error:
@@ -222,7 +235,15 @@ def decoded(content: bytes, path: object, wanted: str = "TOML") -> str:
 
 
 def parsed(path: str, text: str) -> Document:
-    """Parse a plan file's text; raise `BadInput` if it is not TOML."""
+    """Parse a plan file's text, or a drawing's; raise `BadInput` if it is neither."""
+    try:
+        drawing = drawing_in(text)
+    except Unusable as error:
+        raise BadInput(f"{path}: {error}") from None
+    if drawing is not None:
+        document = Document(path, {})
+        document.drawing = drawing
+        return document
     if line := line_of_long_key(text):
         raise BadInput(f"{path}:{line}: is nested too deep")
     try:

@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta
 
 from .map.pictures import PICTURES
-from .operation import LARGE_BODY, Operation, Whole, operation
+from .operation import JSON, LARGE_BODY, Operation, Whole, operation
 from .wire import (
     Count,
     DroneHours,
@@ -39,6 +39,7 @@ TEXT = "text/plain"
 CSV = "text/csv"
 TOML = "application/toml"
 GEOJSON = "application/geo+json"
+KML = "application/vnd.google-earth.kml+xml"
 ZIP = "application/zip"
 MCAP = "application/octet-stream"
 
@@ -153,9 +154,9 @@ class Interface:
     def replace_plan(self, *, revision: Revision, missions: list[PlanMission]) -> PlanData:
         """Replace the plan's missions, but for those that fly."""
 
-    @_edit("POST", "/api/plan/import", takes=(TOML,), impossible=400)
+    @_edit("POST", "/api/plan/import", takes=(TOML, GEOJSON, KML, JSON, CSV), impossible=400)
     def import_plan(self, body: str | bytes, *, revision: Revision, file: str = "") -> PlanData:
-        """Replace the plan's missions by those of a missions file, whose name is used in messages."""
+        """Replace the plan's missions by those of a missions file, or a drawing; its name is used in messages."""
 
     @_edit("POST", "/api/plan/example")
     def add_example(self, *, revision: Revision) -> PlanData:

@@ -177,7 +177,7 @@ def test_a_plan_that_is_no_file_has_no_list_beside_it() -> None:
         ),
         (
             '{"type": "FeatureCollection", "features": []}',
-            "cannot be used: is GeoJSON, and not CSV: its places are degrees on the Earth",
+            "cannot be used: is GeoJSON, and not CSV: it is taken as missions",
         ),
         (
             b"PK\x03\x04\x14\0[Content_Types].xml xl/workbook.xml",

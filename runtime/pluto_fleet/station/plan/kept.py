@@ -304,7 +304,7 @@ def _files(folder: Path) -> Iterator[Path]:
 def _text(file: Path) -> str:
     try:
         with file.open("rb") as opened:
-            return decoded(opened.read(LARGEST + 1), file.name)
+            return decoded(opened.read(LARGEST + 1), file.name, drawn=False)
     except OSError as error:
         raise BadInput(f"{file.name}: it cannot be read: {error.strerror or error}") from None
 

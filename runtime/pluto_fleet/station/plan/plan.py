@@ -151,7 +151,9 @@ class MissionPlan:
         self.take_instead(given, revision)
 
     def _shapes(self, text: str, file: str, folder: Path | None = None) -> list[Shape]:
-        return shapes_of(text, self._app, self._fleet.airspace, self.landmarks, file, folder)
+        # a map lies where it did as the station began, whatever is written into its file
+        landmarks = replace(self.landmarks, plane=self._fleet.plane)
+        return shapes_of(text, self._app, self._fleet.airspace, landmarks, file, folder)
 
     def take_instead(self, read: Sequence[Shape], revision: object) -> None:
         """Replace the missions that were not launched by these, which have no keys."""

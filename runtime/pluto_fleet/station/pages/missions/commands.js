@@ -100,15 +100,29 @@ export async function take(ask, said) {
 export const example = () => take(
   (revision) => send("POST", "/api/plan/example", { revision }), t("missions.example-here"));
 
+/** The files that are taken, and their types. @type {Record<string, string>} */
+const TYPES = {
+  ".toml": "application/toml",
+  ".geojson": "application/geo+json",
+  ".json": "application/geo+json",
+  ".kml": "application/vnd.google-earth.kml+xml",
+  ".plan": "application/json",
+  ".waypoints": "text/csv",
+  ".csv": "text/csv",
+};
+
+/** @param {string} name */
+const typeOf = (name) => TYPES[name.slice(name.lastIndexOf(".")).toLowerCase()] ?? "application/toml";
+
 /** Ask for a file, and read it into the plan. */
 export function importFile() {
   const input = document.createElement("input");
-  Object.assign(input, { type: "file", accept: ".toml" });
+  Object.assign(input, { type: "file", accept: Object.keys(TYPES).join() });
   input.addEventListener("change", async () => {
     const file = input.files?.[0];
     if (!file) return;
     take((revision) => send("POST", `/api/plan/import?revision=${revision}&file=${encodeURIComponent(file.name)}`,
-      file, { type: "application/toml" }), t("missions.imported", { file: file.name }));
+      file, { type: typeOf(file.name) }), t("missions.imported", { file: file.name }));
   });
   input.click();
 }

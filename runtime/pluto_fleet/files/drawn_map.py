@@ -1,0 +1,147 @@
+"""What another program has drawn, put into the map of a fleet file: its places, its areas as zones, and where not to fly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from math import ceil
+from typing import Any
+
+from ..geodesy import LocalPlane
+from ..shared.alone.files import read_map
+from ..shared.domain.airspace import Airspace, Corner, Polygon
+from ..shared.domain.text import counted
+from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable
+from .drawn_missions import metres_of, no_origin
+from .landmarks import Landmarks, NamedPlace, Zone, read_landmarks
+from .reading import PlanTable, parsed
+from .toml import toml_value
+from .writing import with_landmarks
+
+MARGIN = 20.0
+"""Metres around what is drawn, on a map that is made for it."""
+_CRUISE, _CEILING = 20.0, 120.0
+"""How high drones fly on such a map, and at most, in metres: in many countries nothing may fly higher."""
+_ROUND = 10.0
+"""To how many metres the sides of such a map are rounded up."""
+
+
+@dataclass(slots=True)
+class Taken:
+    """What of a drawing has become part of a map."""
+
+    places: list[NamedPlace] = field(default_factory=list)
+    zones: list[Zone] = field(default_factory=list)
+    no_fly: list[Polygon] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    @property
+    def sentence(self) -> str:
+        """What it is, for people."""
+        parts = (
+            (self.places, "place"),
+            (self.zones, "zone"),
+            (self.no_fly, "no-fly area"),
+        )
+        return ", ".join(counted(len(these), what) for these, what in parts if these) or "nothing"
+
+
+def map_for(drawing: Drawing) -> str:
+    """Return the text of a fleet file whose map is as large as a drawing; raise `Unusable` if that is no map."""
+    spots = [spot for feature in drawing.features for spot in feature.spots]
+    if not spots:
+        raise Unusable(f"is {drawing.what}, and has no places and no areas")
+    corner = _corner(spots, 0.0)
+    origin = _corner(spots, MARGIN)
+    far = [origin.to_metres((one.latitude, one.longitude, 0.0)) for one in spots]
+    size = [_ROUND * ceil((max(at[axis] for at in far) + MARGIN) / _ROUND) for axis in (0, 1)]
+    if max(size) > 10_000:
+        raise Unusable(
+            f"reaches {max(size) / 1000:.0f} km from {corner.latitude:g}, and a map 10 km"
+        )
+    at = {"latitude": origin.latitude, "longitude": origin.longitude, "altitude": 0.0}
+    values = {"size": size, "origin": at, "cruise_height": _CRUISE, "ceiling": _CEILING}
+    return "\n".join(["[map]", *(f"{key} = {toml_value(one)}" for key, one in values.items()), ""])
+
+
+def _corner(spots: Sequence[Spot], margin: float) -> LocalPlane:
+    """Return the plane at the south-western corner of places, and a margin more."""
+    south, west = min(one.latitude for one in spots), min(one.longitude for one in spots)
+    latitude, longitude, _ = LocalPlane(south, west).to_degrees((-margin, -margin, 0.0))
+    return LocalPlane(round(latitude, 6), round(longitude, 6))
+
+
+def with_drawing(name: str, text: str, drawing: Drawing, *, closed: bool) -> tuple[str, Taken]:
+    """Return the text of a fleet file with what is drawn in its map, and what that is.
+
+    A place or a zone whose name is there already takes its place. `closed`: all areas are no-fly areas. Raises
+    `BadInput` if the file cannot have it, and `Unusable` if the drawing cannot be on the map.
+    """
+    airspace, landmarks = _map_in(name, text)
+    if landmarks.plane is None:
+        raise Unusable(no_origin(drawing))
+    taken = _taken(drawing, landmarks.plane, closed=closed)
+    with_more = replace(
+        landmarks,
+        places=_merged(landmarks.places, taken.places),
+        zones=_merged(landmarks.zones, taken.zones),
+    )
+    changed = with_landmarks(text, landmarks, with_more, airspace.size)
+    if new := [area for area in taken.no_fly if area not in airspace.no_fly]:
+        closed_areas = [[[*corner] for corner in area] for area in (*airspace.no_fly, *new)]
+        changed = _with_no_fly(changed, closed_areas)
+    _map_in(f"{name}, with what is drawn", changed)
+    return changed, taken
+
+
+def _map_in(name: str, text: str) -> tuple[Airspace, Landmarks]:
+    document = parsed(name, text)
+    table = PlanTable(document, document.data).table("map")
+    airspace = read_map(table)
+    landmarks = read_landmarks(table, airspace)
+    document.refuse_if_bad()
+    assert airspace is not None  # else there was a problem
+    return airspace, landmarks
+
+
+def _with_no_fly(text: str, areas: Sequence[object]) -> str:
+    import tomlkit  # only to write
+
+    document: Any = tomlkit.parse(text)
+    document["map"]["no_fly"] = tomlkit.value(toml_value([*areas]))
+    return tomlkit.dumps(document)
+
+
+def _taken(drawing: Drawing, plane: LocalPlane, *, closed: bool) -> Taken:
+    taken = Taken(notes=[*drawing.notes])
+    for number, feature in enumerate(drawing.features, 1):
+        name = feature.name or f"{feature.kind.value} {number}".capitalize()
+        match feature.kind:
+            case Kind.PLACE:
+                at = metres_of(plane, feature.spots[0], feature.who)
+                taken.places.append(NamedPlace(name=name, at=tuple(at)))
+            case Kind.ROUTE:
+                taken.notes.append(
+                    f"{feature.who} is left out: it is no part of a map, but makes a mission"
+                )
+            case _:
+                if feature.has_holes:
+                    taken.notes.append(f"{feature.who} has holes, which are left out")
+                outline = tuple(_outline(plane, feature))
+                if closed or feature.kind is Kind.NO_FLY:
+                    taken.no_fly.append(outline)
+                else:
+                    taken.zones.append(Zone(name=name, corners=outline))
+    return taken
+
+
+def _outline(plane: LocalPlane, feature: Feature) -> Iterator[Corner]:
+    for spot in feature.spots:
+        x, y, *_ = metres_of(plane, spot, feature.who)
+        yield round(x, 3) + 0.0, round(y, 3) + 0.0
+
+
+def _merged(known: Iterable[Any], new: Sequence[Any]) -> tuple[Any, ...]:
+    """Return landmarks with new ones, each in the place of one that is called so."""
+    by_name = {one.name: one for one in (*known, *new)}
+    return tuple(by_name.values())
