@@ -15,14 +15,18 @@ from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 from ...shared.domain.errors import BadInput
 from . import pictures
-from .tables import cells, csv_text, geojson, picture_name
+from .exif import with_place
+from .tables import cells, csv_text, geojson, picture_name, place_of
 
 if TYPE_CHECKING:
+    from ...geodesy import Degrees
     from ...process.apart import Answers
-    from .flights import FlightResults, ResultsOfFlights
+    from .flights import Brought, FlightResults, ResultsOfFlights
 
 INDEX = "results.csv"
 MISSING = "missing.txt"
+PLACES = "geo.txt"
+"""As OpenDroneMap reads it: the name of a picture, longitude, latitude, altitude."""
 
 
 def json_text(data: object) -> str:
@@ -178,11 +182,14 @@ def write_archive(flight: FlightResults, folder: Path) -> Path:
     """Write the archive into a new file of a folder, and return it; the caller deletes it.
 
     It has `results.csv`, whose column `picture` names the files beside it, and `missing.txt` with a
-    sentence for each picture that could not be read, if there are any.
+    sentence for each picture that could not be read, if there are any. Of a map that lies on the Earth the photos
+    say where they were taken; so does `geo.txt`, for pictures that cannot.
     """
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     descriptor, name = tempfile.mkstemp(suffix=".zip", dir=folder)
     missing = []
+    taken = {one.result["number"]: one for one in flight.rows}
+    places = {number: place for number, one in taken.items() if (place := _camera(flight, one))}
     with open(descriptor, "wb") as file, ZipFile(file, "w", ZIP_STORED) as archive:
         archive.writestr(INDEX, csv_text(cells(flight)), compress_type=ZIP_DEFLATED)
         for number, named in flight.pictures.items():
@@ -191,7 +198,26 @@ def write_archive(flight: FlightResults, folder: Path) -> Path:
             except BadInput as why:
                 missing.append(f"{why}\n")
             else:
+                if number in places:
+                    content = with_place(content, places[number], taken[number].wall)
                 archive.writestr(picture_name(number, named), content)
+        if places:
+            archive.writestr(PLACES, _places_text(flight, places))
         if missing:
             archive.writestr(MISSING, "".join(missing))
     return Path(name)
+
+
+def _camera(flight: FlightResults, one: Brought) -> Degrees | None:
+    """Return where the camera of a photo was on the Earth, if it is known."""
+    if one.result["kind"] != "photo" or one.result["number"] not in flight.pictures:
+        return None
+    return place_of(flight, one.value["position"])
+
+
+def _places_text(flight: FlightResults, places: Mapping[int, Degrees]) -> str:
+    lines = [
+        f"{picture_name(number, flight.pictures[number])} {longitude:.8f} {latitude:.8f} {altitude:.3f}\n"
+        for number, (latitude, longitude, altitude) in places.items()
+    ]
+    return "".join(["EPSG:4326\n", *lines])

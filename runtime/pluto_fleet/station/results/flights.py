@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from contextlib import closing
+from contextlib import closing, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ...files.origin import read_plane
+from ...files.reading import PlanTable, parsed
 from ...journal.place import ENDING, written
 from ...journal.reader import Reader
 from ...shared.domain.errors import BadInput
@@ -17,6 +19,7 @@ from .rows import NameOf, ResultRows, nowhere
 
 if TYPE_CHECKING:
     from ...app import App
+    from ...geodesy import LocalPlane
     from ..wire import Result
 
 KEPT = 3
@@ -43,6 +46,8 @@ class FlightResults:
     rows: tuple[Brought, ...]
     pictures: dict[int, str]
     """The files of photos, as their cameras named them, by the numbers of their results."""
+    plane: LocalPlane | None = None
+    """Where its map lies on the Earth, if it says so."""
 
 
 class ResultsOfFlights:
@@ -80,12 +85,14 @@ class ResultsOfFlights:
     def _read(self, journal: Path) -> FlightResults:
         found = list[Brought]()
         rows = self._rows(journal.stem, sim=False)
+        plane = None
         with closing(Reader(journal)) as reader:
             for instant, event in reader.events():
                 if event["event"] == "journal.begun":
                     if event.get("app") != self._app.name:
                         raise BadInput(f"flight {quoted(journal.stem)} is of another app")
                     rows = self._rows(journal.stem, sim=bool(event.get("sim")))
+                    plane = _plane_in(event.get("fleet"))
                 brought = rows.take(event)
                 if brought is not None:
                     result, value = brought
@@ -93,10 +100,24 @@ class ResultsOfFlights:
                         continue  # the same row, which says more now
                     found.append(Brought(result=result, wall=instant.wall, value=value))
         return FlightResults(
-            flight=journal.stem, journal=journal, rows=tuple(found), pictures=rows.pictures
+            flight=journal.stem,
+            journal=journal,
+            rows=tuple(found),
+            pictures=rows.pictures,
+            plane=plane,
         )
 
     def _rows(self, flight: str, *, sim: bool) -> ResultRows:
         units = SIMULATED_UNITS if sim else {}
         meanings = Meanings(self._app.results, self._app.actions, units)
         return ResultRows(flight, self._app.actions, meanings, self._name_of)
+
+
+def _plane_in(fleet: object) -> LocalPlane | None:
+    """Return where the map of a fleet file's text lies, which its journal has kept."""
+    if not isinstance(fleet, str):  # it was flown without one
+        return None
+    with suppress(BadInput):
+        document = parsed("", fleet)
+        return read_plane(PlanTable(document, document.data).table("map"))
+    return None

@@ -43,7 +43,7 @@ _TYPES = {
 }
 """By ending: the media type, and how such a file begins."""
 
-_DECODING: tuple[type[Exception], ...] = (Exception,)
+DECODING: tuple[type[Exception], ...] = (Exception,)
 """What a damaged or hostile picture makes its decoder raise: that differs by format."""
 
 _FORMATS = ("JPEG", "PNG", "WEBP")
@@ -154,7 +154,7 @@ def _smaller(content: bytes, number: int) -> bytes:
             return made.getvalue()
     except BadInput:
         raise
-    except _DECODING:
+    except DECODING:
         raise BadInput(f"result {number}: its picture is damaged, or not whole") from None
 
 

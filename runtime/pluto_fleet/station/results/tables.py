@@ -13,12 +13,14 @@ from typing import TYPE_CHECKING, Any
 from .flights import Brought, FlightResults
 
 if TYPE_CHECKING:
+    from ...geodesy import Degrees
     from ..wire import PhotoValue
 
 COLUMNS = (
     *("number", "time", "wall", "mission", "trip", "round", "attempt", "drone", "kind"),
     *("action", "place", "x", "y", "z", "quantity", "value", "unit", "tags"),
     *("width", "height", "sharpness", "picture", "drained"),
+    *("latitude", "longitude", "altitude"),
 )
 """The columns of a table; `docs/files.md` says what they hold."""
 
@@ -29,6 +31,9 @@ _FORMULA = (*"=+-@", *"＝＋－＠", *"\t\r\n", "'")
 """What makes a spreadsheet take a text for a formula, or marks one that would."""
 
 TAGS_APART = "; "
+
+DIGITS = 8
+"""Of degrees: a millimetre."""
 
 Cells = dict[str, str | int | float | bool | None]
 
@@ -76,6 +81,30 @@ def _common(flight: FlightResults, one: Brought) -> Cells:
         "sharpness": photo["sharpness"] if photo else None,
         "picture": picture_name(result["number"], file) if file is not None else None,
         "drained": result["drained"],
+        **_on_earth(place_of(flight, at)),
+    }
+
+
+def place_of(flight: FlightResults, at: Sequence[float | None]) -> Degrees | None:
+    """Return where something on the map is on the Earth: latitude, longitude, and altitude above sea level.
+
+    None: the map does not lie there, or that is not known.
+    """
+    x, y, z = (*at, None, None, None)[:3]
+    if flight.plane is None or x is None or y is None:
+        return None
+    try:
+        return flight.plane.to_degrees((x, y, z or 0.0))
+    except ValueError:  # a hook may return any place
+        return None
+
+
+def _on_earth(place: Degrees | None) -> Cells:
+    latitude, longitude, altitude = (None, None, None) if place is None else place
+    return {
+        "latitude": None if latitude is None else round(latitude, DIGITS),
+        "longitude": None if longitude is None else round(longitude, DIGITS),
+        "altitude": None if altitude is None else round(altitude, 3),
     }
 
 
@@ -115,39 +144,49 @@ def _cell(value: str | float | bool | None) -> str | int | float:
 
 
 def geojson(flight: FlightResults, app: str) -> dict[str, object]:
-    """Return the results that have a place: photos as the ground that they show, others as points."""
+    """Return the results that have a place: photos as the ground that they show, others as points.
+
+    In degrees, if the map lies on the Earth, else in its metres.
+    """
+    coordinates = "metres of the map, not degrees: x and y along its sides, z above its ground"
+    if flight.plane is not None:
+        coordinates = "degrees of WGS 84 (EPSG:4326): longitude and latitude"
+    rows = (row for row in cells(flight) if row["x"] is not None)
     return {
         "type": "FeatureCollection",
-        "pluto": {
-            "app": app,
-            "flight": flight.flight,
-            "coordinates": (
-                "metres of the map, not degrees: x and y along its sides, z above its ground"
-            ),
-        },
-        "features": [_feature(row) for row in cells(flight) if row["x"] is not None],
+        "pluto": {"app": app, "flight": flight.flight, "coordinates": coordinates},
+        "features": [_feature(flight, row) for row in rows],
     }
 
 
-def _feature(row: Cells) -> dict[str, object]:
-    properties: dict[str, object] = {n: row[n] for n in COLUMNS if n not in ("x", "y", "z")}
+def _feature(flight: FlightResults, row: Cells) -> dict[str, object]:
+    left_out = ("latitude", "longitude") if flight.plane else ("x", "y", "z", *_on_earth(None))
+    properties: dict[str, object] = {n: row[n] for n in COLUMNS if n not in left_out}
     tags = str(properties["tags"])
     properties["tags"] = tags.split(TAGS_APART) if tags else []
     point = [row[name] for name in ("x", "y", "z") if row[name] is not None]
+    if flight.plane:
+        point = [row["longitude"], row["latitude"]]
     geometry: dict[str, object] = {"type": "Point", "coordinates": point}
     if row["kind"] == "photo":
         properties["position"] = point
-        geometry = {"type": "Polygon", "coordinates": [_ground(row)]}
+        geometry = {"type": "Polygon", "coordinates": [_ground(flight, row)]}
     return {
         "type": "Feature",
         "id": row["number"],
-        "geometry": geometry,
+        "geometry": geometry if None not in point else None,
         "properties": properties,
     }
 
 
-def _ground(row: Cells) -> list[list[float]]:
+def _ground(flight: FlightResults, row: Cells) -> list[list[float | None]]:
     """Return the corners of what a photo shows, counter-clockwise, the first once more."""
     x, y, width, height = (float(row[name] or 0) for name in ("x", "y", "width", "height"))
     left, right, low, high = x - width / 2, x + width / 2, y - height / 2, y + height / 2
-    return [[left, low], [right, low], [right, high], [left, high], [left, low]]
+    ring = [(left, low), (right, low), (right, high), (left, high), (left, low)]
+    if flight.plane is None:
+        return [[x, y] for x, y in ring]
+    return [
+        [None if place is None else round(place[axis], DIGITS) for axis in (1, 0)]
+        for place in (place_of(flight, corner) for corner in ring)
+    ]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import csv
 import io
+from dataclasses import replace
 from itertools import pairwise
+from math import pi
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.hooks.plain_data import value_data
@@ -88,3 +91,29 @@ def test_a_photo_is_the_ground_that_it_shows() -> None:
     [ring] = feature["geometry"]["coordinates"]
     assert ring[0] == ring[-1]
     assert sum(x * v - u * y for (x, y), (u, v) in pairwise(ring)) / 2 == pytest.approx(2.0)
+
+
+def test_on_the_earth_places_are_degrees() -> None:
+    """East of the origin is a greater longitude, by the bearing; heights are above sea level."""
+    plane = LocalPlane(45.0, 9.0, altitude=100.0, bearing=pi / 2)
+    flight = replace(a_flight(), plane=plane)
+    [line] = csv.DictReader(io.StringIO(csv_text(cells(flight)).removeprefix("\ufeff"), newline=""))
+    there = (float(line["latitude"]), float(line["longitude"]), float(line["altitude"]))
+    assert plane.to_metres(there) == pytest.approx((3.0, 4.5, 1.2), abs=0.002)
+    collection: Any = geojson(flight, "field")
+    [feature] = collection["features"]
+    assert feature["geometry"] == {"type": "Point", "coordinates": [there[1], there[0]]}
+    assert feature["properties"]["altitude"] == there[2] == 101.2
+    assert "EPSG:4326" in collection["pluto"]["coordinates"]
+
+
+def test_a_photo_on_the_earth_is_the_ground_that_it_shows() -> None:
+    did = {"action": "take_photo", "target": [3.0, 4.5, 1.2], "parameters": {}}
+    photo = Photo(position=(3.0, 4.5, 1.2), width=2.0, height=1.0, sees=())
+    plane = LocalPlane(-45.0, 179.9999, bearing=0.4)
+    flight = replace(a_flight(did=did, result=value_data(photo)), plane=plane)
+    collection: Any = geojson(flight, "field")
+    [ring] = collection["features"][0]["geometry"]["coordinates"]
+    metres = [plane.to_metres((latitude, longitude, 0.0))[:2] for longitude, latitude in ring]
+    expected = [(2.0, 4.0), (4.0, 4.0), (4.0, 5.0), (2.0, 5.0), (2.0, 4.0)]
+    assert metres == [pytest.approx(corner, abs=0.002) for corner in expected]
