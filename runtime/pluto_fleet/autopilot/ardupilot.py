@@ -87,7 +87,8 @@ class ArduPilot(Vehicle):
                 why = self.problem or "Mode not armable"
                 self.tell(mavlink.MAV_SEVERITY_CRITICAL, f"Arm: {why}")
                 return FAILED
-            self.armed, self._armed_at = True, self.now
+            self.arm()
+            self._armed_at = self.now
             return ACCEPTED
         if self.flies and forced != FORCED:
             return FAILED
@@ -151,7 +152,7 @@ class ArduPilot(Vehicle):
 
     def watch(self) -> None:
         idle = self.now - self._armed_at > self.value("DISARM_DELAY")
-        if not self.high and self.doing is not Doing.TAKE_OFF and idle:
+        if not self.has_flown and self.doing is not Doing.TAKE_OFF and idle:
             self.disarm()
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "EKF Failsafe: changed to LAND Mode")

@@ -55,11 +55,11 @@ Point = tuple[float, float, float]
 class SimulatedFleet:
     """The vehicles that are to be simulated."""
 
-    make: str = "px4"
-    """`px4` or `ardupilot`."""
     plane: LocalPlane
     homes: Mapping[str, Point]
     """Their homes on the map, by their names."""
+    makes: Mapping[str, str]
+    """`px4` or `ardupilot`."""
     flights: Mapping[str, float]
     """Seconds in the air from full to empty."""
     charges: Mapping[str, float | None]
@@ -170,7 +170,7 @@ class _Desk:
         self._folder, self.over = folder, asyncio.Event()
         kept = _kept(folder)
         self.port = int(kept.get("port", 0))
-        self.server = Server(self._fleet.make, [])
+        self.server = Server()
         self._join(kept.get("vehicles", {}))
 
     @property
@@ -227,6 +227,7 @@ def _build(fleet: SimulatedFleet, id: str, number: int, home: Point) -> Build:
     return Build(
         id=id,
         system=number,
+        make=fleet.makes[id],
         home=fleet.plane.to_degrees(home),
         flight=fleet.flights[id],
         charge=inf if charge is None else charge,

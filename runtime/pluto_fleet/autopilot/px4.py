@@ -85,7 +85,8 @@ class Px4(Vehicle):
                 why = self.problem or "switch to another mode first"
                 self.tell(mavlink.MAV_SEVERITY_CRITICAL, f"Arming denied: {why}")
                 return BUSY
-            self.armed, self._armed_at = True, self.now
+            self.arm()
+            self._armed_at = self.now
             return ACCEPTED
         if self.flies and forced != FORCED:
             self.tell(mavlink.MAV_SEVERITY_CRITICAL, "Disarming denied: not landed")
@@ -147,7 +148,7 @@ class Px4(Vehicle):
 
     def watch(self) -> None:
         idle = self.now - self._armed_at > self.value("COM_DISARM_PRFLT")
-        if not self.high and self.doing is not Doing.TAKE_OFF and idle:
+        if not self.has_flown and self.doing is not Doing.TAKE_OFF and idle:
             self.disarm()
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "Failsafe activated: no position, it descends")

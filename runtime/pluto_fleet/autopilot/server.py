@@ -71,8 +71,7 @@ def let(vehicle: Vehicle, name: str, value: Value) -> None:
 class Server(asyncio.DatagramProtocol):
     """The vehicles, and their socket."""
 
-    def __init__(self, make: str, builds: Sequence[Build]) -> None:
-        self._make = MAKES[make]
+    def __init__(self, builds: Sequence[Build] = ()) -> None:
         self._transport: asyncio.DatagramTransport | None = None
         self._clients: dict[Address, float] = {}
         """Who has spoken, and when last."""
@@ -88,7 +87,7 @@ class Server(asyncio.DatagramProtocol):
 
     def join(self, build: Build) -> Vehicle:
         """Have one more vehicle."""
-        vehicle = self._make(build)
+        vehicle = MAKES[build.make](build)
         self.vehicles[build.id] = vehicle
         self._links[build.system] = StationLink(vehicle, partial(self._send, vehicle))
         return vehicle

@@ -82,6 +82,8 @@ class Build:
     id: str
     system: int
     home: Degrees
+    make: str = "px4"
+    """`px4` or `ardupilot`."""
     flight: float = 1200.0
     """Seconds in the air from full to empty."""
     charge: float = inf
@@ -130,7 +132,7 @@ class Vehicle:
         self.plane = LocalPlane(*build.home)
         self.body = Body(limits)
         self.doing = Doing.HOLD
-        self.armed = False
+        self.armed = self.has_flown = False
         self.charge = 1.0
         self.faults, self.record = Faults(), Record()
         self.now = self.touched = 0.0
@@ -233,6 +235,9 @@ class Vehicle:
     def stop_here(self) -> None:
         self.body.goal = self.body.stopping_place
 
+    def arm(self) -> None:
+        self.armed, self.has_flown = True, False
+
     def disarm(self) -> None:
         self.armed = False
         self.landed_mode()
@@ -257,6 +262,9 @@ class Vehicle:
         elif self.high:
             self.record.fell = True
             body.fall(seconds)
+        elif self.armed:
+            self.tell(mavlink.MAV_SEVERITY_EMERGENCY, "Crash: Disarming")
+            self.disarm()
         east, north, _ = body.velocity
         if hypot(east, north) > 0.5:
             body.heading = atan2(east, north)
@@ -265,6 +273,7 @@ class Vehicle:
             self._touch_down()
         elif self.high:
             self.touched = self.now
+            self.has_flown = True
 
     def _charge(self, seconds: float) -> None:
         change = -1 / self.build.flight if self.armed else 1 / self.build.charge
@@ -307,7 +316,8 @@ class Vehicle:
             return DENIED
         does = self.commands.get(asked.command)
         result = UNSUPPORTED if does is None else does(asked)
-        self.record.orders.append(f"{asked.command}: {result}")
+        if does is not None:
+            self.record.orders.append(f"{asked.command}: {result}")
         if faults.unanswered > 0:
             faults.unanswered -= 1
             return None

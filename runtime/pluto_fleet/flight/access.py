@@ -94,6 +94,7 @@ class GatewayAccess:
         simulated = SimulatedFleet(
             plane=fleet.plane,
             homes={drone.id: drone.home for drone in fleet.drones},
+            makes={drone.id: str(drone.options.get("autopilot", "px4")) for drone in real.drones},
             flights={id: flight for id, (flight, _) in batteries.items()},
             charges={
                 id: None if charge == inf else charge for id, (_, charge) in batteries.items()

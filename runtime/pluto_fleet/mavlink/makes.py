@@ -93,7 +93,7 @@ class Make(Protocol):
         ...
 
     modes: ClassVar[Mapping[str, frozenset[int]]]
-    """In which modes it may be, by what it was told: `rise`, `go`, `hold`, `land`."""
+    """In which modes it may be, by what it was told: `rise`, `go`, `hold`, `land`; `return` is what it does by itself."""
 
 
 class Px4:
@@ -121,6 +121,7 @@ class Px4:
         "go": frozenset({_AUTO << 16 | 3 << 24}),
         "hold": frozenset({_AUTO << 16 | 3 << 24}),
         "land": frozenset({_AUTO << 16 | 6 << 24}),
+        "return": frozenset({_AUTO << 16 | 5 << 24}),
     }
 
     def rises(self, place: Place) -> Sequence[Order]:
@@ -167,6 +168,7 @@ class ArduPilot:
         "go": frozenset({_GUIDED}),
         "hold": frozenset({_BRAKE}),
         "land": frozenset({_LAND}),
+        "return": frozenset({6, 21}),
     }
 
     def rises(self, place: Place) -> Sequence[Order]:

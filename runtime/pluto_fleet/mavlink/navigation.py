@@ -46,6 +46,9 @@ _SETTLES = 2.0
 _LONGEST = 3600.0
 _LANDING = 600.0
 _HOLDING = 30.0
+_CUTTING = 3.0
+_RECENTLY = 5.0
+"""Seconds within which a text says why its motors stopped."""
 
 
 class MavlinkVehicle:
@@ -66,6 +69,7 @@ class MavlinkVehicle:
         self._client: MavsdkClient | None = None
         self._number = 0
         self._photo: asyncio.Future[Mapping[str, Any]] | None = None
+        self._crashed, self._cut = "", False
         self._since = 0.0
         """Since when it has been where it is to be."""
 
@@ -89,6 +93,9 @@ class MavlinkVehicle:
         if self._make is None:
             makes = " nor ".join(one.name for one in MAKES.values())
             raise NotReady(f"{self._id}: its autopilot is neither {makes}")
+        wanted = self._options.autopilot
+        if wanted is not None and wanted != found["make"]:
+            raise NotReady(f"{self._id}: its autopilot is {self._make.name}, and not {wanted}")
         began = time.monotonic()
         while not self._state.is_known:
             if time.monotonic() - began > _KNOWN:
@@ -146,7 +153,10 @@ class MavlinkVehicle:
             return
         if told == "photo" and self._photo is not None and not self._photo.done():
             self._photo.set_result(facts)
+        flew = state.flying
         state.hear(told, facts)
+        if flew and not state.flying:
+            self._came_down()
         if told in ("position", "beat") and state.is_known:
             self._tell()
 
@@ -159,8 +169,18 @@ class MavlinkVehicle:
             yaw=state.yaw,
             voltage=state.volts,
             battery_level=1.0 if state.battery is None else state.battery,
-            crashed="its motors stopped in the air" if state.fell else "",
+            crashed=self._crashed,
         )
+
+    def _came_down(self) -> None:
+        """Note a crash: its motors are off in the air, or on the ground where nothing has landed it."""
+        state, modes = self._state, self._known_make.modes
+        lands = state.mode in modes["land"] | modes["return"]
+        if self._cut:
+            self._crashed = "its motors were cut"
+        elif state.is_high or not lands:
+            said = state.since(time.monotonic() - _RECENTLY)
+            self._crashed = f"its motors stopped{f' ({said})' if said else ''}"
 
     async def _ask(self, do: str, seconds: float, **facts: Any) -> Any:
         if self._client is None:
@@ -232,7 +252,14 @@ class MavlinkVehicle:
             await self._until("land", lambda: not self._state.flying, _LANDING)
 
     async def emergency_stop(self) -> None:
+        self._cut = True
         await self._order([CUT_MOTORS])
+        await self._reports.until(lambda _: not self._state.armed, _CUTTING)
+
+    async def looked_after(self) -> None:
+        """Believe that it is well again."""
+        self._crashed, self._cut = "", False
+        self._tell()
 
     def _place(self, target: Point) -> Any:
         try:

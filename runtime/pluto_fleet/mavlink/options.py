@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Literal
 
 from msgspec import Meta, Struct, ValidationError, convert
 
@@ -18,6 +18,8 @@ _Speed = Annotated[float, Meta(gt=0.0, le=20.0)]
 class VehicleOptions(Struct, frozen=True, kw_only=True):
     """The validated options."""
 
+    autopilot: Literal["px4", "ardupilot"] | None = None
+    """Whose it must be; None: either's. Of a simulated one, whose it is: by default PX4's."""
     reach: _Metres = 0.5
     """Metres from a target within which it has arrived."""
     still: _Speed = 0.3
@@ -27,6 +29,7 @@ class VehicleOptions(Struct, frozen=True, kw_only=True):
 
 
 _WANTED = {
+    "autopilot": '"px4" or "ardupilot"',
     "reach": "a number of metres above 0, at most 20",
     "still": "a number of metres per second above 0, at most 20",
     "dock": "a number of metres above 0, at most 20",

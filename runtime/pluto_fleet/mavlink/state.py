@@ -16,6 +16,8 @@ ON_GROUND = 1
 """MAV_LANDED_STATE."""
 _ARMED = 128
 """MAV_MODE_FLAG_SAFETY_ARMED."""
+_NEAR_GROUND = 1.0
+"""Metres above it, within which motors that stop are no fall."""
 _WARNING = 4
 """Texts that are at least so severe say why something is refused: 0 to 7, and 0 is the severest."""
 
@@ -46,7 +48,6 @@ class VehicleState:
     beaten: bool = False
     flew: bool = False
     """Whether it has left the ground since it was armed."""
-    fell: bool = False
     health: Mapping[str, bool] = field(default_factory=dict)
     home: tuple[float, float] | None = None
     cameras: tuple[Mapping[str, Any], ...] = ()
@@ -109,11 +110,14 @@ class VehicleState:
     def _beat(self, facts: Mapping[str, Any]) -> None:
         was_armed, self.armed = self.armed, bool(facts["base"] & _ARMED)
         self.mode, self.beaten = int(facts["mode"]), True
-        if self.armed and not was_armed:
-            self.flew = self.fell = False
-        if was_armed and not self.armed:
-            self.fell = self.flew and self.landed != ON_GROUND
+        if self.armed != was_armed:
             self.flew = False
+
+    @property
+    def is_high(self) -> bool:
+        """Whether motors that stop would let it fall; that it has landed may be told a moment later than that."""
+        height = 0.0 if self.position is None else self.position[2] - self.ground
+        return self.landed != ON_GROUND and height > _NEAR_GROUND
 
     def _battery(self, facts: Mapping[str, Any]) -> None:
         volts, percent = facts["volts"], facts["percent"]
