@@ -41,6 +41,7 @@ _NEEDED = frozenset(
         *("lz4", "mcap", "zstandard"),  # and these for its exports
         *("examples", "libusb_package", "lpslib", "packaging", "pyusb", "pyyaml", "sys_test"),
         *("importlib_resources", "tools", "usb", "yaml"),  # to here cflib
+        *("fastcrc", "lxml", "mavsdk", "pymavlink"),  # to fly MAVLink vehicles
         *("contourpy", "cycler", "dateutil", "fonttools", "kiwisolver", "mpl_toolkits", "pil"),
         *("pillow", "pylab", "pyparsing", "python_dateutil", "six", "tzdata"),  # to here plots
         *("colorama", "exceptiongroup", "iniconfig", "pluggy", "pygments"),  # and pytest these

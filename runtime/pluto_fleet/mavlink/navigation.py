@@ -70,6 +70,7 @@ class MavlinkVehicle:
         self._number = 0
         self._photo: asyncio.Future[Mapping[str, Any]] | None = None
         self._crashed, self._cut = "", False
+        self._landing = False
         self._since = 0.0
         """Since when it has been where it is to be."""
 
@@ -153,10 +154,10 @@ class MavlinkVehicle:
             return
         if told == "photo" and self._photo is not None and not self._photo.done():
             self._photo.set_result(facts)
-        flew = state.flying
+        flew, mode = state.flying, state.mode
         state.hear(told, facts)
         if flew and not state.flying:
-            self._came_down()
+            self._came_down(mode)
         if told in ("position", "beat") and state.is_known:
             self._tell()
 
@@ -172,10 +173,10 @@ class MavlinkVehicle:
             crashed=self._crashed,
         )
 
-    def _came_down(self) -> None:
-        """Note a crash: its motors are off in the air, or on the ground where nothing has landed it."""
+    def _came_down(self, mode: int) -> None:
+        """Note a crash: its motors are off in the air, or on the ground where it was not landing in its mode."""
         state, modes = self._state, self._known_make.modes
-        lands = state.mode in modes["land"] | modes["return"]
+        lands = self._landing or mode in modes["land"] | modes["return"]
         if self._cut:
             self._crashed = "its motors were cut"
         elif state.is_high or not lands:
@@ -248,8 +249,12 @@ class MavlinkVehicle:
     async def land(self, speed: float) -> None:
         """Land straight down, at the speed that its autopilot has for that."""
         if self.telemetry.flying:
-            await self._order([LAND_HERE])
-            await self._until("land", lambda: not self._state.flying, _LANDING)
+            self._landing = True
+            try:
+                await self._order([LAND_HERE])
+                await self._until("land", lambda: not self._state.flying, _LANDING)
+            finally:
+                self._landing = False
 
     async def emergency_stop(self) -> None:
         self._cut = True

@@ -66,6 +66,12 @@ class Airspace:
                 return f"{place(point)} is inside no-fly area {count}"
         return None
 
+    def within(self, point: Point) -> Point:
+        """Return the point inside the map's bounds that is nearest: a measured place may be just outside."""
+        x, y, z = point
+        width, depth = self.size
+        return min(max(x, 0.0), width), min(max(y, 0.0), depth), min(max(z, 0.0), self.ceiling)
+
     def route(self, start: Point, end: Point) -> Way | None:
         """Return the shortest permitted route, with the end and without the start, or None.
 

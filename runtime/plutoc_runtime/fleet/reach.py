@@ -40,14 +40,17 @@ def flight_seconds(
     """Return how long it takes to fly through all points, with the seconds of actions on the way.
 
     A start on the ground (z = 0) counts the take-off to cruise height; a last point on the ground
-    counts the landing there, from the height flown before. Infinite where no route leads.
+    counts the landing there, from the height flown before. From beyond the bounds of the map it first
+    flies back in. Infinite where no route leads.
     """
     motion = category.motion
     speed = category.speed
     seconds = actions
-    here = start
+    here = airspace.within(start)
+    if here[:2] != start[:2] or start[2] > here[2]:
+        seconds += motion.leg(dist(start, here), speed)
     if points and start[2] <= 0:
-        here = (start[0], start[1], airspace.cruise_height)
+        here = (here[0], here[1], airspace.cruise_height)
         seconds += motion.rises(here[2], speed)
     for number, point in enumerate(points, 1):
         there = point

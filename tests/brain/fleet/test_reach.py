@@ -34,6 +34,17 @@ def test_where_no_way_leads_takes_for_ever() -> None:
     assert needed(SCOUT, WALL, (1, 1, 0), [((15, 1, 1.2), 1)], (1, 1, 0)) == inf
 
 
+def test_a_drone_that_drifts_out_of_the_map_still_has_a_way() -> None:
+    """A position is measured: under a ceiling as high as it flies, half of them are above it."""
+    low = Airspace(cruise_height=15.0, ceiling=15.0)
+    at_home = [(5.0, 1.0, 0.0)]
+    inside = flight_seconds(SCOUT, low, (1.0, 1.0, 15.0), at_home, 0)
+    assert flight_seconds(SCOUT, low, (1.0, 1.0, 15.00003), at_home, 0) == pytest.approx(
+        inside, abs=0.01
+    )
+    assert inside < flight_seconds(SCOUT, low, (-2.0, 1.0, 15.0), at_home, 0) < inf
+
+
 def test_a_dock_charges_who_lands_near_enough() -> None:
     """Twenty centimetres are near enough, at any height that home was written with."""
     assert docked((1.1, 1.1, 0), (1, 1, 0.5))

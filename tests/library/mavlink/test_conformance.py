@@ -49,7 +49,7 @@ class OfEither(NavigationContract):
     flown: ClassVar[dict[DroneNavigation, Vehicle]]
 
     @classmethod
-    def loop_factory(cls) -> asyncio.AbstractEventLoop:  # type: ignore[override]
+    def loop_factory(cls) -> asyncio.AbstractEventLoop:
         home = PLANE.to_degrees(HOME)
         builds = [
             Build(id=f"m{number}", system=number, home=home, make=cls.autopilot)

@@ -26,10 +26,7 @@ def way_from(airspace: Airspace, drone: str, start: Point, end: Point) -> tuple[
 
 def way_back(airspace: Airspace, point: Point) -> Point:
     """Return the permitted point that is nearest to one that is not, or almost so."""
-    width, depth = airspace.size
-    x, y, z = point
-    x, y = min(max(x, 0.0), width), min(max(y, 0.0), depth)
-    z = min(max(z, 0.0), airspace.ceiling)
+    x, y, z = airspace.within(point)
     for _ in range(1 + len(airspace.areas)):
         around = next((area for area in airspace.areas if inside((x, y), area)), ())
         out = _edge_points((x, y), around)
