@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from math import dist, pi
+from pathlib import Path
 
 import pytest
 
@@ -54,3 +56,11 @@ def test_what_is_beyond_a_map_is_refused_with_how_far_it_is() -> None:
     with pytest.raises(ValueError, match="out of reach"):
         MILAN.to_metres((float("nan"), 9.19, 120.0))
     assert MILAN.to_degrees((REACH, 0.0, 0.0))
+
+
+def test_the_pages_are_held_to_what_is_computed_here() -> None:
+    """`earth.test.js` reads the same examples."""
+    examples = json.loads((Path(__file__).parent / "station" / "map" / "earth.json").read_text())
+    for one in examples:
+        found = LocalPlane(**one["plane"]).to_degrees((*one["place"], 0.0))
+        assert found[:2] == pytest.approx(one["degrees"], abs=1e-9)

@@ -550,6 +550,18 @@ class Zone(TypedDict):
     corners: list[Point]
 
 
+class Plane(TypedDict):
+    """Where the map lies on the Earth."""
+
+    latitude: float
+    """Of the map's corner (0, 0), in degrees of WGS 84."""
+    longitude: float
+    altitude: float
+    """Of the map's z = 0, in metres above sea level."""
+    bearing: float
+    """The compass direction of the map's y, in radians, clockwise."""
+
+
 class MapData(TypedDict):
     """What can be drawn on the map by pages, and is kept in the fleet file."""
 
@@ -558,6 +570,8 @@ class MapData(TypedDict):
     zones: list[Zone]
     north: float
     """Degrees by which north is turned from up, clockwise."""
+    plane: Plane | None
+    """Where the map lies; null: it is not said."""
     image: Picture | None
     writable: bool
     said: str

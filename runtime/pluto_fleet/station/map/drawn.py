@@ -29,7 +29,7 @@ from .pictures import floor_plan, safe_name
 if TYPE_CHECKING:
     from ...shared.domain.airspace import Airspace, Corner, Polygon
     from ...shared.domain.model import Point
-    from ..wire import MapData, Place, Swept, Ways, Zone
+    from ..wire import MapData, Place, Plane, Swept, Ways, Zone
     from ..wire import Picture as PictureData
 
 
@@ -142,6 +142,18 @@ def zones_of(landmarks: Landmarks) -> list[Zone]:
     return [
         {"name": one.name, "corners": [[x, y] for x, y in one.corners]} for one in landmarks.zones
     ]
+
+
+def plane_of(landmarks: Landmarks) -> Plane | None:
+    """Return where the map lies on the Earth for pages."""
+    if landmarks.plane is None:
+        return None
+    return {
+        "latitude": landmarks.plane.latitude,
+        "longitude": landmarks.plane.longitude,
+        "altitude": landmarks.plane.altitude,
+        "bearing": landmarks.plane.bearing,
+    }
 
 
 def picture_of(picture: Picture, address: str) -> PictureData:
@@ -344,6 +356,7 @@ class DrawnMap:
             "places": places_of(self.landmarks),
             "zones": zones_of(self.landmarks),
             "north": self.landmarks.north,
+            "plane": plane_of(self.landmarks),
             "image": picture_of(picture, self.address) if picture and shown else None,
             "writable": not why_not,
             "said": why_not,

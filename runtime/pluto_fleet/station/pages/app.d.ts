@@ -31,6 +31,7 @@ declare global {
   type LiveRequest = wire.LiveRequest;
   type LogLine = wire.LogLine;
   type MapData = wire.MapData;
+  type Plane = wire.Plane;
   type Me = wire.Me;
   type MissionForecast = wire.MissionForecast;
   type MissionRow = wire.MissionRow;

@@ -301,6 +301,8 @@ export interface MapData {
   zones: Zone[];
   /** Degrees by which north is turned from up, clockwise. */
   north: number;
+  /** Where the map lies; null: it is not said. */
+  plane: Plane | null;
   image: Picture | null;
   writable: boolean;
   /** Why nothing that is drawn can be kept; empty: it can. */
@@ -452,6 +454,17 @@ export interface PlanTrip {
   parameters: Record<string, string | number | number | boolean>;
   item: ItemData | null;
   [field: string]: unknown;
+}
+
+/** Where the map lies on the Earth. */
+export interface Plane {
+  /** Of the map's corner (0, 0), in degrees of WGS 84. */
+  latitude: number;
+  longitude: number;
+  /** Of the map's z = 0, in metres above sea level. */
+  altitude: number;
+  /** The compass direction of the map's y, in radians, clockwise. */
+  bearing: number;
 }
 
 /** A number with what it is and its unit. */

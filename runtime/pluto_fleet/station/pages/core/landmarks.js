@@ -3,12 +3,21 @@
 
 import { effect, signal } from "@preact/signals";
 import { get, ofStation, send } from "./api.js";
-import { t } from "./i18n.js";
+import { degrees } from "./earth.js";
+import { number, t } from "./i18n.js";
 import { tell, tellError, world } from "./station.js";
 
 const AGAIN = 3000; // ms
 
 export const landmarks = signal(/** @type {MapData | null} */ (null));
+
+/** Latitude and longitude of a place on the map, for people; empty where it does not lie on the Earth. @param {readonly number[]} place */
+export function onEarth(place) {
+  const plane = landmarks.value?.plane;
+  if (!plane) return "";
+  return degrees(plane, place).map((one) => `${number(one, DEGREES)}°`).join("; ");
+}
+const DEGREES = { minimumFractionDigits: 6, maximumFractionDigits: 6 };
 
 let asked = -1; // the revision that was asked for last
 /** @param {number} revision */

@@ -94,6 +94,8 @@ function Grid({ map: { size: [width, height] } }) {
   return h("path", { ref: path, class: "grid" });
 }
 
+const KILOMETRE = 1000; // metres
+
 /** @param {{ map: MapShape }} props */
 export function Rulers({ map: { size: [width, height] } }) {
   const camera = useCamera();
@@ -103,13 +105,14 @@ export function Rulers({ map: { size: [width, height] } }) {
   const wide = 7.5 * Math.max(0, ...upwards.map((metres) => String(metres).length)) + 12;
   const x = Math.min(Math.max(left, wide), box.width - 4);
   const y = Math.min(Math.max(bottom, 20), box.height - 20);
+  const written = (/** @type {number} */ metres) => (step(scale, 44) < KILOMETRE ? metres : `${metres / KILOMETRE} km`);
   return h("g", { class: "rulers", "aria-hidden": true },
     across.map((metres) => h("g", {
       key: `x${metres}`, transform: `translate(${left + metres * scale} ${y})`,
-    }, h("path", { d: "M0 0v5" }), h("text", { y: 17 }, metres))),
+    }, h("path", { d: "M0 0v5" }), h("text", { y: 17 }, written(metres)))),
     upwards.map((metres) => h("g", {
       key: `y${metres}`, transform: `translate(${x} ${bottom - metres * scale})`,
-    }, h("path", { d: "M0 0h-5" }), h("text", { x: -8, y: 4, class: "left" }, metres))));
+    }, h("path", { d: "M0 0h-5" }), h("text", { x: -8, y: 4, class: "left" }, written(metres)))));
 }
 
 export function ScaleBar() {
@@ -119,7 +122,7 @@ export function ScaleBar() {
     class: "scale-bar", height: 20, width: Math.ceil(metres * scale) + 4, role: "img",
     "aria-label": t("map.scale", { n: metres }),
   }, h("path", { d: `M1 12v5h${metres * scale}v-5` }),
-  h("text", { x: 1 + (metres * scale) / 2, y: 9 }, `${metres} m`));
+  h("text", { x: 1 + (metres * scale) / 2, y: 9 }, metres < KILOMETRE ? `${metres} m` : `${metres / KILOMETRE} km`));
 }
 
 /** The middle of a polygon's corners, where its name stands. @param {readonly (readonly number[])[]} corners */

@@ -5,7 +5,7 @@ import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { freeName } from "../core/changes.js";
 import { number, t, typedNumber } from "../core/i18n.js";
-import { changeMap, landmarks, uploadPlan } from "../core/landmarks.js";
+import { changeMap, landmarks, onEarth, uploadPlan } from "../core/landmarks.js";
 import { app, mayFly } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
@@ -165,7 +165,7 @@ function Lists({ drawn: { places, zones }, can, onShow }) {
   return h("div", { class: "stack" },
     h("h2", null, t("map.places")),
     places.length ? h("ul", { class: "landmark-list" }, places.map((place, at) => h(Item, {
-      key: at, can, name: place.name, said: t("map.at", { x: number(place.x), y: number(place.y) }),
+      key: at, can, name: place.name, said: [t("map.at", { x: number(place.x), y: number(place.y) }), onEarth([place.x, place.y])].filter(Boolean).join(" · "),
       onShow: () => onShow(place),
       onName: (name) => changeMap((map) => ({ places: map.places.with(at, { ...map.places[at], name }) })),
       onRemove: () => changeMap((map) => ({ places: map.places.toSpliced(at, 1) })),

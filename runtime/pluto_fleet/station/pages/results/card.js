@@ -3,6 +3,7 @@
 
 import { h } from "preact";
 import { clock, inWords, place, plain, t } from "../core/i18n.js";
+import { onEarth } from "../core/landmarks.js";
 import { pictureAt } from "../map/ground.js";
 import { toPixels } from "../map/view.js";
 import { Button, IconButton } from "../ui/parts.js";
@@ -20,6 +21,7 @@ export function facts(result) {
   /** @type {[string, string][]} */
   const all = [
     [t("column.place"), [name, point && place(point)].filter(Boolean).join(", ")],
+    [t("results.on-earth"), point ? onEarth(point) : ""],
     [t("column.time"), clock(time)],
     [t("column.mission"), mission],
     [t("column.trip"), trip ?? ""],

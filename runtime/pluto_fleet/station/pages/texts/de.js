@@ -417,6 +417,7 @@ const texts = {
   "results.none.over": "Was Drohnen messen, fotografieren und finden, steht hier. Dieser Flug hat nichts gebracht.",
   "results.none.unknown": "Was Drohnen messen, fotografieren und finden, steht hier, sobald die Station antwortet.",
   "results.none.verdicts": "Was Prüfer zu einer Mission sagen, etwa dass ein Foto wiederholt wird, steht hier. Noch haben sie nichts gesagt.",
+  "results.on-earth": "Breite, Länge",
   "results.only-newest": "Gezeigt sind die neuesten {n}. Die Dateien haben alle.",
   "results.open-photo": "Foto öffnen",
   "results.parameters": "Parameter",

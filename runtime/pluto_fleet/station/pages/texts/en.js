@@ -411,6 +411,7 @@ export default {
   "results.none.over": "What drones measure, photograph and find appears here. This flight has brought nothing.",
   "results.none.unknown": "What drones measure, photograph and find appears here, as soon as the station answers.",
   "results.none.verdicts": "What evaluators say of a mission, such as that a photo is taken again, appears here. They have said nothing yet.",
+  "results.on-earth": "Latitude, longitude",
   "results.only-newest": "Shown are the newest {n}. The files have all.",
   "results.open-photo": "Open photo",
   "results.parameters": "Parameters",

@@ -417,6 +417,7 @@ const texts = {
   "results.none.over": "Ciò che i droni misurano, fotografano e trovano compare qui. Questo volo non ha portato niente.",
   "results.none.unknown": "Ciò che i droni misurano, fotografano e trovano compare qui, appena la stazione risponde.",
   "results.none.verdicts": "Ciò che i valutatori dicono di una missione, ad esempio che una foto va rifatta, compare qui. Non hanno ancora detto niente.",
+  "results.on-earth": "Latitudine, longitudine",
   "results.only-newest": "Sono mostrati gli ultimi {n}. I file li contengono tutti.",
   "results.open-photo": "Apri foto",
   "results.parameters": "Parametri",
