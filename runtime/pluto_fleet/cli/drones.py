@@ -26,10 +26,19 @@ from ..drones.protocol import (
     Readable,
     Scannable,
 )
-from ..drones.real_fleet import RealDrone, real_fleet
+from ..drones.real_fleet import RealDrone, RealFleet, real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which
-from ..files.fleet import APART, CRAZYFLIE, MAVLINK, OWN, fleet_of, load_fleet, not_real
+from ..files.fleet import (
+    APART,
+    CRAZYFLIE,
+    MAVLINK,
+    OWN,
+    fleet_of,
+    load_fleet,
+    navigation_by,
+    not_real,
+)
 from ..files.reading import near, parsed
 from ..files.toml import toml_value
 from ..gateway.drone_lock import DroneInUse, lock_drones
@@ -48,6 +57,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..drones.protocol import DroneNavigation, DroneTelemetry
     from ..files.fleet import FleetFile, Options
+    from ..geodesy import LocalPlane
     from ..shared.domain.airspace import Corner
     from ..shared.domain.model import Point
     from .options import Options as Command
@@ -108,8 +118,8 @@ class _Team:
 
     @property
     def navigations(self) -> list[str]:
-        """The navigations of these drones and others."""
-        return list(dict.fromkeys([self.others, *(asked.navigation for asked in self.known)]))
+        """The navigations of these drones; without any, that of those to be found."""
+        return list(dict.fromkeys(asked.navigation for asked in self.known)) or [self.others]
 
     def one(self, who: str) -> DroneQuery:
         """Return a drone by its name in the fleet file, or by its uri."""
@@ -126,16 +136,18 @@ class _Team:
     async def all_found(self, addresses: Sequence[str]) -> list[DroneQuery]:
         """Scan with the navigations of this fleet; known drones have their names of the fleet file."""
         where = {"addresses": list(addresses)} if addresses else {}
-        uris = await found(self.others, {**self._options(), **where})
+        uris = await found(self.others, {**self._options(self.others), **where})
         known = {which(asked.uri): asked for asked in self.known if asked.uri is not None}
         return [known.get(which(uri)) or self._other(uri) for uri in uris]
 
     def _other(self, uri: str) -> DroneQuery:
-        options = self._options()
-        return DroneQuery(id=uri, uri=uri, navigation=self.others, options=options, known=False)
+        by = navigation_by(uri) or self.others
+        options = self._options(by)
+        plane = None if self.fleet is None else self.fleet.plane
+        return DroneQuery(id=uri, uri=uri, navigation=by, options=options, known=False, plane=plane)
 
-    def _options(self) -> Options:
-        return {} if self.fleet is None else self.fleet.options.get(self.others, {})
+    def _options(self, navigation: str) -> Options:
+        return {} if self.fleet is None else self.fleet.options.get(navigation, {})
 
 
 def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
@@ -143,7 +155,7 @@ def _known(app: App, fleet: FleetFile) -> list[DroneQuery]:
     speeds = {category.name: category.speed for category in app.categories}
     real = real_fleet(fleet, ()).drones
     return [
-        DroneQuery(**asdict(how), home=drone.home, speed=speeds[drone.category])
+        DroneQuery(**asdict(how), home=drone.home, speed=speeds[drone.category], plane=fleet.plane)
         for how, drone in zip(real, fleet.drones, strict=True)
     ]
 
@@ -352,6 +364,8 @@ class DroneQuery(RealDrone):
     speed: float = 0.5
     known: bool = True
     """Whether it is in the fleet file."""
+    plane: LocalPlane | None = None
+    """Where the fleet's map lies on the Earth, if its file says so."""
 
 
 @dataclass(slots=True, kw_only=True)
@@ -428,7 +442,7 @@ async def identified(asked: DroneQuery, folder: Path) -> None:
 
 def _made(asked: DroneQuery, folder: Path) -> DroneNavigation:
     called = asked if asked.known else replace(asked, id="it")  # in messages about it
-    return make_one(called, asked.home, asked.speed, folder)
+    return make_one(called, asked.home, asked.speed, folder, RealFleet(plane=asked.plane))
 
 
 def no_answer(seconds: float) -> str:

@@ -144,7 +144,7 @@ def drones_of(
     drones = list[DroneEntry]()
     uris = dict[str, Table]()
     for table, given in read_drones(top, app, airspace):
-        navigation = table.value("navigation", values.name) or _navigation_by(table.data.get("uri"))
+        navigation = table.value("navigation", values.name) or navigation_by(table.data.get("uri"))
         uri = table.value("uri", partial(_uri, navigation or flown_by))
         _answers_alone(table, uris)
         real = {
@@ -213,7 +213,7 @@ def _named(table: Mapping[str, object], group: str) -> Iterator[tuple[str, float
             raise ValueError(f"sets {quoted(name)} to what {error}") from None
 
 
-def _navigation_by(uri: object) -> str | None:
+def navigation_by(uri: object) -> str | None:
     """Return the navigation that follows from a uri; None: as the fleet is flown."""
     return MAVLINK if isinstance(uri, str) and is_vehicle(uri) else None
 
@@ -320,6 +320,12 @@ def not_real(fleet: FleetFile) -> str | None:
         return (
             "real drones are named in a fleet file: give it with --fleet;"
             " the command drones --save F.toml writes one of those that the radio hears"
+        )
+    by_degrees = [d.id for d in fleet.drones if navigation_of(fleet, d) == MAVLINK]
+    if by_degrees and fleet.plane is None:
+        return (
+            f"{listed([quoted(id) for id in by_degrees])} fly by degrees: say where the map is, in [map]:"
+            " origin = { latitude = 47.3977, longitude = 8.5456, altitude = 488 }"
         )
     lost = [
         f"{quoted(drone.id)} (line {drone.line})" if drone.line else quoted(drone.id)

@@ -27,6 +27,7 @@ from mavsdk.asyncio.plugins.telemetry import TelemetryAsync
 from mavsdk.autopilot import Autopilot
 from mavsdk.component_type import ComponentType
 from mavsdk.exceptions import MavsdkError
+from mavsdk.logging import LogLevel, log_subscribe
 from mavsdk.plugins.mavlink_direct import MavlinkMessage
 
 COMMAND = "mavsdk"
@@ -266,6 +267,9 @@ def main(_: Sequence[str]) -> int:
     out = os.dup(1)
     os.dup2(2, 1)  # where MAVSDK and its wrappers print
     code = 0
+    log_subscribe(
+        lambda level, *_: level < LogLevel.WARN
+    )  # the others would fill the gateway's log
     try:
         asyncio.run(_run(out))
     except TimeoutError:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from contextlib import suppress
 from math import dist
 from typing import Any
 
@@ -23,8 +24,9 @@ from ..drones.protocol import (
 from ..drones.telemetry import Reports
 from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
 from ..shared.domain.actions import PHOTO, Plain
-from ..shared.domain.errors import BadInput
 from ..shared.domain.model import Item, Photo, Point
+from ..shared.domain.text import number
+from . import own_failsafes
 from .makes import ACCEPTED, ANSWERS, CUT_MOTORS, LAND_HERE, MAKES, Make, Order
 from .mavsdk_client import ENDED, MavsdkClient, client
 from .options import options_of
@@ -56,11 +58,6 @@ class MavlinkVehicle:
 
     def __init__(self, setup: DroneSetup) -> None:
         self._id = setup.id
-        if setup.plane is None:
-            raise BadInput(
-                f"{setup.id}: a MAVLink vehicle flies by degrees: say where the map is, in [map]:"
-                " origin = { latitude = 47.3977, longitude = 8.5456, altitude = 488 }"
-            )
         self._setup = setup
         self._options = options_of(setup.options)
         self._reports = Reports(setup)
@@ -71,6 +68,8 @@ class MavlinkVehicle:
         self._photo: asyncio.Future[Mapping[str, Any]] | None = None
         self._crashed, self._cut = "", False
         self._landing = False
+        self._parameters: dict[str, float] = {}
+        """Those of `own_failsafes`, once they were read."""
         self._since = 0.0
         """Since when it has been where it is to be."""
 
@@ -79,9 +78,9 @@ class MavlinkVehicle:
     async def connect(self) -> None:
         """Find its autopilot, and wait until it has told where it is and how it is."""
         await self._part()
-        plane = self._state.plane
-        self._state = VehicleState(plane, self._setup.home[2])
+        self._state = VehicleState(self._setup.plane, self._setup.home[2])
         address = self._address
+        self._parameters = {}
         self._client = client()
         self._number = self._client.join(self._hear)
         try:
@@ -116,6 +115,8 @@ class MavlinkVehicle:
 
     def _untold(self) -> str:
         state = self._state
+        if state.astray:
+            return f"where on the map it is: it {state.astray}"
         missing = {
             "where it is": state.position is None,
             "its mode": not state.beaten,
@@ -221,7 +222,26 @@ class MavlinkVehicle:
     async def preflight(self) -> Sequence[str]:
         if self._client is None:
             return [f"{self._id} is not connected"]
+        if self._state.flying:
+            return []
+        await self._read_failsafes()
+        most = own_failsafes.fastest(self._known_make.name, self._parameters)
+        if most is not None and self._setup.speed > most:
+            slower = f"it flies no faster than {number(most)} m/s (MPC_XY_VEL_MAX)"
+            return [f"its category's speed is {number(self._setup.speed)} m/s, and {slower}"]
         return problems(self._state, self._setup.home, self._options)
+
+    async def _read_failsafes(self) -> None:
+        """Read once what it does by itself, and say it; a parameter that it does not have is passed over."""
+        if self._parameters:
+            return
+        make = self._known_make.name
+        for name in own_failsafes.PARAMETERS[make]:
+            with suppress(Rejected):
+                self._parameters[name] = await self._ask("read", _ANSWER, name=name)
+        does = own_failsafes.described(make, self._parameters)
+        said = ", ".join(f"{when}: {what}" for when, what in does.items())
+        self._reports.happened("failsafes", f"what it does by itself: {said}")
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Take off straight up, at the speed that its autopilot has for that."""
@@ -369,8 +389,9 @@ class MavlinkVehicle:
 
     async def facts(self) -> Mapping[str, str]:
         make = self._known_make
-        mode = make.mode_name(self._state.mode)
-        return {"autopilot": make.name, "mode": mode}
+        await self._read_failsafes()
+        does = own_failsafes.described(make.name, self._parameters)
+        return {"autopilot": make.name, "mode": make.mode_name(self._state.mode), **does}
 
     @staticmethod
     def canonical_uri(uri: str) -> str:

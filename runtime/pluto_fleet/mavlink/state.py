@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import hypot, inf, isfinite, pi, radians
+from math import hypot, isfinite, pi, radians
 from typing import Any
 
 from ..geodesy import LocalPlane
@@ -18,8 +18,8 @@ _ARMED = 128
 """MAV_MODE_FLAG_SAFETY_ARMED."""
 _NEAR_GROUND = 1.0
 """Metres above it, within which motors that stop are no fall."""
-_WARNING = 4
-"""Texts that are at least so severe say why something is refused: 0 to 7, and 0 is the severest."""
+_WARNING = 3
+"""Texts that are at least so severe say why something is refused: MAVSDK counts up from 0, a text for debugging."""
 
 
 @dataclass(slots=True)
@@ -30,10 +30,13 @@ class VehicleState:
     sea level may be metres off that of the map, and both are only used together.
     """
 
-    plane: LocalPlane
+    plane: LocalPlane | None
+    """None: the map is where the vehicle is first heard of."""
     ground: float
     """The height of its home on the map, in metres."""
     position: Point | None = None
+    astray: str = ""
+    """Why it is nowhere on the map."""
     sea: float = 0.0
     """By how much its height above sea level is more than that on the map."""
     yaw: float = 0.0
@@ -91,16 +94,20 @@ class VehicleState:
                 self.home = (facts[0], facts[1])
             case "cameras":
                 self.cameras = tuple(facts)
-            case "text" if facts["severity"] <= _WARNING:
+            case "text" if facts["severity"] >= _WARNING:
                 self.texts = [*self.texts[-4:], (time.monotonic(), facts["text"])]
 
     def _position(self, facts: Mapping[str, Any]) -> None:
         absolute, relative = facts["heights"]
-        latitude, longitude = facts["place"]
-        x, y, _ = self.plane.to_metres((latitude, longitude, self.plane.altitude))
-        z = relative + self.ground
-        self.position = (x, y, z)
-        self.sea = absolute - z
+        if self.plane is None:
+            latitude, longitude = facts["place"]
+            self.plane = LocalPlane(latitude, longitude, absolute)
+        try:
+            self.position = self.point(facts)
+        except ValueError as error:
+            self.astray = str(error)
+            return
+        self.sea = absolute - relative - self.ground
         north, east, down = facts["velocity"]
         self.velocity = (north, east, down)
         heading = facts["heading"]
@@ -127,11 +134,13 @@ class VehicleState:
 
     def place(self, point: Point) -> Place:
         """Return a point of the map as it is told to an autopilot; raise `ValueError` if it is out of reach."""
+        assert self.plane is not None
         latitude, longitude, _ = self.plane.to_degrees(point)
         return Place(latitude, longitude, point[2] + self.sea, point[2] - self.ground)
 
     def point(self, facts: Mapping[str, Any]) -> Point:
-        """Return where on the map something was, such as a photo."""
+        """Return where on the map something was, such as a photo; raise `ValueError` if it was far from it."""
+        assert self.plane is not None
         latitude, longitude = facts["place"]
         x, y, _ = self.plane.to_metres((latitude, longitude, self.plane.altitude))
         return x, y, facts["heights"][1] + self.ground
@@ -139,6 +148,3 @@ class VehicleState:
     def since(self, began: float) -> str:
         """Return what it has warned of since then."""
         return "; ".join(text for at, text in self.texts if at >= began)
-
-
-NEVER = -inf

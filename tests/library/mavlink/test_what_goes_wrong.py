@@ -1,0 +1,175 @@
+"""What becomes of a command when something goes wrong with a vehicle: flown through MAVSDK, in real time, all at once."""
+
+from __future__ import annotations
+
+import asyncio
+import subprocess
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+
+import pytest
+
+from pluto_fleet.autopilot.server import Server, let
+from pluto_fleet.autopilot.vehicle import Build, Vehicle
+from pluto_fleet.drones.protocol import (
+    ActionNotDone,
+    DroneSetup,
+    LinkLost,
+    NotReady,
+    Rejected,
+)
+from pluto_fleet.geodesy import LocalPlane
+from pluto_fleet.mavlink.navigation import MavlinkVehicle
+from pluto_fleet.process import respawn
+from pluto_fleet.shared.domain.model import Photo
+
+pytestmark = pytest.mark.process
+
+PLANE = LocalPlane(47.397742, 8.545594, 488.0)
+HOME = (5.0, 5.0, 0.0)
+FAR = (40.0, 5.0, 3.0)
+
+
+async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """A command ends when somebody else takes the vehicle over; nothing is said against that."""
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "pilot", "return")
+    with pytest.raises(Rejected, match="acts by itself: it is in the mode Return"):
+        await going
+    assert vehicle.doing.value == "return"
+
+
+async def blind(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "blind", True)
+    with pytest.raises(Rejected, match=r"in the mode Land \(Failsafe activated: no position"):
+        await going
+
+
+async def unready(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    let(vehicle, "unready", "Compass 0 uncalibrated")
+    await flies.connect()
+    with pytest.raises(NotReady, match="would not arm"):
+        await flies.takeoff(3.0, 1.0)
+    assert not vehicle.armed
+
+
+async def refused(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    await flies.connect()
+    let(vehicle, "denied", 1)
+    with pytest.raises(Rejected, match="it denies that"):
+        await flies.takeoff(3.0, 1.0)
+    assert not vehicle.armed
+
+
+async def unanswered(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """A command whose answer is lost is sent again; it has the same effect."""
+    await flies.connect()
+    await flies.takeoff(3.0, 1.0)
+    let(vehicle, "unanswered", 1)
+    await flies.go_to((8.0, 5.0, 3.0), 3.0)
+    assert vehicle.record.orders.count("192: 0") == 2
+
+
+async def blank(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """That a camera accepts a command is no picture."""
+    await flies.connect()
+    let(vehicle, "blank", True)
+    with pytest.raises(ActionNotDone, match="tells of no picture"):
+        await flies.act("take_photo", {}, None)
+    let(vehicle, "blank", False)
+    taken = await flies.act("take_photo", {}, None)
+    assert isinstance(taken, Photo)
+    assert taken.position == pytest.approx(HOME, abs=0.05)
+
+
+async def other_make(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    with pytest.raises(NotReady, match="its autopilot is PX4, and not ardupilot"):
+        await flies.connect()
+
+
+async def silent(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "silent", True)
+    with pytest.raises(LinkLost):
+        await going
+    assert vehicle.armed
+
+
+CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, object]] = {
+    pilot: {},
+    blind: {},
+    unready: {},
+    refused: {},
+    unanswered: {},
+    blank: {},
+    other_make: {"autopilot": "ardupilot"},
+    silent: {},
+}
+
+
+async def setting_out(flies: MavlinkVehicle, vehicle: Vehicle) -> asyncio.Task[None]:
+    """Return a flight that is on its way."""
+    await flies.connect()
+    await flies.takeoff(3.0, 1.0)
+    going = asyncio.create_task(flies.go_to(FAR, 2.0))
+    while vehicle.body.at[0] < 2.0:
+        await asyncio.sleep(0.02)
+    return going
+
+
+@pytest.mark.long
+def test_each_fault_ends_the_command_that_it_keeps_from_being_done(tmp_path: Path) -> None:
+    pytest.importorskip("mavsdk")
+    failed = [one for one in asyncio.run(_all_at_once(tmp_path)) if one is not None]
+    if failed:
+        raise BaseExceptionGroup("some cases failed", failed)
+
+
+async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
+    """Return what came of each case."""
+    home = PLANE.to_degrees(HOME)
+    server = Server([Build(case.__name__, number, home) for number, case in enumerate(CASES, 1)])
+    await server.start()
+    flown = [
+        MavlinkVehicle(
+            DroneSetup(
+                id=case.__name__,
+                uri=server.uris[case.__name__],
+                home=HOME,
+                speed=5.0,
+                options=options,
+                folder=tmp_path,
+                plane=PLANE,
+            )
+        )
+        for case, options in CASES.items()
+    ]
+    try:
+        return await asyncio.gather(
+            *(
+                case(flies, server.vehicles[case.__name__])
+                for case, flies in zip(CASES, flown, strict=True)
+            ),
+            return_exceptions=True,
+        )
+    finally:
+        let(server.vehicles["silent"], "silent", False)
+        await asyncio.gather(*(flies.close() for flies in flown), return_exceptions=True)
+        await server.close()
+
+
+def test_heartbeats_end_with_those_of_the_gateway() -> None:
+    """A gateway that hangs must not look to vehicles as if somebody watched them."""
+    pytest.importorskip("mavsdk")
+    process = subprocess.Popen(
+        respawn.library("mavsdk"),
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdin is not None and process.stderr is not None
+    with process:
+        assert process.wait(20) == 1
+        assert "the gateway says nothing" in process.stderr.read()
