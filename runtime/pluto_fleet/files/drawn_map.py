@@ -9,6 +9,7 @@ from typing import Any
 
 from ..geodesy import LocalPlane
 from ..shared.alone.files import read_map
+from ..shared.domain import values
 from ..shared.domain.airspace import Airspace, Corner, Polygon
 from ..shared.domain.text import counted
 from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable
@@ -46,22 +47,27 @@ class Taken:
         return ", ".join(counted(len(these), what) for these, what in parts if these) or "nothing"
 
 
+_TOO_WIDE = (
+    "is drawn over more than 10 km, and a map has no longer sides: leave out what lies elsewhere"
+)
+
+
 def map_for(drawing: Drawing) -> str:
     """Return the text of a fleet file whose map is as large as a drawing; raise `Unusable` if that is no map."""
     spots = [spot for feature in drawing.features for spot in feature.spots]
     if not spots:
         raise Unusable(f"is {drawing.what}, and has no places and no areas")
-    corner = _corner(spots, 0.0)
     origin = _corner(spots, MARGIN)
-    far = [origin.to_metres((one.latitude, one.longitude, 0.0)) for one in spots]
+    try:
+        far = [origin.to_metres((one.latitude, one.longitude, 0.0)) for one in spots]
+    except ValueError:
+        raise Unusable(_TOO_WIDE) from None
     size = [_ROUND * ceil((max(at[axis] for at in far) + MARGIN) / _ROUND) for axis in (0, 1)]
-    if max(size) > 10_000:
-        raise Unusable(
-            f"reaches {max(size) / 1000:.0f} km from {corner.latitude:g}, and a map 10 km"
-        )
+    if max(size) > values.SIDE.most:
+        raise Unusable(_TOO_WIDE)
     at = {"latitude": origin.latitude, "longitude": origin.longitude, "altitude": 0.0}
-    values = {"size": size, "origin": at, "cruise_height": _CRUISE, "ceiling": _CEILING}
-    return "\n".join(["[map]", *(f"{key} = {toml_value(one)}" for key, one in values.items()), ""])
+    keys = {"size": size, "origin": at, "cruise_height": _CRUISE, "ceiling": _CEILING}
+    return "\n".join(["[map]", *(f"{key} = {toml_value(one)}" for key, one in keys.items()), ""])
 
 
 def _corner(spots: Sequence[Spot], margin: float) -> LocalPlane:

@@ -117,3 +117,13 @@ def test_a_drawing_is_checked_as_missions_and_written_for_other_programs(
     again = tmp_path / "again.kml"
     assert app_main(FAR, ["check", f"{plain}", "--fleet", f"{fleet}", "--write", f"{again}"]) == 2
     assert not again.exists()
+
+
+def test_no_map_is_made_for_what_lies_all_over_the_earth(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    drawn = tmp_path / "cities.csv"
+    drawn.write_text("name,lat,lon\nMilan,45.46,9.19\nOslo,59.91,10.75\n", encoding="utf-8")
+    assert main(["map", f"{tmp_path / 'f.toml'}", f"{drawn}"]) == 2
+    assert "is drawn over more than 10 km" in capsys.readouterr().err
+    assert not (tmp_path / "f.toml").exists()

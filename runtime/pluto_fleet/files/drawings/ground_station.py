@@ -23,6 +23,7 @@ from .feature import (
     Spot,
     Unusable,
     corners,
+    number_in,
     refuse_if_many,
     spot,
 )
@@ -31,7 +32,7 @@ _PLACES = {16, 17, 18, 19, 31, 82}
 """The commands of MAVLink that fly to a place: waypoints, loitering, splines."""
 _BY_ITSELF = {20, 21, 22, 84, 85, 189, 177}
 """Those of what every flight does by itself, and jumps back to an earlier one."""
-_ODD = {
+_ODD: dict[float, str] = {
     178: "changes of speed",
     201: "regions of interest",
     195: "regions of interest",
@@ -93,17 +94,20 @@ def read(text: str) -> Drawing:
 def _simple(item: Mapping[str, Any], number: int, found: _Found) -> None:
     params = item.get("params")
     if isinstance(params, list) and len(params) == 7:
-        _waypoint(item.get("command"), item.get("frame"), params[4:], f"item {number}", found)
+        command, frame = number_in(item.get("command")), number_in(item.get("frame"))
+        _waypoint(command, frame, params[4:], f"item {number}", found)
 
 
-def _waypoint(command: Any, frame: Any, at: Sequence[Any], who: str, found: _Found) -> None:
+def _waypoint(
+    command: float | None, frame: float | None, at: Sequence[Any], who: str, found: _Found
+) -> None:
     if command in _PLACES and frame in _ON_EARTH:
         latitude, longitude, up = at
         is_relative = frame in _RELATIVE or frame in _OVER_GROUND
         height, altitude = (up, None) if is_relative else (None, up)
         found.route.append(spot(latitude, longitude, who, height, altitude))
     elif command not in _BY_ITSELF:
-        found.odd[_ODD.get(command, "other commands")] += 1
+        found.odd[_ODD.get(command or 0, "other commands")] += 1
 
 
 def _complex(item: Mapping[str, Any], number: int, found: _Found) -> None:
