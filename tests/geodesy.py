@@ -21,8 +21,8 @@ from random import Random
 from pyproj import Geod, Transformer
 
 from pluto_fleet.files.drawings.feature import Feature, Kind, Spot
+from pluto_fleet.files.drawings.on_map import metres_of
 from pluto_fleet.files.drawings.writing import WRITERS
-from pluto_fleet.files.drawn_missions import metres_of
 from pluto_fleet.files.kinds import drawing_in
 from pluto_fleet.geodesy import REACH, LocalPlane, Metres
 from tests.kit.campaign import Campaign

@@ -13,7 +13,8 @@ from ..shared.domain import values
 from ..shared.domain.airspace import Airspace, Corner, Polygon
 from ..shared.domain.text import counted
 from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable
-from .drawn_missions import metres_of, no_origin
+from .drawings.on_map import metres_of
+from .drawn_missions import no_origin
 from .landmarks import Landmarks, NamedPlace, Zone, read_landmarks
 from .reading import PlanTable, parsed
 from .toml import toml_value

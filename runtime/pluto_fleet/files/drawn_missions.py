@@ -17,6 +17,7 @@ from ..shared.domain.model import Mission, Point
 from ..shared.domain.text import counted
 from ..shared.domain.values import Read
 from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable, name_in
+from .drawings.on_map import metres_of
 from .lists import is_number
 from .reading import Document
 
@@ -62,30 +63,6 @@ def no_origin(drawing: Drawing) -> str:
     south, west = min(one.latitude for one in spots), min(one.longitude for one in spots)
     such = f"origin = {{ latitude = {south:.6f}, longitude = {west:.6f} }}"
     return f"{said}: write one below [map] of the fleet file, such as {such}"
-
-
-def metres_of(plane: LocalPlane, spot: Spot, who: str) -> list[float]:
-    """Return [x, y] of a spot on a map, or [x, y, z] if it says how high it is; raise `Unusable` if it is off it."""
-    above = plane.altitude + (spot.height or 0.0)
-    altitude = above if spot.altitude is None else spot.altitude
-    try:
-        x, y, z = plane.to_metres((spot.latitude, spot.longitude, altitude))
-    except ValueError as error:
-        raise Unusable(f"{who} {error}{_swapped(plane, spot)}") from None
-    has_height = (spot.height, spot.altitude) != (None, None)
-    return [_tidy(one) for one in ((x, y, z) if has_height else (x, y))]
-
-
-def _tidy(metres: float) -> float:
-    """Round to a tenth of a millimetre, so that files stay legible."""
-    return round(metres, 4) + 0.0
-
-
-def _swapped(plane: LocalPlane, spot: Spot) -> str:
-    with suppress(ValueError):
-        plane.to_metres((spot.longitude, spot.latitude, plane.altitude))
-        return "; its latitude and longitude are the wrong way round"
-    return ""
 
 
 class _Missions:

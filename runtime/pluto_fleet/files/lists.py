@@ -12,11 +12,15 @@ from io import StringIO
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from typing import Any
 
+from ..geodesy import LocalPlane
 from ..shared.domain import values
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import quoted
 from ..shared.domain.values import MOST_TOLD, KeyPath, Read, Table
 from .csv_rows import Row, UnusableList, rows_of
+from .drawings.feature import Unusable
+from .drawings.on_map import metres_of
+from .drawings.places_list import has_places, place_in
 from .reading import PlanTable, advised, listed, near, text_of
 
 MOST = {"missions": 10_000, "values": 1_000_000, "characters": 10_000_000}
@@ -101,7 +105,8 @@ def _of_rows(table: PlanTable, left: dict[str, int]) -> Iterator[PlanTable]:
     try:
         text = _text(document.folder / list_)
         rows, odd = rows_of(text, left["missions"], _at_most("missions"))
-    except UnusableList as wrong:
+        rows = rows if odd else _on_map(rows, document.landmarks.plane)
+    except (UnusableList, Unusable) as wrong:
         rows = []
         odd = [f"{wrong}"]
     for wrong_row in odd:
@@ -126,6 +131,19 @@ def _of_rows(table: PlanTable, left: dict[str, int]) -> Iterator[PlanTable]:
         of_row.row = f"{list_}, row {number}"
         of_row.who = f"mission {known} ({of_row.row})"
         yield of_row
+
+
+def _on_map(rows: list[Row], plane: LocalPlane | None) -> list[Row]:
+    """Return rows with x and y, and z if one says how high, of a list that has latitude and longitude."""
+    if plane is None or not has_places(rows[0][1]):
+        return rows
+    places = [place_in(number, row) for number, row in rows]
+    found = [metres_of(plane, one.spots[0], one.who) for one in places]
+    axes = "xyz"[: max(map(len, found))]
+    return [
+        (number, {**dict.fromkeys(axes, ""), **dict(zip(axes, map(str, at), strict=False)), **row})
+        for (number, row), at in zip(rows, found, strict=True)
+    ]
 
 
 def _size(template: Mapping[str, object], rows: Sequence[Row]) -> dict[str, int]:

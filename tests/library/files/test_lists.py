@@ -7,8 +7,10 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.files.landmarks import Landmarks
 from pluto_fleet.files.missions import load_missions, missions_of
 from pluto_fleet.files.reading import parsed
+from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Item
@@ -273,3 +275,22 @@ def test_what_comes_after_another_may_be_named_by_a_column(tmp_path: Path) -> No
         in told
     )
     assert told.endswith('(column "before")')
+
+
+def test_places_in_degrees_have_their_metres(tmp_path: Path) -> None:
+    """A height that one row says is asked of all."""
+    (tmp_path / "beds.csv").write_text(
+        "Bed,Lat,Lon,height\nA,45.4643,9.1902,3\nB,45.4644,9.1904,\n"
+    )
+    text = BEDS.replace("{nr}", "{Bed}")
+    document = parsed("m.toml", text)
+    document.folder = tmp_path
+    document.landmarks = Landmarks(plane=LocalPlane(45.4642, 9.19))
+    field = Airspace(size=(300.0, 200.0), cruise_height=10.0)
+    first, second = missions_of(document, APP, field)
+    assert first.trips[0].target == pytest.approx((15.642, 11.114, 10.0), abs=0.001)
+    assert second.trips[0].target == pytest.approx((31.283, 22.229, 10.0), abs=0.001)
+    high = parsed("m.toml", text.replace('"{y}"]', '"{y}", "{z}"]'))
+    high.folder, high.landmarks = document.folder, document.landmarks
+    with pytest.raises(BadInput, match=r'row 3.*column "z"'):
+        missions_of(high, APP, field)

@@ -14,8 +14,13 @@ _NAME = ("name", "label", "title", "id")
 
 def is_list_of_places(text: str) -> bool:
     """Return whether the first line of a text names the columns of one."""
-    columns = {column.lower() for column in first_row(text)}
-    return not columns.isdisjoint(_LATITUDE) and not columns.isdisjoint(_LONGITUDE)
+    return has_places(first_row(text))
+
+
+def has_places(columns: Iterable[str]) -> bool:
+    """Return whether there are columns of latitude and longitude."""
+    names = {column.lower() for column in columns}
+    return not names.isdisjoint(_LATITUDE) and not names.isdisjoint(_LONGITUDE)
 
 
 def read(text: str) -> Drawing:
@@ -26,10 +31,11 @@ def read(text: str) -> Drawing:
         raise Unusable(str(error)) from None
     if odd:
         raise Unusable(odd[0])
-    return Drawing(what=LIST, features=tuple(_feature(number, row) for number, row in rows))
+    return Drawing(what=LIST, features=tuple(place_in(number, row) for number, row in rows))
 
 
-def _feature(number: int, given: Mapping[str, str]) -> Feature:
+def place_in(number: int, given: Mapping[str, str]) -> Feature:
+    """Return the place that a row is; raise `Unusable` if it is none."""
     row = {column.lower(): value for column, value in reversed([*given.items()])}
     name = name_in(_value(row, _NAME))
     who = called("row", number, name)
