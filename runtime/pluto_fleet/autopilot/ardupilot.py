@@ -96,7 +96,9 @@ class ArduPilot(Vehicle):
         return ACCEPTED
 
     def take_off(self, asked: Asked) -> int:
-        """Rise in GUIDED to a height above home: ArduCopter/takeoff.cpp, do_user_takeoff."""
+        """Rise in GUIDED to a height above home: handle_MAV_CMD_NAV_TAKEOFF, and do_user_takeoff of takeoff.cpp."""
+        if asked.exact and asked.frame != mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT:
+            return DENIED
         if not self.armed or self.high or self.mode != GUIDED or not isfinite(asked.height):
             return FAILED
         if asked.height <= self.body.at[2]:

@@ -35,7 +35,6 @@ from ..report.terminal import table
 from ..shared import output
 from ..shared.alone.world import Faults
 from ..shared.domain.errors import BadInput
-from ..shared.domain.motion import CLIMB_SPEED
 from ..shared.domain.text import counted, number
 from .plans import load, waiting
 from .preflight import check_flight, made
@@ -64,7 +63,8 @@ def dry_run(app: App, options: Options) -> int:
     given: list[CommandLog] = []
     top = {one.name: one.speed for one in plan.app.categories}
     speeds = {drone.id: top[drone.category] for drone in plan.fleet.drones}
-    climb = CLIMB_LIMIT if plan.fleet.motion.smooth else CLIMB_SPEED
+    motion = plan.fleet.motion
+    climb = CLIMB_LIMIT if motion.smooth else max(motion.up, motion.down)
 
     def around(kernel: Kernel, drones: Controls) -> CommandLog:
         given.append(CommandLog(kernel, drones, speeds, climb))

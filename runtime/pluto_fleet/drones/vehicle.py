@@ -207,7 +207,8 @@ class Vehicle:
         self.position_lost = False
         """Whether it is landed because it lost its position: it must not fly elsewhere."""
         self.speed = drone.category.speed
-        self.climb = min(CLIMB_LIMIT, self.speed)
+        motion = drone.category.motion
+        self.climb = min(max(CLIMB_LIMIT, motion.up, motion.down), self.speed)
 
     # Its state
 

@@ -358,6 +358,16 @@ def too_fast(app: App, fleet: FleetFile) -> list[str]:
     ]
 
 
+def moving_otherwise(fleet: FleetFile) -> list[str]:
+    """Return a sentence if its MAVLink vehicles are counted with as if they were Crazyflies."""
+    named = [d.id for d in fleet.drones if navigation_of(fleet, d) == MAVLINK]
+    if not named or not fleet.motion.smooth:
+        return []
+    who = listed([quoted(id) for id in named])
+    how = 'say how they move, by [motion] legs = "steady"'
+    return [f"{who} would be counted with as Crazyflies, which fly at 1 m/s: {how}"]
+
+
 def shared_by_air(fleet: FleetFile) -> list[str]:
     """Return a sentence for each way in which its Crazyflies are in each other's way on the air."""
     flown = [one for one in fleet.drones if navigation_of(fleet, one) == CRAZYFLIE]

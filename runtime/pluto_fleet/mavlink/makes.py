@@ -16,8 +16,8 @@ CUT = 21196
 _CUSTOM_MODE = 1
 _TAKES_MODE = 1
 """MAV_DO_REPOSITION_FLAGS_CHANGE_MODE."""
-_ABOVE_SEA = 5
-"""MAV_FRAME_GLOBAL_INT: metres above sea level, as both makes take it."""
+_ABOVE_SEA, _ABOVE_HOME = 5, 3
+"""MAV_FRAME_GLOBAL_INT, metres above sea level, as both makes take it; MAV_FRAME_GLOBAL_RELATIVE_ALT."""
 
 ACCEPTED = 0
 ANSWERS = {
@@ -151,6 +151,14 @@ class Px4:
 class ArduPilot:
     name = "ArduPilot"
     _GUIDED, _LAND, _BRAKE = 4, 9, 17
+    _TAKEOFF: ClassVar[dict[str, Any]] = {
+        "command": TAKEOFF,
+        "frame": _ABOVE_HOME,  # it denies any other
+        "param1": 0,
+        "param2": 0,
+        "x": 0,
+        "y": 0,
+    }
     _NAMES: ClassVar[Mapping[int, str]] = {
         0: "Stabilize",
         2: "AltHold",
@@ -175,7 +183,7 @@ class ArduPilot:
         return [
             self._mode(self._GUIDED),
             long(ARM, 1, 0),
-            long(TAKEOFF, 0, None, None, None, None, None, place.above_home),
+            Order("COMMAND_INT", self._TAKEOFF | {"z": place.above_home}),
         ]
 
     def goes(self, place: Place, speed: float) -> Sequence[Order]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..domain.actions import BUILT_IN, MEASURE, PHOTO, PICK, USUAL_QUANTITY
 from ..domain.airspace import permitted_way
 from ..domain.errors import Failure, FlightFailed
-from ..domain.motion import CLIMB_SPEED, varied, varies
+from ..domain.motion import varied, varies
 from ..domain.text import place
 from ..fleet.reach import docked, flight_seconds, grip_problem
 from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
@@ -177,7 +177,7 @@ class Body(KnownState):
         if what is not None:
             self.down = FlightFailed(what, f"{self.id} {BEFALL[what]} at {place(here)}")
         if what is Failure.LINK:
-            down = Leg(here, (x, y, 0.0), when, when + z / CLIMB_SPEED, self.motion.smooth)
+            down = Leg(here, (x, y, 0.0), when, when + z / self.motion.down, self.motion.smooth)
             self.reachable_at = max(when + OUTAGE, down.arrives)
             self._drawn = {}
             self.turn([down], when, lands_at=down.arrives)

@@ -1,7 +1,8 @@
 """How drones move and charge: one model for simulations, plans and checks, in closed formulas.
 
 A Crazyflie flies each leg on a polynomial of the 7th order that begins and ends at rest (Bitcraze,
-high-level commander): its peak speed is 35/16 of its mean one. Seconds, metres, shares of a battery.
+high-level commander): its peak speed is 35/16 of its mean one. A multicopter outdoors speeds up, flies on at its
+speed, and brakes; it climbs and sinks at speeds of its own. Seconds, metres, shares of a battery.
 """
 
 from __future__ import annotations
@@ -30,8 +31,18 @@ class Motion:
     """How the drones of a fleet move, beside the speed of their category."""
 
     legs: str = "straight"
-    """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s."""
+    """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s.
+
+    `steady`: as `straight`, with what multicopters outdoors are usually set to.
+    """
     limit: float = 100.0  # metres per second that the position controller follows
+    acceleration: float = (
+        0.0  # m/s² at both ends of a leg that is not smooth; 0: it has its speed at once
+    )
+    up: float = CLIMB_SPEED  # metres per second straight up, where that is not smooth
+    down: float = CLIMB_SPEED  # the same straight down
+    low: float = 0.0  # metres above the ground below which it sinks more slowly
+    touch_down: float = CLIMB_SPEED  # metres per second below that height
     take_off: float = 0.0  # seconds of a take-off besides its climb
     settles: float = 0.0  # seconds after each leg in the air until it hovers at rest
     landing: float = 0.0  # seconds from the touch-down until it counts as landed
@@ -66,23 +77,40 @@ class Motion:
 
     def leg(self, metres: float, speed: float) -> float:
         """Return the seconds of a leg at a category's speed, until its end."""
-        if self.legs != "smooth":
-            return self.pace * metres / speed
+        if not self.smooth:
+            return self.pace * self._steadily(metres, min(speed, self.limit))
         followed = PEAK * metres / min(speed, self.limit)
         return self.pace * max(SHORTEST, followed, sqrt(PUSH * abs(metres) / MOST))
 
     def shortness(self, speed: float) -> float:
         """Return how many seconds a short leg can take more than its share of a long one."""
+        if not self.smooth:
+            return (
+                self.pace * min(speed, self.limit) / self.acceleration if self.acceleration else 0.0
+            )
         most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
-        return self.pace * max(SHORTEST, most) if self.smooth else 0.0
+        return self.pace * max(SHORTEST, most)
 
     def climb(self, metres: float, speed: float) -> float:
         """Return the seconds straight up."""
-        return self.leg(metres, min(speed, 2 * CLIMB_SPEED) if self.smooth else CLIMB_SPEED)
+        if self.smooth:
+            return self.leg(metres, min(speed, 2 * CLIMB_SPEED))
+        return self.pace * self._steadily(metres, self.up)
 
     def sink(self, metres: float, speed: float) -> float:
         """Return the seconds straight down, to the ground."""
-        return self.climb(metres, min(speed, SINKS * self.limit))
+        if self.smooth:
+            return self.climb(metres, min(speed, SINKS * self.limit))
+        low = min(metres, self.low)
+        return self.pace * (self._steadily(metres - low, self.down) + low / self.touch_down)
+
+    def _steadily(self, metres: float, speed: float) -> float:
+        """Return the seconds from rest to rest, by way of a speed that a short way does not reach."""
+        if not self.acceleration:
+            return metres / speed
+        if metres * self.acceleration < speed * speed:
+            return 2 * sqrt(metres / self.acceleration)
+        return metres / speed + speed / self.acceleration
 
     def at_speed(self, metres: float, speed: float) -> float:
         """Return the seconds of a leg on which a drone sets out at its speed, and not from rest."""
@@ -153,6 +181,19 @@ def _progress(level: float, full: float, taper: float) -> float:
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
+STEADY = Motion(
+    legs="steady",
+    acceleration=3.0,
+    up=1.5,
+    down=1.5,
+    low=5.0,
+    touch_down=0.7,
+    settles=0.75,
+    landing=2.1,
+    slack=0.3,
+)
+"""A multicopter as PX4 sets it; the durations were measured with a simulated one (docs/motion.md)."""
+
 CRAZYFLIE = Motion(
     legs="smooth",
     limit=1.0,
@@ -169,4 +210,5 @@ CRAZYFLIE = Motion(
 
 def motion_of(given: Mapping[str, Any]) -> Motion:
     """Return what the `[motion]` of a fleet file says; what it does not say is a Crazyflie's."""
-    return replace(STRAIGHT if given.get("legs") == "straight" else CRAZYFLIE, **given)
+    usual = {"straight": STRAIGHT, "steady": STEADY}.get(given.get("legs", ""), CRAZYFLIE)
+    return replace(usual, **given)

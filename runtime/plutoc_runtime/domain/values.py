@@ -138,8 +138,13 @@ _FACTOR = Quantity(Type.PERCENT, 0.1, 10.0)
 _SPREAD = Quantity(Type.PERCENT, 0.0, 0.3)
 
 MOTION: dict[str, Read] = {
-    "legs": partial(one_of, ("smooth", "straight")),
+    "legs": partial(one_of, ("smooth", "steady", "straight")),
     "limit": Quantity(Type.SPEED, 0.01, 100.0),
+    "acceleration": Quantity(Type.FLOAT, 0.0, 100.0),
+    "up": Quantity(Type.SPEED, 0.05, 30.0),
+    "down": Quantity(Type.SPEED, 0.05, 30.0),
+    "low": Quantity(Type.LENGTH, 0.0, 100.0),
+    "touch_down": Quantity(Type.SPEED, 0.05, 30.0),
     "take_off": _OVERHEAD,
     "settles": _OVERHEAD,
     "landing": _OVERHEAD,

@@ -22,6 +22,7 @@ from pluto_fleet.shared.domain.motion import (
     CRAZYFLIE,
     MOST,
     SHORTEST,
+    STEADY,
     STRAIGHT,
     Motion,
     charged,
@@ -207,6 +208,21 @@ def assert_spread(factors: Sequence[float]) -> None:
     assert fmean(factors) == pytest.approx(1.0, abs=SPREAD * 4 / sqrt(len(factors)))
     assert pstdev(factors) == pytest.approx(SPREAD, rel=0.05)
     assert max(abs(factor - 1.0) for factor in factors) <= 3 * SPREAD + 1e-9
+
+
+@pytest.mark.parametrize(
+    ("flown", "seconds"),
+    [
+        (STEADY.rises(15.0, 5.0), 11.27),
+        (STEADY.flies(95.13, 5.0), 21.39),
+        (STEADY.flies(55.23, 5.0), 13.34),
+        (STEADY.flies(0.84, 5.0), 1.81),
+        (STEADY.lands(14.99, 5.0), 16.2),
+    ],
+)
+def test_a_multicopter_flies_as_a_simulated_one_does(flown: float, seconds: float) -> None:
+    """As flown by MAVSDK; how long a landing takes depends on when the vehicle tells of its end."""
+    assert flown == pytest.approx(seconds, rel=0.02, abs=0.06)
 
 
 def test_legs_vary_as_much_as_their_spread() -> None:

@@ -77,7 +77,7 @@ def test_all_that_is_wrong_is_told_at_once_with_its_line(tmp_path: Path) -> None
         load_fleet(path, APP)
     assert str(caught.value).splitlines() == [
         f'{path}:7: [motion]: unknown key "wind"; there may be: {", ".join(MOTION)}',
-        f'{path}:6: [motion]: legs "round" is none of: smooth, straight',
+        f'{path}:6: [motion]: legs "round" is none of: smooth, steady, straight',
         f'{path}:9: [motion]: limit "1 m" is a length, not a speed: it takes m/s, km/h',
         f'{path}:8: [motion]: spread "50 %" is not a percent (%) of 0 % to 30 %',
     ]

@@ -88,7 +88,7 @@ class Obstacle:
         if (
             self._is_real and not motion.smooth
         ):  # real drones may go up and down as fast as they fly
-            flies = motion.leg if speed > CLIMB_SPEED else flies
+            flies = motion.at_speed if speed > CLIMB_SPEED else flies
         left = dist(here, end)
         # it flies slowly where a smooth leg begins and ends
         behind = dist(self._points[self.claim.at], here) if motion.smooth else 0.0
