@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from ..csv_rows import UnusableList, first_row, rows_of
-from .feature import LIST, MOST_FEATURES, Drawing, Feature, Kind, Unusable, called, name_in, spot
+from .feature import (
+    LIST,
+    MOST_FEATURES,
+    Drawing,
+    Feature,
+    Kind,
+    Unusable,
+    called,
+    name_in,
+    spot,
+)
 
 _LATITUDE = ("latitude", "lat")
 _LONGITUDE = ("longitude", "lon", "lng", "long")
