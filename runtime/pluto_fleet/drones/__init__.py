@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ..shared.domain.model import Photo as Photo
 from ..shared.domain.model import Point as Point
+from .protocol import ACTS_BY_ITSELF as ACTS_BY_ITSELF
 from .protocol import BATTERY_LOW as BATTERY_LOW
 from .protocol import CRASHED as CRASHED
 from .protocol import LINK_LOST as LINK_LOST

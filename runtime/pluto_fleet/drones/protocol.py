@@ -127,6 +127,8 @@ BATTERY_LOW = "battery low"
 """It must land now, where it is."""
 POSITION_LOST = "position lost"
 """It has lost its position: it must land now, wherever it is."""
+ACTS_BY_ITSELF = "acts by itself"
+"""Its own failsafe flies it, or a person: nothing is ordered of it until it has landed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,7 +157,7 @@ class DroneEvent:
     """Something that happened to a drone without a command."""
 
     kind: str
-    """`LINK_LOST`, `CRASHED`, `LOCKED`, `BATTERY_LOW` or `POSITION_LOST`; others are only logged."""
+    """`LINK_LOST`, `CRASHED`, `LOCKED`, `BATTERY_LOW`, `POSITION_LOST` or `ACTS_BY_ITSELF`; others are only logged."""
     reason: str
     """A sentence for a person, without the drone's name: "it lies on its back"."""
 

@@ -17,25 +17,35 @@ from ..shared.domain.errors import ANY_ERROR, Failure, FlightFailed
 from ..shared.domain.model import Point
 from ..shared.domain.text import duration, number, percent, place
 from .commands import fly, land
-from .protocol import BATTERY_LOW, CRASHED, LINK_LOST, LOCKED, POSITION_LOST, DroneEvent
+from .protocol import (
+    ACTS_BY_ITSELF,
+    BATTERY_LOW,
+    CRASHED,
+    LINK_LOST,
+    LOCKED,
+    POSITION_LOST,
+    DroneEvent,
+)
 from .timeouts import Lag, shortened
 from .vehicle import LAND, RISE, Vehicle
 
 TOLERANCE = 0.3
-"""Metres of tolerance: positions are inexact, and a stopped drone overshoots."""
+"""Metres of tolerance at least: positions are inexact, and a stopped drone overshoots."""
+_ERRORS = 2.0
+"""The tolerance as a multiple of how far a drone is usually off."""
 
 
-def outside_area(airspace: Airspace, point: Point) -> str | None:
-    """Return where a drone is that has left the permitted area, or None."""
+def outside_area(airspace: Airspace, point: Point, error: float = TOLERANCE) -> str | None:
+    """Return where a drone is that has left the permitted area, or None; `error`: by how much its position may be off."""
     (x, y, z), (width, depth) = point, airspace.size
-    if not (-TOLERANCE <= x <= width + TOLERANCE and -TOLERANCE <= y <= depth + TOLERANCE):
+    if not (-error <= x <= width + error and -error <= y <= depth + error):
         return f"{place(point)}, which is outside the map"
-    if z > airspace.ceiling + TOLERANCE:
+    if z > airspace.ceiling + error:
         return f"{place(point)}, {number(z)} m high"
-    if z < -TOLERANCE:
+    if z < -error:
         return f"{place(point)}, {number(-z)} m below the ground"
     for count, corners in enumerate(airspace.no_fly, 1):
-        if is_deep_inside((x, y), tidy(corners)):
+        if is_deep_inside((x, y), tidy(corners), error):
             return f"{place(point)}, which is inside no-fly area {count}"
     return None
 
@@ -46,7 +56,7 @@ def is_over_no_fly(airspace: Airspace, point: Point) -> bool:
     return any(len(area) > 2 and inside(point[:2], area) for area in areas)
 
 
-def is_deep_inside(point: tuple[float, float], area: Polygon) -> bool:
+def is_deep_inside(point: tuple[float, float], area: Polygon, error: float = TOLERANCE) -> bool:
     """Return whether a point is further inside than the tolerance, or halfway into a narrow area."""
     if len(area) < 3 or not inside(point, area):
         return False
@@ -54,7 +64,7 @@ def is_deep_inside(point: tuple[float, float], area: Polygon) -> bool:
     around = sum(distance(a, b, b) for a, b in edges)
     twice = abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges))
     # The widest circle in an area is about as wide as twice its surface by its outline.
-    within = min(TOLERANCE, twice / 2 / around)
+    within = min(error, twice / 2 / around)
     return all(distance(point, a, b) > within for a, b in edges)
 
 
@@ -120,6 +130,10 @@ def handle_event(vehicle: Vehicle, event: DroneEvent) -> None:
     elif kind == BATTERY_LOW and not vehicle.telemetry.landed and not vehicle.must_land:
         why = f"the battery of {who} is low at {where}, where it lands: {reason}"
         vehicle.force_landing(FlightFailed(Failure.BATTERY, why))
+    elif kind == ACTS_BY_ITSELF and not vehicle.telemetry.landed and not vehicle.must_land:
+        # its navigation orders nothing any more, and waits until it has landed
+        why = f"{who} acts by itself at {where}: {reason}"
+        vehicle.force_landing(FlightFailed(Failure.REFUSED, why), needs_person=False)
     elif kind == POSITION_LOST and not vehicle.telemetry.landed:
         vehicle.lose_position(reason)
     else:
@@ -212,7 +226,8 @@ class SafetyMonitor:
     def _flies(self, vehicle: Vehicle) -> None:
         telemetry = vehicle.telemetry
         self._fallen_since[vehicle.id] = inf
-        where = outside_area(self._airspace, telemetry.location)
+        error = max(TOLERANCE, _ERRORS * vehicle.drone.category.motion.slack)
+        where = outside_area(self._airspace, telemetry.location, error)
         if where is not None:
             why = f"{vehicle.id} left the permitted area at {where}: it lands"
             vehicle.force_landing(FlightFailed(Failure.REFUSED, why))

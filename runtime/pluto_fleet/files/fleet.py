@@ -45,7 +45,7 @@ MAVLINK = "mavlink"
 APART = 0.5
 """Metres: two Crazyflies closer than this disturb each other with their downwash."""
 
-BETWEEN = values.Quantity(Type.LENGTH, 0.05, 10.0, or_none=True)
+BETWEEN = values.Quantity(Type.LENGTH, 0.05, 100.0, or_none=True)
 """What may lie between two drones."""
 
 OWN = "own"

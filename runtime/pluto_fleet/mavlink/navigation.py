@@ -10,6 +10,7 @@ from math import dist
 from typing import Any
 
 from ..drones.protocol import (
+    ACTS_BY_ITSELF,
     LINK_LOST,
     ActionNotDone,
     DroneEvent,
@@ -67,7 +68,10 @@ class MavlinkVehicle:
         self._number = 0
         self._photo: asyncio.Future[Mapping[str, Any]] | None = None
         self._crashed, self._cut = "", False
-        self._landing = False
+        self._order_given, self._agreed = "", 0.0
+        """What it was told last, and when its mode was last one of that."""
+        self._by_itself = ""
+        """What it does by itself, if it does."""
         self._parameters: dict[str, float] = {}
         """Those of `own_failsafes`, once they were read."""
         self._since = 0.0
@@ -159,6 +163,8 @@ class MavlinkVehicle:
         state.hear(told, facts)
         if flew and not state.flying:
             self._came_down(mode)
+        if told == "beat":
+            self._watch_mode()
         if told in ("position", "beat") and state.is_known:
             self._tell()
 
@@ -177,7 +183,7 @@ class MavlinkVehicle:
     def _came_down(self, mode: int) -> None:
         """Note a crash: its motors are off in the air, or on the ground where it was not landing in its mode."""
         state, modes = self._state, self._known_make.modes
-        lands = self._landing or mode in modes["land"] | modes["return"]
+        lands = self._order_given == "land" or mode in modes["land"] | modes["return"]
         if self._cut:
             self._crashed = "its motors were cut"
         elif state.is_high or not lands:
@@ -192,9 +198,14 @@ class MavlinkVehicle:
         except LinkLost as error:
             raise LinkLost(f"{self._id}: {error}") from None
 
-    async def _order(self, orders: Sequence[Order]) -> None:
-        """Give commands one after the other; raise `Rejected` with what it says against one."""
+    async def _order(self, what: str, orders: Sequence[Order]) -> None:
+        """Give the commands of an order one after the other; raise `Rejected` with what it says against one.
+
+        Nothing is ordered of a vehicle that acts by itself: that would overrule its failsafe, or its pilot.
+        """
+        self._refuse_if_by_itself()
         began = time.monotonic()
+        self._order_given, self._agreed = what, began
         for order in orders:
             try:
                 result = await self._ask(
@@ -253,32 +264,36 @@ class MavlinkVehicle:
             reasons = await self.preflight()
             if reasons:
                 raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
-            await self._order(self._known_make.rises(self._place(target)))
-        await self._until("rise", lambda: self._is_at(target), _LONGEST)
+            await self._order("rise", self._known_make.rises(self._place(target)))
+        await self._until(lambda: self._is_at(target), _LONGEST)
 
     async def go_to(self, target: Point, speed: float) -> None:
         self._reports.refuse(target, speed)
-        await self._order(self._known_make.goes(self._place(target), speed))
-        await self._until("go", lambda: self._is_at(target), _LONGEST)
+        await self._order("go", self._known_make.goes(self._place(target), speed))
+        await self._until(lambda: self._is_at(target), _LONGEST)
 
     async def hold(self) -> None:
-        if self.telemetry.flying:
-            await self._order(self._known_make.holds())
-            await self._until("hold", self._is_still, _HOLDING)
+        """Stop it here; one that acts by itself goes on with that."""
+        if self.telemetry.flying and not self._by_itself:
+            await self._order("hold", self._known_make.holds())
+            await self._until(self._is_still, _HOLDING)
 
     async def land(self, speed: float) -> None:
-        """Land straight down, at the speed that its autopilot has for that."""
-        if self.telemetry.flying:
-            self._landing = True
-            try:
-                await self._order([LAND_HERE])
-                await self._until("land", lambda: not self._state.flying, _LANDING)
-            finally:
-                self._landing = False
+        """Land straight down, at the speed that its autopilot has for that.
+
+        One that acts by itself is waited for, until it or its pilot has landed it.
+        """
+        if not self.telemetry.flying:
+            return
+        if self._by_itself:
+            await self._reports.until(lambda _: not self._state.flying, _LANDING)
+            return
+        await self._order("land", [LAND_HERE])
+        await self._until(lambda: not self._state.flying, _LANDING)
 
     async def emergency_stop(self) -> None:
-        self._cut = True
-        await self._order([CUT_MOTORS])
+        self._cut, self._by_itself = True, ""
+        await self._order("", [CUT_MOTORS])
         await self._reports.until(lambda _: not self._state.armed, _CUTTING)
 
     async def looked_after(self) -> None:
@@ -292,32 +307,36 @@ class MavlinkVehicle:
         except ValueError as error:
             raise OutsideArea(f"{self._id}: the target {error}") from None
 
-    async def _until(self, order: str, done: Callable[[], bool], seconds: float) -> None:
-        """Wait until it is done, as long as the vehicle does what it was told.
-
-        A mode that it takes by itself, as a failsafe or a pilot does, ends the command.
-        """
-        make, began = self._known_make, time.monotonic()
+    async def _until(self, done: Callable[[], bool], seconds: float) -> None:
+        """Wait until it is done, as long as the vehicle does what it was told."""
         self._since = 0.0
-        agrees = began
 
         def look(_: DroneTelemetry) -> bool:
-            nonlocal agrees
-            now = time.monotonic()
-            state = self._state
-            if state.mode in make.modes[order]:
-                agrees = now
-            elif done():
-                return True
-            elif now - agrees > _SETTLES:
-                said = state.since(began)
-                mode = make.mode_name(state.mode)
-                raise Rejected(
-                    f"{self._id} acts by itself: it is in the mode {mode}{f' ({said})' if said else ''}"
-                )
+            self._refuse_if_by_itself()
             return done()
 
         await self._reports.until(look, seconds)
+
+    def _watch_mode(self) -> None:
+        """Notice a mode that it has taken by itself, as a failsafe or a pilot does: our orders end there."""
+        state, now = self._state, time.monotonic()
+        modes = self._known_make.modes
+        if not state.flying:
+            self._order_given, self._by_itself = "", ""
+            self._agreed = now
+        # one that flew before it was connected to may have been told anything
+        told = (self._order_given,) if self._order_given else ("rise", "go", "hold", "land")
+        if any(state.mode in modes[what] for what in told):
+            self._agreed = now
+        elif now - self._agreed > _SETTLES and not self._by_itself:
+            said = state.since(now - _RECENTLY)
+            mode = self._known_make.mode_name(state.mode)
+            self._by_itself = f"it is in the mode {mode}{f' ({said})' if said else ''}"
+            self._reports.happened(ACTS_BY_ITSELF, self._by_itself)
+
+    def _refuse_if_by_itself(self) -> None:
+        if self._by_itself:
+            raise Rejected(f"{self._id} acts by itself: {self._by_itself}")
 
     def _is_at(self, target: Point) -> bool:
         position = self._state.position

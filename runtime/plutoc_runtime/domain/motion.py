@@ -190,7 +190,7 @@ STEADY = Motion(
     touch_down=0.7,
     settles=0.75,
     landing=2.1,
-    slack=0.3,
+    slack=0.7,
 )
 """A multicopter as PX4 sets it; the durations were measured with a simulated one (docs/motion.md)."""
 

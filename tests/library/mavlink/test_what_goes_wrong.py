@@ -36,7 +36,8 @@ async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     let(vehicle, "pilot", "return")
     with pytest.raises(Rejected, match="acts by itself: it is in the mode Return"):
         await going
-    assert vehicle.doing.value == "return"
+    await flies.hold()
+    assert vehicle.doing.value == "return"  # it was not told to hold instead
 
 
 async def blind(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
