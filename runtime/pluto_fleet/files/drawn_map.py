@@ -7,15 +7,16 @@ from dataclasses import dataclass, field, replace
 from math import ceil
 from typing import Any
 
+from ..extras import has
 from ..geodesy import LocalPlane
 from ..shared.alone.files import read_map
 from ..shared.domain import values
 from ..shared.domain.airspace import Airspace, Corner, Polygon
-from ..shared.domain.text import counted
+from ..shared.domain.text import counted, number
 from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable
 from .drawings.on_map import metres_of
 from .drawn_missions import no_origin
-from .landmarks import Landmarks, NamedPlace, Zone, read_landmarks
+from .landmarks import MOST_CORNERS, Landmarks, NamedPlace, Zone, read_landmarks
 from .reading import PlanTable, parsed
 from .toml import toml_value
 from .writing import with_landmarks
@@ -24,6 +25,8 @@ MARGIN = 20.0
 """Metres around what is drawn, on a map that is made for it."""
 _CRUISE, _CEILING = 20.0, 120.0
 """How high drones fly on such a map, and at most, in metres: in many countries nothing may fly higher."""
+_TOLERANCES = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
+"""By how many metres an edge may move, so that it has fewer corners."""
 _ROUND = 10.0
 """To how many metres the sides of such a map are rounded up."""
 
@@ -121,8 +124,8 @@ def _with_no_fly(text: str, areas: Sequence[object]) -> str:
 
 def _taken(drawing: Drawing, plane: LocalPlane, *, closed: bool) -> Taken:
     taken = Taken(notes=[*drawing.notes])
-    for number, feature in enumerate(drawing.features, 1):
-        name = feature.name or f"{feature.kind.value} {number}".capitalize()
+    for place, feature in enumerate(drawing.features, 1):
+        name = feature.name or f"{feature.kind.value} {place}".capitalize()
         match feature.kind:
             case Kind.PLACE:
                 at = metres_of(plane, feature.spots[0], feature.who)
@@ -134,8 +137,11 @@ def _taken(drawing: Drawing, plane: LocalPlane, *, closed: bool) -> Taken:
             case _:
                 if feature.has_holes:
                     taken.notes.append(f"{feature.who} has holes, which are left out")
-                outline = tuple(_outline(plane, feature))
-                if closed or feature.kind is Kind.NO_FLY:
+                forbidden = closed or feature.kind is Kind.NO_FLY
+                outline, note = fewer_corners(tuple(_outline(plane, feature)), around=forbidden)
+                if note:
+                    taken.notes.append(f"{feature.who} {note}")
+                if forbidden:
                     taken.no_fly.append(outline)
                 else:
                     taken.zones.append(Zone(name=name, corners=outline))
@@ -146,6 +152,27 @@ def _outline(plane: LocalPlane, feature: Feature) -> Iterator[Corner]:
     for spot in feature.spots:
         x, y, *_ = metres_of(plane, spot, feature.who)
         yield round(x, 3) + 0.0, round(y, 3) + 0.0
+
+
+def fewer_corners(outline: Polygon, *, around: bool) -> tuple[Polygon, str]:
+    """Return an outline with no more corners than a map takes, and what was done for that, as a note continues.
+
+    `around`: what it becomes lies around all of it. A boundary that was walked with a receiver has thousands.
+    """
+    if len(outline) <= MOST_CORNERS or not has("areas"):
+        return outline, ""  # without shapely it is told that they are too many
+    from shapely import Polygon as Shape  # slow to import
+
+    whole = Shape(outline)
+    for tolerance in _TOLERANCES if whole.is_valid else ():
+        shape = (whole.buffer(1.5 * tolerance) if around else whole).simplify(tolerance)
+        corners = tuple((round(x, 3), round(y, 3)) for x, y in shape.exterior.coords[:-1])
+        if len(corners) > MOST_CORNERS or (around and not Shape(corners).contains(whole)):
+            continue
+        off = number(round(whole.hausdorff_distance(shape), 2))
+        became = f"has {len(outline):,} corners, and becomes {len(corners)}"
+        return corners, f"{became}: its edge moves by up to {off} m"
+    return outline, ""
 
 
 def _merged(known: Iterable[Any], new: Sequence[Any]) -> tuple[Any, ...]:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from math import cos, pi, sin
 from pathlib import Path
+from random import Random
 
 import pytest
+import shapely
 
 from pluto_fleet.__main__ import main
 from pluto_fleet.cli import main as app_main
+from pluto_fleet.files.drawn_map import fewer_corners
 from pluto_fleet.files.fleet import load_fleet
 from tests.library.files.an_app import APP
 from tests.paths import ROOT
@@ -127,3 +131,17 @@ def test_no_map_is_made_for_what_lies_all_over_the_earth(
     assert main(["map", f"{tmp_path / 'f.toml'}", f"{drawn}"]) == 2
     assert "is drawn over more than 10 km" in capsys.readouterr().err
     assert not (tmp_path / "f.toml").exists()
+
+
+@pytest.mark.parametrize("around", [False, True])
+def test_a_boundary_that_was_walked_becomes_one_of_fewer_corners(around: bool) -> None:
+    """Where nothing may fly, all of it stays within."""
+    chance = Random(7)
+    turns = [2 * pi * n / 3000 for n in range(3000)]
+    walked = tuple(((100 + chance.gauss(0, 0.001)) * cos(turn), 60 * sin(turn)) for turn in turns)
+    outline, note = fewer_corners(walked, around=around)
+    assert len(outline) <= 200
+    assert "has 3,000 corners, and becomes" in note
+    before, after = shapely.Polygon(walked), shapely.Polygon(outline)
+    assert before.hausdorff_distance(after) < 0.3
+    assert not around or after.contains(before)
