@@ -30,21 +30,20 @@ from .feature import (
 
 _PLACES = {16, 17, 18, 19, 31, 82}
 """The commands of MAVLink that fly to a place: waypoints, loitering, splines."""
-_BY_ITSELF = {20, 21, 22, 84, 85, 189, 177}
-"""Those of what every flight does by itself, and jumps back to an earlier one."""
+_BY_ITSELF = {20, 21, 22, 84, 85, 189, 203, 2000}
+"""Those of what every flight does by itself: taking off, landing, flying home; and of a photo at a place."""
 _ODD: dict[float, str] = {
     178: "changes of speed",
     201: "regions of interest",
     195: "regions of interest",
     197: "regions of interest",
-    203: "camera triggers",
-    206: "camera triggers",
-    2000: "camera triggers",
-    2001: "camera triggers",
+    206: "camera triggers by distance",
+    2001: "camera triggers by distance",
     2500: "videos",
     2501: "videos",
     93: "waits",
     112: "waits",
+    177: "jumps",
     183: "servos",
     211: "grippers",
 }

@@ -81,7 +81,7 @@ def test_ground_stations(name: str) -> None:
     ]
     if name.endswith(".plan"):
         assert [len(one.trips) for one in others] == [6]
-        assert "camera triggers are left out: 1" in document.notes
+        assert "fences to stay within are left out: 1" in document.notes
         assert (
             "1 no-fly area in it: `pluto-fleet map` puts such into a fleet file"
             in document.notes[-1]
