@@ -17,7 +17,14 @@ from ..drones.loading import (
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which
-from ..files.fleet import CRAZYFLIE, MAVLINK, OWN, navigation_of, not_real, shared_by_air
+from ..files.fleet import (
+    CRAZYFLIE,
+    MAVLINK,
+    OWN,
+    navigation_of,
+    not_real,
+    shared_by_air,
+)
 from ..mavlink.needs import require as require_mavsdk
 from ..shared import output
 from ..shared.domain.errors import BadInput
