@@ -31,10 +31,12 @@ import sys
 from importlib import import_module
 from pkgutil import walk_packages
 sys.path.insert(0, sys.argv[1])
-sys.modules["cflib"] = None  # as where it is not installed
+for name in ("cflib", "mavsdk", "pymavlink"):
+    sys.modules[name] = None  # as where it is not installed
+alone = ("pluto_fleet.autopilot.", "pluto_fleet.mavlink.mavsdk_process")  # processes of their own
 import pluto_fleet
 for module in walk_packages(pluto_fleet.__path__, "pluto_fleet."):
-    if not module.name.endswith("__main__"):
+    if not module.name.endswith("__main__") and not module.name.startswith(alone):
         import_module(module.name)
 """
 
@@ -47,6 +49,17 @@ def fleet(missions: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     path = missions.with_name("f.toml")
     path.write_text(FLEET, encoding="utf-8")
     return path
+
+
+@pytest.mark.parametrize("lacks", ["mavsdk", "pymavlink"])
+def test_fly_says_what_to_install_for_vehicles_that_speak_mavlink(
+    missions: Path, command: Command, monkeypatch: pytest.MonkeyPatch, lacks: str
+) -> None:
+    """Those that are simulated need both packages of the extra."""
+    monkeypatch.setitem(sys.modules, lacks, None)
+    code, said, told = command("fly", missions, "--mavlink-sim", "5")
+    assert (code, said) == (2, "")
+    assert told.endswith("is needed: pip install 'pluto-fleet[mavlink]'\n")
 
 
 @pytest.mark.parametrize("supervise", [[], ["--supervise"]])
