@@ -20,6 +20,7 @@ from ..shared.domain.model import Mission, Trip
 from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import Motion, motion_of
 from ..shared.domain.values import MOTION, KeyPath
+from ..shared.events.declared import Along
 from .fleet import CRAZYFLIE, OWN, DroneEntry, FleetFile
 from .landmarks import Landmarks, Picture
 from .toml import headers, places, toml_text, toml_value
@@ -139,9 +140,23 @@ def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> dict[str, Any]
         if given is not None and field.type is FieldType.TIME_OF_DAY:
             minutes = round(given / 60)
             fields[field.name] = f"{minutes // 60:02}:{minutes % 60:02}"
+        elif given is not None and field.type is FieldType.ALONG:
+            fields[field.name] = _along(given)
         elif given is not None:
             fields[field.name] = given
     return fields
+
+
+def _along(along: Along) -> dict[str, Any]:
+    """Return what is done on the way as a file says it."""
+    table: dict[str, Any] = {"action": along["action"]}
+    if "metres" in along:
+        table["every"] = f"{along['metres']:.12g} m"
+    elif "seconds" in along:
+        table["every"] = f"{along['seconds']:.12g} s"
+    if along.get("parameters"):
+        table["parameters"] = {**along["parameters"]}
+    return table
 
 
 _MAP: KeyPath = ("map",)

@@ -80,7 +80,7 @@ class Station:
         self.map = DrawnMap(config.fleet.airspace, config.map_path)
         self.map.changed = self._describe
         self.plan.landmarks = self.map.landmarks
-        self.ways = DrawnWays(config.fleet.airspace)
+        self.ways = DrawnWays(app, config.fleet.airspace)
         self.library = PlanLibrary(config.own_folder / "plans", plan.saved)
         self.changes = FlightChanges(app, plan, self._commandable)
         self.fleet = config.fleet

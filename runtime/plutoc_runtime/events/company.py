@@ -195,10 +195,13 @@ class Company(Part):
         while flight.flier.telemetry.landed:
             await kernel.sleep(MOMENT, key=state.key)
         if trip.source is not None:
-            while dist(flight.flier.location, trip.source) > AT:
-                await kernel.sleep(
-                    _soon(flight.flier, dist(flight.flier.location, trip.source)), key=state.key
-                )
+            x, y, z = trip.source
+            # others in the way may have it fly higher, or lower, down to the cruise height
+            least = min(z, core.airspace.cruise_height) - AT
+            while (left := dist(flight.flier.location[:2], (x, y))) > AT or (
+                flight.flier.location[2] < least
+            ):
+                await kernel.sleep(_soon(flight.flier, left), key=state.key)
         while True:
             try:
                 value = await core.orders.ask(
@@ -213,9 +216,13 @@ class Company(Part):
             if "seconds" in given:
                 await kernel.sleep(given["seconds"], key=state.key)
                 continue
+            metres = given["metres"]
             here = flight.flier.location
-            while (left := given["metres"] - dist(here, flight.flier.location)) > AT:
+            while (left := metres - dist(here, flight.flier.location)) > min(AT, metres / 4):
                 await kernel.sleep(_soon(flight.flier, left), key=state.key)
+            to_end = dist(flight.flier.location[:2], trip.target[:2])
+            if trip.action == given["action"] and to_end < metres / 2:
+                return None  # its own action is at that place
 
     # A target that moves
 

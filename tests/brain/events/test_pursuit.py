@@ -16,7 +16,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.fields import Entity, FieldType
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, WorldData
-from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.company import CompanyOf
 from pluto_fleet.shared.events.declared import (
@@ -235,14 +235,34 @@ def test_what_an_action_along_the_way_raises_fails_the_trip() -> None:
     assert outcome.standing["missions"]["m0"]["reason"] == "look failed: the lens is dirty"
 
 
-def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
-    line = Trip(
+def line(*, metres: float, source: Point = (2.0, 4.0, 1.2), x: float = 10.0) -> Trip:
+    """Return a trip along a line, with pictures on the way."""
+    return Trip(
         name="line",
         action="take_photo",
-        source=(2.0, 4.0, 1.2),
-        target=(10.0, 4.0, 1.2),
-        along={"action": "take_photo", "metres": 2.0},
+        source=source,
+        target=(x, source[1], source[2]),
+        along={"action": "take_photo", "metres": metres},
     )
-    taken = photos(flown([line]))
+
+
+def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
+    taken = photos(flown([line(metres=2.0)]))
     xs = [photo["position"][0] for photo in taken]
     assert xs == pytest.approx([2.0, 4.0, 6.0, 8.0, 10.0], abs=0.3)
+
+
+def test_the_picture_at_the_end_of_a_line_is_not_taken_twice() -> None:
+    for metres in (1.0, 1.143, 1.333, 1.6):
+        assert len(photos(flown([line(metres=metres)]))) == round(8.0 / metres) + 1
+
+
+def test_pictures_close_to_each_other_are_taken_one_by_one() -> None:
+    """Not all of them at the first place, where a drone is near enough to the next one from the beginning."""
+    xs = [photo["position"][0] for photo in photos(flown([line(metres=0.15, x=4.0)]))]
+    assert 10 < len(xs) < 30
+
+
+def test_the_first_picture_is_not_taken_while_a_drone_rises_below_it() -> None:
+    taken = photos(flown([line(metres=2.0, source=(1.0, 0.5, 1.2))]))
+    assert taken[0]["position"][2] > 0.9

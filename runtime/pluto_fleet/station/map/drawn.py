@@ -14,7 +14,7 @@ from math import dist
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...files.areas import read_places
+from ...files.areas import OF_LANES, read_lanes
 from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
 from ...files.reading import Document, PlanTable, parsed, text_of
 from ...files.writing import landmark_tables, with_landmarks
@@ -27,6 +27,7 @@ from ...shared.domain.text import printable
 from .pictures import floor_plan, safe_name
 
 if TYPE_CHECKING:
+    from ...app import App
     from ...shared.domain.airspace import Airspace, Corner, Polygon
     from ...shared.domain.model import Point
     from ..wire import MapData, Place, Swept, Ways, Zone
@@ -36,7 +37,8 @@ if TYPE_CHECKING:
 class DrawnWays:
     """Answers one question after another in a thread, as each may take seconds."""
 
-    def __init__(self, airspace: Airspace) -> None:
+    def __init__(self, app: App, airspace: Airspace) -> None:
+        self._app = app
         self._airspace = replace(airspace)  # its cache of routes must not be shared by threads
         self._one_at_a_time = asyncio.Lock()
 
@@ -82,12 +84,12 @@ class DrawnWays:
         come = None if before is None else self._point(before, "before")
         document = Document("", {"area": area})
         table = PlanTable(document, area, ("area",), "the area")
-        table.read({"polygon": None, "spacing": None}, {"height": None})
-        places = read_places(table, self._airspace, come)
+        table.read({"polygon": None}, dict.fromkeys(("action", *OF_LANES)))
+        lanes = read_lanes(table, self._app, self._airspace, come)
         document.refuse_if_bad()
         [made] = document.areas
         return {
-            "targets": [[*place] for place in places],
+            "targets": [[*line.end] for lane in lanes for line in lane],
             "metres": made.metres,
             "forbidden": made.forbidden,
         }

@@ -22,7 +22,7 @@ MAP = Airspace(size=(10.0, 8.0), no_fly=(LIFT,))
 def test_a_way_leads_around_what_is_closed() -> None:
     """As it will be flown; there is none into it."""
     pairs = [[[1, 1], [1, 5]], [[1, 1, 1], [9, 1, 1]], [[1, 1], [5, 1]]]
-    straight, around, none = asyncio.run(DrawnWays(MAP).ways(pairs))["ways"]
+    straight, around, none = asyncio.run(DrawnWays(APP, MAP).ways(pairs))["ways"]
     assert straight == [[1.0, 1.0, 1.2], [1.0, 5.0, 1.2]]
     route = MAP.route((1.0, 1.0, 1.0), (9.0, 1.0, 1.0))
     assert route is not None and around is not None
@@ -40,7 +40,7 @@ def test_an_area_is_swept_as_that_of_a_file(tmp_path: Path) -> None:
     )
     [of_file] = load_missions(tmp_path / "m.toml", APP, MAP)
     area: dict[str, Any] = {"polygon": corners, "spacing": "2 m", "height": 2, "before": [9, 7]}
-    swept = asyncio.run(DrawnWays(MAP).sweep(area))
+    swept = asyncio.run(DrawnWays(APP, MAP).sweep(area))
     assert swept["targets"] == [[*trip.target] for trip in of_file.trips[1:]]
     assert swept["forbidden"] == pytest.approx(10 / 48)
     assert swept["metres"] > 20
@@ -48,7 +48,7 @@ def test_an_area_is_swept_as_that_of_a_file(tmp_path: Path) -> None:
 
 def test_an_area_that_is_closed_cannot_be_swept() -> None:
     with pytest.raises(BadInput, match="nothing that may be flown over"):
-        asyncio.run(DrawnWays(MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
+        asyncio.run(DrawnWays(APP, MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
 
 
 WARD = Landmarks(
