@@ -65,6 +65,7 @@ def _photo(gave: Any) -> Photo:
         width=_number(gave.width),
         height=_number(gave.height),
         sees=tuple(map(str, getattr(gave, "sees", ()))),
+        tracks=tuple(map(_sighting, getattr(gave, "tracks", ()))),
         sharpness=_number(getattr(gave, "sharpness", 1.0)),
         file=None if file is None else str(file),
     )

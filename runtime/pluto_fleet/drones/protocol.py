@@ -29,7 +29,7 @@ not import these, but only give its exceptions this attribute. Their text is a r
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Protocol, runtime_checkable
@@ -159,6 +159,15 @@ class DroneEvent:
     """A sentence for a person, without the drone's name: "it lies on its back"."""
 
 
+InView = Callable[[Point, float, float], tuple[Sighting, ...]]
+"""Returns what moves in a rectangle of the map: around a place, so many metres along x and along y."""
+
+
+def nothing_in_view(place: Point, width: float, height: float) -> tuple[Sighting, ...]:
+    """Return nothing, as for a fleet without a tracker."""
+    return ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneSetup:
     """One drone of the fleet file, for the navigation that is to fly it."""
@@ -177,6 +186,8 @@ class DroneSetup:
     """An existing folder for files such as photos, shared by all drones."""
     silence: float = SILENCE
     """Seconds for which it may tell nothing in the air before its link counts as lost."""
+    in_view: InView = nothing_in_view
+    """What the fleet's tracker sees where a camera looks that cannot tell by itself what moves."""
 
 
 class DroneNavigation(Protocol):

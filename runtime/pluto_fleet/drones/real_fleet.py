@@ -44,6 +44,9 @@ class RealFleet:
     localization: str = OWN
     """Their localization: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object] = field(default_factory=dict)
+    tracker: str | None = None
+    """What says where things are that move: a name, or `module:Class`."""
+    tracker_options: Mapping[str, object] = field(default_factory=dict)
     wanted: tuple[RequiredAction, ...] = ()
     silence: float = SILENCE
     """Seconds for which a drone in the air may tell nothing before its flight fails."""
@@ -74,6 +77,8 @@ def real_fleet(
         ),
         localization=fleet.localization,
         localization_options=fleet.localization_options,
+        tracker=fleet.tracker,
+        tracker_options=fleet.tracker_options,
         wanted=_wanted([*_planned(missions), *_recorded(records)]),
         silence=fleet.silence,
     )

@@ -46,12 +46,14 @@ def fleet_text(fleet: FleetFile) -> str:
         "charges_at_home": None if fleet.charges_at_home else False,
         "navigation": None if fleet.navigation == CRAZYFLIE else fleet.navigation,
         "localization": None if fleet.localization == OWN else fleet.localization,
+        "tracker": fleet.tracker,
     }
     file: dict[str, Any] = {
         "map": of_map,
         "fleet": _given(behaviour),
         "motion": motion_data(fleet.motion) or None,
         "localization": fleet.localization_options or None,
+        "tracker": fleet.tracker_options or None,
         "navigation": fleet.options or None,
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),

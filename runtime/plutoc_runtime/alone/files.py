@@ -34,9 +34,11 @@ if TYPE_CHECKING:
 LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
 """Keys of a mission that only the library reads, and what it needs for them."""
 MISSIONS = ("mission",)
-FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "world")
+FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "tracker", "world")
 """What stands in the two files."""
-REAL: Keys = dict.fromkeys(("apart", "silence", "navigation", "localization"))  # of [fleet]
+REAL: Keys = dict.fromkeys(
+    ("apart", "silence", "navigation", "localization", "tracker")
+)  # of [fleet]
 T = TypeVar("T", bound=Table)
 HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 

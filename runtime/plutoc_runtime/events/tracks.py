@@ -55,10 +55,10 @@ class Tracks(Part):
         self._waiting: dict[str, list[Future[Track]]] = {}
 
     def tell(self, message: Mapping[str, Any]) -> None:
-        """Take over the reports of what moves: `tracks`, by id, with `at` and perhaps `kind`."""
-        now = self._core.kernel.now
+        """Take over the reports of what moves: `tracks`, by id, with `at`, perhaps `kind`, and seconds `ago`."""
         for id, report in message.get("tracks", {}).items():
             at = point_of(report["at"])
+            now = self._core.kernel.now - report.get("ago", 0.0)
             last = self.known.get(id)
             velocity = (0.0, 0.0, 0.0)
             if last is not None and 0.0 < now - last.time < LONGEST_GAP:
