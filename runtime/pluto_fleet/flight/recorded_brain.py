@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import BESIDE, FLEW
 from ..jobs.reports import result_data
+from ..journal.facts import TRACKED
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
@@ -22,6 +23,7 @@ from .driver import Driver
 from .mission_status import aside, in_order
 from .outcome import drones_of
 from .reconcile import Outcome, id_of, outcome_of, trip_of
+from .tracked import TrackedObjects
 
 if TYPE_CHECKING:
     from ..app import App
@@ -66,6 +68,8 @@ class RecordedBrain:
         self.hours = Hours(data["began"], data["zone"])
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.recorder = Recorder(kernel, sink, records, self.brain.rows)
+        self.tracked = TrackedObjects()
+        """What moves beside the drones."""
         self.told_to: dict[str, str] = {}
         """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
         self.to_land: set[str] = set()
@@ -163,8 +167,16 @@ class RecordedBrain:
         """Called with what the gateway tells."""
         if "flown" in message:
             self.flown(message["flown"])
-        else:
-            self.driver.tell(message)
+            return
+        if "tracks" in message:
+            self._track(message["tracks"])
+        self.driver.tell(message)
+
+    def _track(self, reports: Mapping[str, Any]) -> None:
+        """Record where what moves is: nothing follows from it but what the brain says."""
+        now = round(self.kernel.now, 3)
+        if news := self.tracked.take(reports, now):
+            self.recorder.measure({"t": now, "event": TRACKED, "tracks": news})
 
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""

@@ -228,6 +228,13 @@ class KeptRow(TypedDict):
     keep: float
 
 
+class TrackFacts(TypedDict):
+    """Where something was that moves; `kind` the first time."""
+
+    at: Point
+    kind: NotRequired[str]
+
+
 class ClockRow(TypedDict):
     """When the app first began, and how far the clock of the hours has drifted since."""
 
@@ -247,6 +254,8 @@ SHOWN = "shown"
 """The event of what pages are shown differently than before (`station/shown.py`)."""
 SAID = "said"
 """The event of a line of the console that nothing else tells."""
+TRACKED = "tracked"
+"""The event of what moves beside the drones: where it was reported."""
 DRAINED = "drone.drained"
 """The event of a drone that has come home with less than its reserve."""
 
@@ -316,17 +325,30 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.launched": _FLIGHT,
     ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
     "action.begun": {**_TRIP, "drone": str},
-    "action.result": {**_FLIGHT, "result": Any},
+    "action.result": {
+        **_FLIGHT,
+        "result": Any,
+        "at?": Point | None,
+        "action?": str,
+        "parameters?": dict[str, Any],
+    },
     "trip.relieving": {**_TRIP, "drone": str},
     "trip.handed_over": {**_FLIGHT, "of?": str | None, "away?": float, "reach?": float},
-    "event.raised": {"id": str, "kind": str, "raised": float, "fields?": dict[str, Any]},
+    "event.raised": {
+        "id": str,
+        "kind": str,
+        "raised": float,
+        **dict.fromkeys(("track?", "mission?", "trip?", "drone?"), str),
+        "at?": Point,
+        "fields?": dict[str, Any],
+    },
     "event.over": {"id": str, "made?": str, "why?": str},
     "event.kept": {"id": str, "kind": str, "keep": float},
     "event.dropped": {"id": str, "kind": str, "why": str},
     "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
-    "trip.interrupted": {**_TRIP, "reason?": str},
+    "trip.interrupted": {**_TRIP, "reason?": str, "by?": str},
     "trip.skipped": _TRIP,
     "trip.prioritised": {**_TRIP, "priority": float},
     **dict.fromkeys(
@@ -341,6 +363,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "drone.brought_back": {**_DRONE, "lost?": bool},
     "drone.joined": {"drone": str, "entry": dict[str, Any]},
     "drone.mishap": {"drone": str, "kind": str},
+    TRACKED: {"tracks": dict[str, TrackFacts]},
     FLEW: {
         "drone": str,
         "battery?": tuple[float, float] | float | None,

@@ -106,6 +106,11 @@ def _raised(event: Fact) -> str:
     return f"event {event['kind']} happens{where}{what} ({event['id']})"
 
 
+def _interrupted(event: Fact) -> str:
+    by = f" by event {event['by']}" if event.get("by") else ""
+    return f"trip {event['trip']} interrupted{by}; it will be flown again"
+
+
 def _over(event: Fact) -> str:
     made = event.get("made")
     came = f"mission {made} begins" if made else f"no mission: {event.get('why')}"
@@ -132,7 +137,7 @@ _SENTENCES: Mapping[str, Say] = {
     "mission.uncertain": "waits for a person: {reason}",
     "mission.held": "is held until a person decides: {reason}",
     "mission.decided": "a person has decided: {answer}",
-    "trip.interrupted": "trip {trip} interrupted; it will be flown again",
+    "trip.interrupted": _interrupted,
     "trip.skipped": "trip {trip} skipped",
     "trip.relieving": "{drone} sets out to relieve the drone of trip {trip}",
     "trip.handed_over": "{drone} takes over trip {trip} from {of}",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,13 +12,14 @@ from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
+from ..shared.events.declared import EventsDeclared
 from .map.drawn import WITHOUT_A_FLEET_FILE
 from .results.meaning import SIMULATED_UNITS, Meanings
 
 if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
-    from ..shared.domain.actions import Action
+    from ..shared.domain.actions import Action, Parameter
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .map.drawn import DrawnMap
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
         ActionData,
         AppData,
         CategoryData,
+        EventData,
         FieldData,
         GraphData,
         ParameterData,
@@ -85,6 +87,7 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
         },
         "evaluators": list(app.evaluators),
         "layers": layers(app, config.sim),
+        "events": _events(app),
         "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
         "categories": [_category(category) for category in app.categories],
         "drones": [
@@ -128,20 +131,38 @@ def _can(app: App, action: Action) -> bool:
 
 
 def _action(action: Action) -> ActionData:
-    parameters: list[ParameterData] = [
+    return {
+        "name": action.name,
+        "item": action.name in (PICK, RELEASE),
+        "parameters": _parameters(action.parameters),
+    }
+
+
+def _parameters(given: Iterable[Parameter]) -> list[ParameterData]:
+    return [
         {
             "name": one.name,
             "type": one.type.value,
             "units": _units(one.type),
             "default": one.default,
         }
-        for one in action.parameters
+        for one in given
     ]
-    return {
-        "name": action.name,
-        "item": action.name in (PICK, RELEASE),
-        "parameters": parameters,
-    }
+
+
+def _events(app: App) -> list[EventData] | None:
+    for part in app.parts:
+        if isinstance(part, EventsDeclared):
+            creates = {creator.event for creator in part.creators}
+            return [
+                {
+                    "name": one.name,
+                    "fields": _parameters(one.fields),
+                    "creates": one.name in creates,
+                }
+                for one in part.types
+            ]
+    return None
 
 
 def _units(kind: Type) -> list[str]:

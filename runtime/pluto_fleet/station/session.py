@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
     from ..shared.domain.trace import Event
-    from .wire import Alert, DroneRow, LineKind, MissionRow, State
+    from .wire import Alert, DroneRow, LineKind, MissionRow, State, TrackRow
 
 
 class Phase(Enum):
@@ -102,6 +102,8 @@ class FlightSession:
         self.feed = Feed(flight.app, units, self.id, name_of)
         self.missions: VersionedRows[MissionRow] = VersionedRows()
         self.drones: VersionedRows[DroneRow] = VersionedRows()
+        self.tracks: tuple[int, list[TrackRow]] = (0, [])
+        """What is tracked, with the version of its last change."""
         self.stops = Stops()
         self.one: LiveFlight | None = None
         self.records: Standing | None = known
@@ -239,7 +241,7 @@ class FlightSession:
         """Update the rows with this version; return whether anything has changed."""
         self._look_into_the_journal()
         changed = [self._see_missions(number), self._see_drones(number), self.feed.look(number)]
-        return any(changed)
+        return any(changed) | self._see_tracks(number)
 
     def _look_into_the_journal(self) -> None:
         """Read the journal again if it has changed, as a command may have brought a drone back."""
@@ -271,6 +273,14 @@ class FlightSession:
         for row in self._idle.rows(self.records) if life is None else self._sight.drones(life):
             changed |= put(row["id"], row, number)
         return changed
+
+    def _see_tracks(self, number: int) -> bool:
+        life = self.life
+        now = [] if life is None else [rows.track_row(*one) for one in life.tracked.now(self.now)]
+        if now == self.tracks[1]:
+            return False
+        self.tracks = (number, now)
+        return True
 
     def note(self, now: float, state: State, alerts: Iterable[Alert]) -> None:
         """Have the journal say what is shown."""

@@ -47,6 +47,15 @@ class ActionData(TypedDict):
     parameters: list[ParameterData]
 
 
+class EventData(TypedDict):
+    """An event that the app declares."""
+
+    name: str
+    fields: list[ParameterData]
+    creates: bool
+    """Whether a creator is asked to make a mission of it."""
+
+
 class CategoryData(TypedDict):
     """A category of drones."""
 
@@ -131,6 +140,8 @@ class AppData(TypedDict):
     actions: list[ActionData]
     categories: list[CategoryData]
     drones: list[FleetDrone]
+    events: list[EventData] | None
+    """Those that it declares, which can be raised; null: nothing happens in this app."""
     layers: list[Layer]
     """How results are shown on the map."""
     map: MapShape

@@ -180,7 +180,7 @@ class Company(Part):
             return Failed(str(fault), mends=False)
         else:
             if value is not None:
-                keep(core, state.mission, trip, keepable(value))
+                keep(core, state.mission, trip, keepable(value), action=action.name)
             return None
         finally:
             live.release()
@@ -192,6 +192,8 @@ class Company(Part):
         core = self._core
         kernel = core.kernel
         trip = flight.trip
+        action = given["action"]
+        parameters = given.get("parameters") or {}
         while flight.flier.telemetry.landed:
             await kernel.sleep(MOMENT, key=state.key)
         if trip.source is not None:
@@ -205,14 +207,11 @@ class Company(Part):
         while True:
             try:
                 value = await core.orders.ask(
-                    "act",
-                    flight.drone,
-                    action=given["action"],
-                    parameters=given.get("parameters") or {},
+                    "act", flight.drone, action=action, parameters=parameters
                 )
             except FlightFailed:
                 return None  # the end of its flight says why
-            keep(core, state.mission, trip, value)
+            keep(core, state.mission, trip, value, action=action, parameters=parameters)
             if "seconds" in given:
                 await kernel.sleep(given["seconds"], key=state.key)
                 continue

@@ -50,7 +50,7 @@ class FollowAction(FollowDeclared):
                 now = kernel.now
                 if now >= picture:
                     photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
-                    keep(core, state.mission, trip, photo)
+                    keep(core, state.mission, trip, photo, action=PHOTO)
                     picture += trip.parameters["every"]
                 if now >= ends:
                     return

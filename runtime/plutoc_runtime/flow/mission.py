@@ -239,11 +239,11 @@ class MissionState:
     def _and_its_item(self, reason: str) -> str:
         return reason if self.carries is None else f"{reason}, with {self.carries.name} aboard"
 
-    def interrupt(self, flight: Flight) -> None:
+    def interrupt(self, flight: Flight, **why: str) -> None:
         """Take back a flight that was broken off before its action was done."""
         self.interrupted = True
         self.flight = self.question = self.answer = None
-        self.core.transitions.interrupt(self.mission, flight.trip)
+        self.core.transitions.interrupt(self.mission, flight.trip, **why)
 
     def keep_item(self, flight: Flight | None) -> Drone | None:
         """Reserve the drone that has its item aboard, or may after a flight that was broken off; return it."""

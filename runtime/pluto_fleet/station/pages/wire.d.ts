@@ -43,6 +43,8 @@ export interface AppData {
   actions: ActionData[];
   categories: CategoryData[];
   drones: FleetDrone[];
+  /** Those that it declares, which can be raised; null: nothing happens in this app. */
+  events: EventData[] | null;
   /** How results are shown on the map. */
   layers: Layer[];
   map: MapShape;
@@ -116,6 +118,37 @@ export interface EdgeData {
   fork?: boolean;
   /** Whether the app has no such edge: missions end there all the same. */
   implicit?: boolean;
+}
+
+/** An event that the app declares. */
+export interface EventData {
+  name: string;
+  fields: ParameterData[];
+  /** Whether a creator is asked to make a mission of it. */
+  creates: boolean;
+}
+
+/** Something that has happened, and what has come of it. */
+export interface EventRow {
+  id: string;
+  name: string;
+  time: number;
+  at: number[] | null;
+  track: string | null;
+  /** That whose hook or drone has raised it. */
+  mission: string | null;
+  trip: string | null;
+  drone: string | null;
+  /** Those that the app declares. */
+  fields: Record<string, string | number | number | boolean | null>;
+  /** The missions that were made of it. */
+  made: string[];
+  /** The missions whose flights it has broken off. */
+  broke_off: string[];
+  /** Why no mission was made of it; empty: one was, nobody was asked, or nobody has answered yet. */
+  why: string;
+  /** When that was decided, in seconds of the flight. */
+  over: number | null;
 }
 
 /** A field of missions or of trips that the user of an app fills in. */
@@ -271,6 +304,10 @@ export interface LiveMessage {
   /** Results of before of which more is known now. */
   amended: Result[];
   alerts: Alert[];
+  /** Of those that were raised, or of which something has come; of many the newest. */
+  events: EventRow[];
+  /** All that is tracked, if that has changed. */
+  tracks?: TrackRow[];
   /** All others, if that has changed. */
   people?: Person[];
 }
@@ -494,6 +531,9 @@ export interface Replay {
   log: LogLine[];
   results: Result[];
   alerts: Alert[];
+  /** What has happened, as it is at the end; only with the first part, like the next. */
+  events: EventRow[];
+  tracks: TrackWay[];
   /** Of each drone pairs of time and level; only with the first part. */
   batteries: Record<string, number[][]>;
 }
@@ -637,6 +677,27 @@ export interface Swept {
   forbidden: number;
 }
 
+/** Something that moves, and is tracked. */
+export interface TrackRow {
+  id: string;
+  kind: string;
+  x: number;
+  y: number;
+  z: number;
+  /** When it was reported last, in seconds of the flight; where it is since then is not known. */
+  seen: number;
+  /** Where it was in the minute before that, the oldest first. */
+  trail: number[][];
+}
+
+/** Where something was that was tracked. */
+export interface TrackWay {
+  id: string;
+  kind: string;
+  /** Of each report the second of the flight, x, y and z. */
+  way: number[][];
+}
+
 /** A plan that was deleted, and can be restored. */
 export interface TrashedPlan {
   id: string;
@@ -644,7 +705,7 @@ export interface TrashedPlan {
   deleted_at: number;
 }
 
-/** A trip as the Monitor shows it. */
+/** A trip as the Monitor shows it. Where it follows what moves, its place is where its drone will meet that. */
 export interface TripRow {
   name: string;
   status: string;
@@ -652,6 +713,8 @@ export interface TripRow {
   y: number;
   priority: number | number | null;
   action: string;
+  /** The id of the track that it follows. */
+  track?: string;
 }
 
 /** The way of each pair of places, both ends included; None: there is none. */
