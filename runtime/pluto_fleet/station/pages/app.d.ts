@@ -22,6 +22,8 @@ declare global {
   type Alert = wire.Alert;
   type DroneHours = wire.DroneHours;
   type DroneRow = wire.DroneRow;
+  type EventRow = wire.EventRow;
+  type EventShape = wire.EventData;
   type FlightReport = wire.FlightReport;
   type FlightSummary = wire.FlightSummary;
   type Forecast = wire.Forecast;
@@ -50,6 +52,8 @@ declare global {
   type SavedPlans = wire.SavedPlans;
   type State = wire.State;
   type Swept = wire.Swept;
+  type TrackRow = wire.TrackRow;
+  type TrackWay = wire.TrackWay;
   type TrashedPlan = wire.TrashedPlan;
   type TripRow = wire.TripRow;
   type Words = wire.Words;
