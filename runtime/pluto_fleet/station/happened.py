@@ -40,6 +40,10 @@ class EventRows:
         match event["event"]:
             case "event.raised":
                 self._put(_raised(event))
+            case "event.dropped":  # it was raised while everything was stopped, and for too long
+                self._put(
+                    {**_raised(event), "why": cut_off(fact("why"), LONGEST), "over": fact("t")}
+                )
             case "event.over" if (row := self._rows.get(fact("id"))) is not None:
                 made = [*row["made"], fact("made")] if fact("made") else row["made"]
                 why = cut_off(fact("why", row["why"]), LONGEST)

@@ -12,12 +12,13 @@ import { Field } from "../ui/field.js";
 import { Button, Empty, joined, Problem, Said, Select } from "../ui/parts.js";
 
 const SHOWN = 100;
+const RAISED_IN = ["flying", "stopped", "interrupted"]; // what is stopped hears of it when it goes on
 
 /** @param {{ world: World, live: boolean }} props */
 export function EventList({ world, live }) {
   const rows = world.events.all().slice(-SHOWN).reverse();
   const types = /** @type {AppShape} */ (app.value).events ?? [];
-  const canRaise = live && mayFly.value && types.length > 0 && world.state.value.phase === "flying";
+  const canRaise = live && mayFly.value && types.length > 0 && RAISED_IN.includes(world.state.value.phase);
   return h("div", null, canRaise && h(Raise, { world, types }),
     rows.length ? h("ul", { "aria-label": t("monitor.events") }, rows.map((row) => h(Happened, { key: row.id, row })))
       : h(Empty, null, t("event.none")));
