@@ -47,6 +47,7 @@ const texts = {
   "drone.cut-how": "„{word}“ tippen und Enter drücken: die Drohne fällt sofort.",
   "drone.cut-type": "Motoren durch Tippen ausschalten",
   "drone.cut-word": "aus",
+  "drone.follows": "Folgt der Spur {track}",
   "drone.mission": "Fliegt für",
   "drone.ready-in": "bereit in etwa {time}",
   "drone.retire": "Aussetzen",

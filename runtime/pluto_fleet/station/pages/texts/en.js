@@ -41,6 +41,7 @@ export default {
   "drone.cut-how": "Type “{word}” and press Enter: the drone falls at once.",
   "drone.cut-type": "Cut motors by typing",
   "drone.cut-word": "cut",
+  "drone.follows": "Follows track {track}",
   "drone.mission": "Flies for",
   "drone.ready-in": "ready in about {time}",
   "drone.retire": "Retire",

@@ -47,6 +47,7 @@ const texts = {
   "drone.cut-how": "Scrivere “{word}” e premere Invio: il drone cade subito.",
   "drone.cut-type": "Spegni i motori scrivendo",
   "drone.cut-word": "spegni",
+  "drone.follows": "Segue la traccia {track}",
   "drone.mission": "Vola per",
   "drone.ready-in": "pronto fra circa {time}",
   "drone.retire": "Escludi",
