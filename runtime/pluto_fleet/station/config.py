@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,7 +12,7 @@ from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
-from ..shared.events.declared import EventsDeclared
+from ..shared.events.declared import AlongField, EventsDeclared
 from .map.drawn import WITHOUT_A_FLEET_FILE
 from .results.meaning import SIMULATED_UNITS, Meanings
 
@@ -82,8 +82,8 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
         "sim": config.sim or config.crtp_sim is not None,
         "speed": config.speed or 1.0,
         "fields": {
-            "mission": [_field(field) for field in app.fields if field.on is Entity.MISSION],
-            "trip": [_field(field) for field in app.fields if field.on is Entity.TRIP],
+            "mission": [_field(one, app.actions) for one in app.fields if one.on is Entity.MISSION],
+            "trip": [_field(one, app.actions) for one in app.fields if one.on is Entity.TRIP],
         },
         "evaluators": list(app.evaluators),
         "layers": layers(app, config.sim),
@@ -113,7 +113,7 @@ def layers(app: App, sim: bool) -> list[Layer]:
     return Meanings(app.results, able, SIMULATED_UNITS if sim else {}).layers
 
 
-def _field(field: Field) -> FieldData:
+def _field(field: Field, built_in: Container[str]) -> FieldData:
     kind = field.type
     data: FieldData = {
         "name": field.name,
@@ -121,8 +121,13 @@ def _field(field: Field) -> FieldData:
         "label": field.label,
         "default": field.default,
     }
-    if isinstance(field, OwnField) and isinstance(kind, Type):
-        data["own"], data["needed"], data["units"] = True, bool(field.hint), _units(kind)
+    if isinstance(kind, Type):
+        data["units"] = _units(kind)
+    if isinstance(field, OwnField):
+        data["own"], data["needed"] = True, bool(field.hint)
+    if isinstance(field, AlongField):
+        data["actions"] = list(field.actions)
+        data["spaced"] = [name for name in field.actions if name in built_in]
     return data
 
 

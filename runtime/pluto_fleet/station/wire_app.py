@@ -12,7 +12,7 @@ class FieldData(TypedDict):
 
     name: str
     type: str
-    """`time`, `int`, `rounds`, `time of day`, `evaluator`, or the type of a field of the app's own."""
+    """`time`, `int`, `rounds`, `time of day`, `evaluator`, `along`, or a type of the language."""
     label: str
     default: Scalar | None
     own: NotRequired[bool]
@@ -20,6 +20,10 @@ class FieldData(TypedDict):
     needed: NotRequired[bool]
     """Whether it must be filled in."""
     units: NotRequired[list[str]]
+    actions: NotRequired[list[str]]
+    """Of `along`: what can be done on the way."""
+    spaced: NotRequired[list[str]]
+    """Those of them that are done again and again, `every` so far or so long."""
 
 
 class FieldsData(TypedDict):

@@ -256,12 +256,13 @@ class CompanyDeclared(PartOf):
         target = trip.get("target")
         if not isinstance(target, dict) or "track" not in target:
             return trip
-        of_target = {name: one for name, one in target.items() if name in _OF_TARGET}
-        unknown = {name: one for name, one in target.items() if name not in _OF_TARGET}
+        of_target = {name: one for name, one in target.items() if name in OF_TARGET}
+        unknown = {name: one for name, one in target.items() if name not in OF_TARGET}
         return {**trip, **of_target, "target": unknown or [0.0, 0.0]}
 
 
-_OF_TARGET = ("track", "reach", "lost_after")
+OF_TARGET = ("track", "reach", "lost_after")
+"""What a target says that moves, which are fields of its trip."""
 
 
 def _read_along(actions: Mapping[str, Action], value: object) -> Along:

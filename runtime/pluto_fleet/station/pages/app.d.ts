@@ -76,6 +76,8 @@ declare global {
     default?: Scalar | null;
     hint?: string;
   };
+  /** What is done on the way of a trip. */
+  type Along = { action: string; every?: string; parameters?: Record<string, Scalar> };
   /** A trip of the plan, with the fields that the app's trips have beside. */
   type PlanTrip = wire.PlanTrip;
   /** A mission of the plan, with the fields that the app's missions have beside. */
@@ -241,5 +243,5 @@ declare global {
   }
 
   /** Of a field: no value, it is empty; typing, more of the same is likely to come at once; wrong, what was typed cannot be in the plan. */
-  type Changed = (value: Scalar | undefined, typing: boolean, wrong: { typed: string; why: string } | null) => void;
+  type Changed = (value: Scalar | Along | undefined, typing: boolean, wrong: { typed: string; why: string } | null) => void;
 }

@@ -154,7 +154,7 @@ export interface EventRow {
 /** A field of missions or of trips that the user of an app fills in. */
 export interface FieldData {
   name: string;
-  /** `time`, `int`, `rounds`, `time of day`, `evaluator`, or the type of a field of the app's own. */
+  /** `time`, `int`, `rounds`, `time of day`, `evaluator`, `along`, or a type of the language. */
   type: string;
   label: string;
   default: string | number | number | boolean | null;
@@ -163,6 +163,10 @@ export interface FieldData {
   /** Whether it must be filled in. */
   needed?: boolean;
   units?: string[];
+  /** Of `along`: what can be done on the way. */
+  actions?: string[];
+  /** Those of them that are done again and again, `every` so far or so long. */
+  spaced?: string[];
 }
 
 /** The fields that this app has. */

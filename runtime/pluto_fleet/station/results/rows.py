@@ -124,12 +124,11 @@ class ResultRows:
 
     def _on_the_way(self, event: Event) -> tuple[Result, Any]:
         """Return what an action has brought while its drone flew on."""
-        given: Any = event.get("parameters", {})
+        fact: Any = event.get
         row = self._row(event)
-        row["at"] = event.get("at")
-        action = event.get("action")
-        name = None if action is None else str(action)
-        return self._done(row, name, given, event.get("result"))
+        if fact("at") is not None:
+            row["at"] = [round(one, 3) for one in fact("at")]
+        return self._done(row, fact("action"), fact("parameters", {}), fact("result"))
 
     def _done(
         self, row: Result, name: str | None, parameters: Mapping[str, Any], data: Any

@@ -19,9 +19,16 @@ import { EventList, picking } from "./events.js";
 import { Graph } from "./graph.js";
 import { MissionList } from "./missions.js";
 
+/** Where a trip leads; what it follows may not be known any more. @param {World} world @param {TripRow} trip */
+const spot = (world, trip) => (trip.track ? world.tracks.get(trip.track) : trip);
+
 /** @param {{ world: World, chosen: string | null }} props */
 export function Targets({ world, chosen }) {
-  const way = world.missions.get(chosen)?.trips ?? [];
+  const trips = world.missions.get(chosen)?.trips ?? [];
+  const way = trips.flatMap((trip) => {
+    const at = spot(world, trip);
+    return at ? [{ x: at.x, y: at.y, status: trip.status }] : [];
+  });
   return h("g", { class: "layer targets" },
     way.length > 1 && h("polyline", { class: "way", points: way.map(({ x, y }) => `${x},${y}`).join(" ") }),
     way.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
@@ -33,8 +40,9 @@ export function Targets({ world, chosen }) {
 function Target({ world, name, isChosen }) {
   const row = world.missions.get(name);
   if (!row?.drone || hasEnded(row) || row.current === null) return null;
-  const trip = row.trips[row.current];
-  const { x, y } = world.tracks.get(trip.track) ?? trip; // where what it follows is now
+  const at = spot(world, row.trips[row.current]);
+  if (!at) return null;
+  const { x, y } = at;
   return h(Mark, { x, y, class: `target ${isChosen ? "chosen" : ""}` },
     h("g", { "data-own": true, onClick: () => selectMission(name) },
       h("title", null, name), h("path", { d: "M0-10L10 0 0 10-10 0z" }), h("text", { y: 4 }, row.index + 1)));

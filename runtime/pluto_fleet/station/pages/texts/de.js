@@ -69,6 +69,7 @@ const texts = {
   "event.write-metres": "Schreiben Sie beide Meter als Zahl.",
   "event.x": "Wo, x in Metern",
   "event.y": "Wo, y in Metern",
+  "field.every": "Wie oft: eine Länge oder eine Zeit",
   "field.foreign": "Eine andere Seite hat hier „{now}“ geschrieben: weitertippen, um es zu ersetzen, oder das Feld verlassen, um es zu übernehmen.",
   "field.half-a-time": "Diese Uhrzeit ist nicht vollständig.",
   "field.more-rounds": "weitere Runden",

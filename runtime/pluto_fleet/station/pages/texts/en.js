@@ -63,6 +63,7 @@ export default {
   "event.write-metres": "Write the metres as a number, of both.",
   "event.x": "Where, x in metres",
   "event.y": "Where, y in metres",
+  "field.every": "How often: a length or a time",
   "field.foreign": "Another page has changed this to “{now}”: type on to replace that, or leave this field to take it.",
   "field.half-a-time": "This time is not complete.",
   "field.more-rounds": "more rounds",

@@ -69,6 +69,7 @@ const texts = {
   "event.write-metres": "Scrivi i metri come numero, di entrambi.",
   "event.x": "Dove, x in metri",
   "event.y": "Dove, y in metri",
+  "field.every": "Ogni quanto: una lunghezza o un tempo",
   "field.foreign": "Un’altra pagina ha scritto qui “{now}”: continuare a scrivere per sostituirlo, o lasciare il campo per accettarlo.",
   "field.half-a-time": "Questa ora non è completa.",
   "field.more-rounds": "altri giri",

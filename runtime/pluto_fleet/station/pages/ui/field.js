@@ -54,6 +54,7 @@ export function Field(props) {
   if (type === "rounds") return framed(given, Rounds(given));
   if (type === "bool") return framed(given, needed ? YesOrNo(given) : Tick(given));
   if (type === "evaluator") return framed(given, Evaluator(given));
+  if (type === "along") return framed(given, Along(given));
   return h(Typed, given);
 }
 
@@ -144,6 +145,27 @@ function Tick(props) {
   return h("input", {
     ...shared(props), type: "checkbox", checked: isTicked, onChange: () => onChange(!isTicked, false, null),
   });
+}
+
+const USUALLY_EVERY = "1 m";
+
+/** What is done on the way, and how often. @param {ControlProps} props */
+function Along(props) {
+  const { field: { actions = [], spaced = [] }, locked, onChange } = props;
+  const now = /** @type {Along} */ (typeof props.value === "string" ? { action: props.value } : props.value ?? { action: "" });
+  const { action, every } = now;
+  const pick = (/** @type {string} */ name) =>
+    (name ? { action: name, ...(spaced.includes(name) ? { every: every ?? USUALLY_EVERY } : {}) } : undefined);
+  const write = (/** @type {Event} */ event, /** @type {boolean} */ typing) => {
+    const { value } = /** @type {HTMLInputElement} */ (event.currentTarget);
+    onChange({ ...now, every: value }, typing, null);
+  };
+  return h("div", { class: "row along" },
+    h(Select, { ...shared(props), class: "", value: action, options: [["", t("none")], ...actions.map((name) => [name, capital(name)])], onPick: (name) => onChange(pick(name), false, null) }),
+    spaced.includes(action) && h("input", {
+      "aria-label": t("field.every"), placeholder: t("field.such-as", { example: "2 m" }), maxLength: 20, autocomplete: "off", disabled: locked, value: every ?? "",
+      onInput: (/** @type {Event} */ event) => write(event, true), onChange: (/** @type {Event} */ event) => write(event, false),
+    }));
 }
 
 /** @param {ControlProps} props */
