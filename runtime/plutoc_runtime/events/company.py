@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..domain.errors import ActionFailed, Cancelled, FlightFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import put
-from ..domain.model import Sighting
+from ..domain.model import NO_RESULT, Sighting
 from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
 from ..fleet.reach import needed
 from ..flow.asking import kept_by, take_over
@@ -24,7 +24,7 @@ from .part import Part
 from .tracks import Tracks
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Point, Trip
+    from ..domain.model import Drone, Mission, Point, Trip
     from ..flow.engine import Engine
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
@@ -190,21 +190,21 @@ class Company(Part):
     async def _repeat(self, state: MissionState, flight: Flight, given: Along) -> Failed | None:
         """Do a built-in action again and again on the way, without a stop, by its spacing."""
         core = self._core
-        kernel = core.kernel
         trip = flight.trip
         action = given["action"]
         parameters = given.get("parameters") or {}
-        while flight.flier.telemetry.landed:
-            await kernel.sleep(MOMENT, key=state.key)
-        if trip.source is not None:
-            x, y, z = trip.source
-            # others in the way may have it fly higher, or lower, down to the cruise height
-            least = min(z, core.airspace.cruise_height) - AT
-            while (left := dist(flight.flier.location[:2], (x, y))) > AT or (
-                flight.flier.location[2] < least
-            ):
-                await kernel.sleep(_soon(flight.flier, left), key=state.key)
+        seconds = given.get("seconds")
+        metres = given.get("metres", 0.0)
+        over = 0.0
+        here = self._last_place(state.mission, trip)
+        if here is None:
+            await self._begun(state, flight)
+        elif seconds is None:  # it has gone on while the app was not there
+            over = await self._further(state, flight, here, metres)
         while True:
+            here = flight.flier.location
+            if trip.action == action and dist(here[:2], trip.target[:2]) < metres / 2:
+                return None  # its own action is at that place
             try:
                 value = await core.orders.ask(
                     "act", flight.drone, action=action, parameters=parameters
@@ -212,16 +212,44 @@ class Company(Part):
             except FlightFailed:
                 return None  # the end of its flight says why
             keep(core, state.mission, trip, value, action=action, parameters=parameters)
-            if "seconds" in given:
-                await kernel.sleep(given["seconds"], key=state.key)
-                continue
-            metres = given["metres"]
-            here = flight.flier.location
-            while (left := metres - dist(here, flight.flier.location)) > min(AT, metres / 4):
-                await kernel.sleep(_soon(flight.flier, left), key=state.key)
-            to_end = dist(flight.flier.location[:2], trip.target[:2])
-            if trip.action == given["action"] and to_end < metres / 2:
-                return None  # its own action is at that place
+            if seconds is None:
+                over = await self._further(state, flight, here, metres - over)
+            else:
+                await core.kernel.sleep(seconds, key=state.key)
+
+    def _last_place(self, mission: Mission[Any], trip: Trip) -> Point | None:
+        """Return where the last result of this flight was kept; None: there is none."""
+        if mission.last_result == NO_RESULT:
+            return None
+        result = self._core.results.results[mission.last_result]
+        is_its_own = result.trip is trip and result.attempt == trip.attempt
+        return result.place if is_its_own and result.round == mission.round else None
+
+    async def _begun(self, state: MissionState, flight: Flight) -> None:
+        """Wait until a drone has taken off and, if its trip has a source, is there."""
+        kernel = self._core.kernel
+        while flight.flier.telemetry.landed:
+            await kernel.sleep(MOMENT, key=state.key)
+        source = flight.trip.source
+        if source is None:
+            return
+        # others in its way may have it fly higher, or lower, down to the cruise height
+        least = min(source[2], self._core.airspace.cruise_height) - AT
+        while True:
+            x, y, z = flight.flier.location
+            left = dist((x, y), source[:2])
+            if left <= AT and z >= least:
+                return
+            await kernel.sleep(_soon(flight.flier, left), key=state.key)
+
+    async def _further(
+        self, state: MissionState, flight: Flight, here: Point, metres: float
+    ) -> float:
+        """Wait until a drone is so far from a place; return by how many metres it is further."""
+        near = flight.flier.category.speed * MOMENT / 2
+        while (left := metres - dist(here, flight.flier.location)) > near:
+            await self._core.kernel.sleep(_soon(flight.flier, left), key=state.key)
+        return -left if -left < near else 0.0  # of what is late by more, nothing is made up for
 
     # A target that moves
 
