@@ -218,12 +218,11 @@ class Company(Part):
                 await core.kernel.sleep(seconds, key=state.key)
 
     def _last_place(self, mission: Mission[Any], trip: Trip) -> Point | None:
-        """Return where the last result of this flight was kept; None: there is none."""
-        if mission.last_result == NO_RESULT:
+        """Return where the last result of a trip was kept since its drone left for it; None: there is none."""
+        if mission.last_result == NO_RESULT or trip.start_time is None:
             return None
         result = self._core.results.results[mission.last_result]
-        is_its_own = result.trip is trip and result.attempt == trip.attempt
-        return result.place if is_its_own and result.round == mission.round else None
+        return result.place if result.trip is trip and result.time >= trip.start_time else None
 
     async def _begun(self, state: MissionState, flight: Flight) -> None:
         """Wait until a drone has taken off and, if its trip has a source, is there."""
