@@ -248,7 +248,7 @@ class Company(Part):
         near = flight.flier.category.speed * MOMENT / 2
         while (left := metres - dist(here, flight.flier.location)) > near:
             await self._core.kernel.sleep(_soon(flight.flier, left), key=state.key)
-        return -left if -left < near else 0.0  # of what is late by more, nothing is made up for
+        return -left if -left < metres / 2 else 0.0  # what is later is not made up for
 
     # A target that moves
 
