@@ -165,6 +165,7 @@ class Living:
             listeners=[self.events.append],
             charges=fleet.charges_at_home,
         )
+        life.in_simulation = True
         disk.life = life
         return life
 

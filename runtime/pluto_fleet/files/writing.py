@@ -21,6 +21,7 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import Motion, motion_of
 from ..shared.domain.values import MOTION, KeyPath
 from ..shared.events.declared import Along
+from ..shared.events.world import Mover
 from .fleet import CRAZYFLIE, OWN, DroneEntry, FleetFile
 from .landmarks import Landmarks, Picture
 from .toml import headers, places, toml_text, toml_value
@@ -88,7 +89,14 @@ def _world(world: WorldData) -> dict[str, Any]:
         "background": {**world.background},
         "source": [asdict(source) | {"at": [*source.at]} for source in world.sources],
         "feature": [asdict(feature) | {"at": [*feature.at]} for feature in world.features],
+        "mover": [_mover(mover) for mover in world.movers],
+        "event": [*world.events],
     }
+
+
+def _mover(mover: Mover) -> dict[str, Any]:
+    given = asdict(mover)
+    return {**given, "path": [[*corner] for corner in mover.path], "from": given.pop("starts")}
 
 
 def _floats(numbers: Sequence[float]) -> list[float]:

@@ -47,9 +47,14 @@ class FlightSetup:
     """Whether the drones are Crazyflies that are simulated down to their radio."""
 
     @property
+    def in_simulation(self) -> bool:
+        """Whether no drone is real."""
+        return self.sim or self.crtp
+
+    @property
     def charges(self) -> bool:
         """Whether a battery that is low may become full: what is real has its say itself."""
-        return self.fleet.charges_at_home or not (self.sim or self.crtp)
+        return self.fleet.charges_at_home or not self.in_simulation
 
     @property
     def how_to_go_on(self) -> str:

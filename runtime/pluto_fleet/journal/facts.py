@@ -213,7 +213,8 @@ class OccurrenceFacts(TypedDict):
 class HappeningRow(TypedDict):
     """An event that was raised, and what has come of it."""
 
-    event: OccurrenceFacts
+    event: dict[str, Any]
+    """What is known of it: OccurrenceFacts, and its own fields."""
     open: list[str]
     made: NotRequired[list[str]]
     why: NotRequired[str]
@@ -500,6 +501,7 @@ _APP: Mapping[str, Decoder[Any]] = {
 }
 _DELAY = fits(tuple[Place, float, float])
 _WAITED = fits(Place)
+_OCCURRENCE = fits(OccurrenceFacts)
 _PROMISES = fits(PromiseFacts)
 _STATUSES = {status.value for status in Status}
 _TRIPS = {status.value for status in TripStatus}
@@ -536,6 +538,8 @@ def _is_sound(table: str, row: Mapping[str, Any]) -> bool:
             return row.get("status", "WAITING") in _TRIPS
         case "result":
             return _is_value(row["value"])
+        case "happening":
+            return _OCCURRENCE(row["event"])
         case "app":
             return "is" in row
     return True

@@ -239,7 +239,7 @@ def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
     if "world" not in top.data:
         return None
     table = top.table("world")
-    table.read({}, dict.fromkeys(("background", "feature", "source", "mover")))
+    table.read({}, dict.fromkeys(("background", "feature", "source", "mover", "event")))
     levels = table.table("background")
     seen: Keys = {"kind": values.name, "at": values.corner}
     radius: Keys = {"radius": values.RADIUS}
@@ -250,5 +250,6 @@ def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
         features=tuple(Feature(**one) for one in features),
         sources=tuple(Source(**one) for one in sources),
         movers=tuple(one for part in parts for one in part.movers(table)),
+        events=tuple(one for part in parts for one in part.happens(table)),
         background=levels.read({}, dict.fromkeys(levels.data, values.real)),
     )

@@ -25,6 +25,10 @@ class PartOf:
         """Return what the `[world]` of a fleet file has for it."""
         return ()
 
+    def happens(self, world: Table) -> tuple[Mapping[str, Any], ...]:
+        """Return what happens in the simulated world, as its `[world]` says."""
+        return ()
+
     def __call__(self, engine: Any) -> Any:
         """Return it in a running app: a `Part` of flow/mission.py."""
         raise NotImplementedError

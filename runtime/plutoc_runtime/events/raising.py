@@ -11,17 +11,14 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput, HookFault
-from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
-from ..domain.keeper import keeper_of, put, reading, trips_of
+from ..domain.keeper import put, reading
 from ..domain.status import DroneStatus, Status
-from ..domain.text import LONGEST_REASON, bounded, class_of
-from ..domain.values import is_name, point, point_on
-from ..fleet.reach import miss_of
+from ..domain.text import LONGEST_REASON, bounded, duration, quoted
+from ..domain.values import point, point_on
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
 from ..hooks.plain_data import keepable
-from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
 from .changes import keep
 from .context import Context, Outside
@@ -38,10 +35,11 @@ from .declared import (
     read_occurrence,
 )
 from .interruption import Interruption
+from .made import wrong_mission
 from .part import Part
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Point, Trip
+    from ..domain.model import Drone, Mission, Point
     from ..domain.trace import Row
     from ..flow.engine import Engine
     from ..flow.flight import Flight
@@ -90,6 +88,8 @@ class Events(Part):
         """The drones that hover for their missions, by the names of these, since an event broke a flight off."""
         self._interrupted: dict[str, dict[Flight, list[Interruption]]] = {}
         """By the names of events, the flights that they break off."""
+        self._counted_since = 0.0
+        self._counted = 0  # the events that hooks have raised since then
         self.commands = {"raise": self._raise}
         self._core.trace.listen(self._hear)
         self._core.transitions.noted = True
@@ -97,6 +97,36 @@ class Events(Part):
         self._core.queue.entered = self.release
 
     # What happens
+
+    def tell(self, message: Mapping[str, Any]) -> None:
+        """Have happen what happens in a simulated world: each once `after` so many seconds."""
+        for one in message.get("happens", ()):
+            if one["id"] not in self.happenings:
+                self._engine.expect()
+                when = max(self._core.kernel.now, one["after"])
+                self._core.kernel.at(when, EventKind.CLOCK, FLEET, partial(self._in_world, one))
+
+    def _in_world(self, one: Mapping[str, Any]) -> None:
+        given = {name: fact for name, fact in one.items() if name not in ("name", "after")}
+        try:
+            self.happen(one["name"], given)
+        except BadInput as error:
+            self._core.log(str(error))
+        self._engine.expect_no_more()
+
+    def emit(self, name: str, given: Mapping[str, Any]) -> None:
+        """Note an occurrence that a hook raises; raise `ValueError` if it cannot be."""
+        now = self._core.kernel.now
+        if now - self._counted_since >= WITHIN:
+            self._counted_since = now
+            self._counted = 0
+        self._counted += 1
+        if self._counted > MOST:
+            raise ValueError(
+                f"hooks have raised {MOST:,} events within {duration(WITHIN)}: what an event leads to "
+                "raises events again, without an end"
+            )
+        self.happen(name, given, ValueError)
 
     def happen(
         self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception] = BadInput
@@ -126,6 +156,8 @@ class Events(Part):
 
     def _raise(self, request: Mapping[str, Any]) -> None:
         """Raise an event as a person, or another program, wants."""
+        if request.get("event") in (LATE, LOST):
+            raise BadInput(f"{request['event']} is raised by the app itself")
         given = {name: value for name, value in request.items() if name not in ("command", "event")}
         self.happen(str(request.get("event")), given)
 
@@ -140,6 +172,9 @@ class Events(Part):
             return round(x, 3), round(y, 3), round(z, 3)  # no camera sees more exactly
 
         facts = read_occurrence(self._types, name, given, on_the_map, wrong)
+        for what, known in (("mission", self._engine.states), ("drone", self._core.orders.drones)):
+            if what in facts and facts[what] not in known:
+                raise wrong(f"event {name}: there is no {what} {quoted(facts[what])}")
         facts.setdefault("id", f"{name}-{len(self.happenings) + 1}")
         return facts
 
@@ -280,41 +315,10 @@ class Events(Part):
             raise fault_of(hook, error) from error
         if made is None:
             return None
-        if (wrong := self._wrong_mission(made)) is not None:
+        if (wrong := wrong_mission(core, made)) is not None:
             raise HookFault(f"creator {hook_name(hook)} made a mission that cannot be: {wrong}")
         put(made, index=self._next_index(), name=self._free_name(made.name))
         return made  # type: ignore[no-any-return]  # its class was checked
-
-    def _wrong_mission(self, made: Any) -> str | None:
-        """Return what is wrong with a mission that a creator has made, or None."""
-        core = self._core
-        if type(made) is not core.app.mission:
-            return f"it must be a Mission of this app or None, not {class_of(made)}"
-        if keeper_of(made) is not None:
-            return f"mission {made.name} is in the app already: make a new one"
-        if not is_name(made.name):
-            return "its name must be a text that can be shown"
-        trips = trips_of(made)
-        if not trips:
-            return f"mission {made.name} has no trips"
-        if len({id(trip) for trip in trips}) != len(trips):
-            return f"mission {made.name} has a trip twice"
-        wrong = [unsound(core.app, core.airspace, trip) for trip in trips]
-        fields = wrong_field(core.app.fields, Entity.MISSION, made, core.app.evaluators)
-        return next(filter(None, [*wrong, fields]), None) or self._beyond_all(trips)
-
-    def _beyond_all(self, trips: Sequence[Trip]) -> str | None:
-        """Return why no drone of the fleet could ever fly these trips, or None."""
-        core = self._core
-        for trip in trips:
-            misses = [
-                miss_of(core.app, core.airspace, drone.category, drone.home, (trip,))
-                for drone in core.fleet.drones
-            ]
-            if None not in misses:
-                reasons = dict.fromkeys(miss.reason for miss in misses if miss)
-                return f"trip {trip.name}: {'; '.join(reasons)}"
-        return None
 
     def _next_index(self) -> int:
         states = self._engine.states.values()
@@ -393,5 +397,8 @@ def _as_noted(event: Event, kind: EventType) -> dict[str, Any]:
     return {**noted, "fields": fields} if fields else noted
 
 
+MOST = 1_000
+WITHIN = 10.0
+"""So many events, within so many seconds, are those of hooks that raise each other's for ever."""
 BUILT_IN = (EventType(name=LATE), EventType(name=LOST))
 _OF_ALL = (*FACTS, "name", "time", "at")

@@ -16,7 +16,7 @@ from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
 from pluto_fleet.shared.events.interruption import anything, own
-from pluto_fleet.shared.events.raising import EventsOf
+from pluto_fleet.shared.events.raising import MOST, EventsOf
 from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.event_monitor.step import watch_event
 from plutoc_blocks.gate_fifo.step import pass_first
@@ -42,6 +42,13 @@ def chase(event: Intruder, context: Any) -> apps.Mission | None:
     if event.kind == "cat":
         return None
     return apps.mission(f"chase {event.kind}", apps.trip("picture", event.at[0]))  # type: ignore[index]
+
+
+def promising(**promises: object) -> Any:
+    """Return a mission that promises this."""
+    mission = apps.mission("m", apps.trip("t", 3.0))
+    mission.promises = promises
+    return mission
 
 
 def app_with(
@@ -121,6 +128,9 @@ def test_a_wrong_event_is_refused_with_what_is_wrong() -> None:
         ({"at": [99.0, 2.0]}, "event intruder: at [99.0, 2.0] is outside"),
         ({"colour": "red"}, 'event intruder: unknown key "colour"'),
         ({"fields": {"kind": 3}}, "event intruder: kind 3 is not a text"),
+        ({"mission": "another"}, 'event intruder: there is no mission "another"'),
+        ({"drone": "cf9"}, 'event intruder: there is no drone "cf9"'),
+        ({"event": "late"}, "late is raised by the app itself"),
     ):
         with pytest.raises(BadInput, match=f"^{re.escape(message)}"):
             brain.command({"command": "raise", "event": "intruder", **request}, 1.0)
@@ -138,6 +148,13 @@ def test_a_wrong_event_is_refused_with_what_is_wrong() -> None:
         ),
         (lambda *_: apps.mission("m", apps.trip("t", 3.0, action="dance")), "trip t: there is no"),
         (lambda *_: apps.mission(" ", apps.trip("t", 3.0)), "its name must be a text"),
+        (lambda *_: promising(deadline="5 s"), "its promise deadline must be seconds from now"),
+        (lambda *_: promising(deadline=-1.0), "its promise deadline must be seconds from now"),
+        (lambda *_: promising(deadlin=5.0), 'its promises have "deadlin"; there may be: deadline,'),
+        (
+            lambda *_: promising(after="patrol"),
+            "its promise after must be a list of missions' names",
+        ),
         (lambda *_: 1 / 0, "ZeroDivisionError"),
     ],
 )
@@ -154,7 +171,7 @@ def test_an_own_event_breaks_a_flight_off_and_charges_no_attempt() -> None:
     brain = charged(app=app_with(lambda *_: None))
     brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
     settled(brain, 0.0)
-    raised(brain, 2.0, mission="another")
+    raised(brain, 2.0)
     assert settled(brain, 2.0) == []
     raised(brain, 3.0, mission="patrol")
     orders = settled(brain, 3.0)
@@ -176,6 +193,36 @@ def test_a_trip_that_ends_at_that_instant_has_ended_first() -> None:
     brain.tell({"done": fly["id"]}, 3.0)
     settled(brain, 3.0)
     assert brain.mission("patrol")["status"] == "COMPLETED"
+
+
+def test_events_that_raise_themselves_come_to_an_end() -> None:
+    def again(event: Event, context: Any) -> None:
+        context.emit("intruder", at=event.at)
+
+    brain = charged(app=app_with(again))
+    raised(brain, 1.0, at=[4.0, 2.0])
+    settled(brain, 1.0)
+    happened = brain.standing()["happenings"]
+    assert len(happened) == MOST + 1
+    assert "without an end" in [*happened.values()][-1]["why"]
+    assert brain.over == 1.0
+
+
+def test_what_happens_in_a_world_does_so_at_its_time_and_once_over_restarts() -> None:
+    happens = [{"id": "world/1", "name": "intruder", "after": 5.0, "at": (4.0, 2.0)}]
+    brain = charged(app=app_with(), recorded=True)
+    brain.go_on({}, {"cf1": {"reached": True, "landed": True}}, 0.0)
+    brain.tell({"happens": happens}, 0.0)
+    settled(brain, 4.9)
+    assert not brain.standing()["happenings"]
+    assert brain.over is None  # something will happen yet
+    settled(brain, 5.0)
+    assert [*brain.standing()["happenings"]] == ["world/1"]
+    later = charged(app=app_with(), recorded=True)
+    later.restore(brain.standing(), 9.0)
+    later.go_on({}, {"cf1": {"reached": True, "landed": True}}, 9.0)
+    later.tell({"happens": happens}, 9.0)
+    assert "event.raised" not in kinds(later)
 
 
 def test_a_creator_cancels_a_mission() -> None:
