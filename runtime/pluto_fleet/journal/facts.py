@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
-from msgspec import Meta, MsgspecError
+from msgspec import Meta, MsgspecError, convert
 from msgspec.json import Decoder
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
@@ -343,7 +343,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
         "at?": Point,
         "fields?": dict[str, Any],
     },
-    "event.over": {"id": str, "made?": str, "why?": str},
+    "event.over": {"id": str, "made?": str, "why?": str, "fault?": bool},
     "event.kept": {"id": str, "kind": str, "keep": float},
     "event.dropped": {"id": str, "kind": str, "why": str},
     "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
@@ -501,7 +501,6 @@ _APP: Mapping[str, Decoder[Any]] = {
 }
 _DELAY = fits(tuple[Place, float, float])
 _WAITED = fits(Place)
-_OCCURRENCE = fits(OccurrenceFacts)
 _PROMISES = fits(PromiseFacts)
 _STATUSES = {status.value for status in Status}
 _TRIPS = {status.value for status in TripStatus}
@@ -539,7 +538,7 @@ def _is_sound(table: str, row: Mapping[str, Any]) -> bool:
         case "result":
             return _is_value(row["value"])
         case "happening":
-            return _OCCURRENCE(row["event"])
+            convert(row["event"], OccurrenceFacts)  # raises what is caught
         case "app":
             return "is" in row
     return True

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
-from ..shared.domain.text import duration, number, percent, place, printable
+from ..shared.domain.text import duration, number, percent, place, printable, shown
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -103,7 +103,8 @@ def _raised(event: Fact) -> str:
     at = event.get("at")
     where = f" at {place(at)}" if at else ""
     what = f", track {event['track']}" if event.get("track") else ""
-    return f"event {event['kind']} happens{where}{what} ({event['id']})"
+    fields = "".join(f", {name} {shown(one)}" for name, one in event.get("fields", {}).items())
+    return f"event {event['kind']} happens{where}{what}{fields} ({event['id']})"
 
 
 def _interrupted(event: Fact) -> str:

@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING
 
 from ..files.fleet import with_joined
 from ..flight.config import how_to_go_on
-from ..flight.lives import Resumable, fleet_in, reopen
+from ..flight.lives import Resumable, reopen
 from ..flight.offline import record_loss, record_return, returned
 from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place
-from ..journal.header import Header, check_whole
+from ..journal.header import Header, check_whole, fleet_in
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.standing import Standing, inherited

@@ -58,6 +58,7 @@ PastFlight = Annotated[
     Flight, Meta(description="The id of a flight of the past; left out: that of now.")
 ]
 Seconds = Annotated[float, Meta(ge=0, le=1e9, description="Seconds of the flight.")]
+Keep = Annotated[float, Meta(ge=0, le=1e9, description="Seconds by the clock on the wall.")]
 Length = str | Whole | float
 """Metres, or a text with a unit."""
 Priority = Annotated[int, Meta(ge=-1_000_000_000, le=1_000_000_000)]
@@ -318,7 +319,7 @@ class Interface:
         trip: str | None = None,
         drone: str | None = None,
         fields: dict[str, Any] | None = None,
-        keep: Seconds | None = None,
+        keep: Keep | None = None,
         id: str | None = None,
     ) -> str:
         """Raise an event of the app, with the fields that it declares; with one `id` it happens once.

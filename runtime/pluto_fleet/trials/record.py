@@ -12,6 +12,7 @@ from typing import Any
 from ..app import App
 from ..flight.offline import decided
 from ..flight.reconcile import id_of
+from ..journal.facts import row_of
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
@@ -300,7 +301,7 @@ class TrialRecord:
 
     def standing(self) -> Standing:
         """Return where everything stands, by the durable rows."""
-        rows = [(table, key, json.loads(text)) for (table, key), text in self._rows.items()]
+        rows = [(table, key, row_of(table, key, text)) for (table, key), text in self._rows.items()]
         return Standing(rows, self._time)
 
     def closed(self, lives: int) -> TrialResult:

@@ -16,7 +16,7 @@ from ..domain.fields import Entity, Field, FieldType
 from ..domain.plain import plain_of
 from ..domain.quantities import Type
 from ..domain.text import quoted
-from ..domain.values import Keys, Quantity, Table, one_of, read_parameters
+from ..domain.values import Quantity, Table, one_of, read_parameters
 from .part import PartOf
 from .world import Mover, read_movers
 
@@ -132,16 +132,17 @@ class EventsDeclared(PartOf):
         """Return the `[[world.event]]` of a fleet file: what happens in the simulated world, and when."""
         types = {one.name: one for one in self.types}
         found = []
+        keys = (*FACTS, "at", "fields")
         for number, table in enumerate(world.tables("event"), 1):
-            needed: Keys = {"name": values.name, "after": values.TIME}
-            keys = (*FACTS, "at", "fields")
-            given = dict(table.read(needed, dict.fromkeys(keys)))
-            facts = {key: given[key] for key in keys if key in given}
+            when = table.read({"name": values.name, "after": values.TIME}, dict.fromkeys(keys))
+            facts = {key: table.data[key] for key in keys if key in table.data}
+            if not (name := when.get("name")):
+                continue
             try:
-                read_occurrence(types, given.get("name", ""), facts, values.point)
+                read_occurrence(types, name, facts, values.point)
             except BadInput as error:
-                table.problem(str(error))
-            found.append({"id": f"world/{number}", **given})
+                table.problem(str(error).removeprefix(f"event {name}: "))
+            found.append({"id": f"world/{number}", **facts, **when})
         return tuple(found)
 
     def about(self) -> dict[str, Any]:

@@ -283,18 +283,19 @@ class Events(Part):
         event = happening.event
         if recorded is not None:
             await recorded
+        none: dict[str, Any] = {"why": f"{creator.block} made no mission of it"}
         try:
             mission = await self._mission_of(creator, event)
         except HookFault as fault:
             if fault.detail:
                 core.log(fault.detail)
-            happening.why = str(fault)
+            none = {"why": str(fault), "fault": True}
             mission = None
         happening.open.remove(creator.block)
         self._changed[event.id] = None
         if mission is None:
-            happening.why = happening.why or f"{creator.block} made no mission of it"
-            self._note("event.over", id=event.id, why=happening.why)
+            happening.why = none["why"]
+            self._note("event.over", id=event.id, **none)
         else:
             happening.made.append(mission.name)
             self._note("event.over", id=event.id, made=mission.name)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from pluto_fleet.journal import errors
 from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.facts import row_of
 from pluto_fleet.journal.standing import Row, Standing, inherited
 from pluto_fleet.journal.store import Entry
 from pluto_fleet.shared.domain.trace import Event
@@ -41,7 +42,7 @@ class Memory:
 
     def rows(self) -> list[Row]:
         """Return the durable rows."""
-        return [(table, key, json.loads(text)) for (table, key), text in self._rows.items()]
+        return [(table, key, row_of(table, key, text)) for (table, key), text in self._rows.items()]
 
     def replace(self, rows: Sequence[Row]) -> None:
         """Have other rows, as somebody has written them."""

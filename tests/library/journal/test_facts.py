@@ -10,7 +10,14 @@ from pluto_fleet.journal.facts import row_of
 
 
 def test_an_event_keeps_the_fields_that_its_app_declares() -> None:
-    event = {"id": "a", "name": "smoke", "time": 1.0, "level": 0.9, "colour": "grey"}
+    event = {
+        "id": "a",
+        "name": "smoke",
+        "time": 1.0,
+        "at": [3.0, 4.0, 1.2],
+        "level": 0.9,
+        "colour": "grey",
+    }
     row = {"event": event, "open": ["look_there"]}
     assert row_of("happening", ("a",), json.dumps(row)) == row
 
