@@ -48,9 +48,7 @@ def _launched(event: Fact) -> str:
 
 def _beside(event: Fact) -> str:
     where = f"{place(event['at'])} at a height of {number(event['at'][2])} m"
-    return (
-        f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
-    )
+    return f"trip {event['trip']} is done by {event['drone']} at {where}: another drone is at its place"
 
 
 def _extended(event: Fact) -> str:
