@@ -63,6 +63,8 @@ class Measuring:
                 return await carried_out
 
         def tell(ended: str) -> None:
+            if ended == BROKEN_OFF:
+                more["at"] = [round(one, 3) for one in telemetry.location]
             self._hear(
                 {
                     "drone": drone,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from ...app import App
     from ..shown import Frame
-    from ..wire import FlightSummary, Replay
+    from ..wire import FlightSummary, Replay, TrackWay
     from .reading import Event, JournalText
 
 BATTERY_STEP = 0.01
@@ -112,6 +112,14 @@ class Past:
                     _add_level(whole["batteries"].setdefault(drone, []), event["t"], level)
         whole["alerts"] = [*alerts.values()]
         whole["tracks"] = ways.all()
+
+    def ways(self) -> list[TrackWay]:
+        """Return where all was that moved beside the drones."""
+        ways = Ways(most=None)
+        for _, events in self.read().instants():
+            for event in events:
+                ways.take(event)
+        return ways.all()
 
     @property
     def begun_at(self) -> int | None:

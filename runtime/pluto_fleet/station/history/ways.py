@@ -18,8 +18,9 @@ MOST = 50_000
 class Ways:
     """The ways of all objects of one flight."""
 
-    def __init__(self) -> None:
-        self._places: deque[tuple[str, Point]] = deque(maxlen=MOST)
+    def __init__(self, most: int | None = MOST) -> None:
+        """`most`: of so many places, the last ones; None: of all."""
+        self._places: deque[tuple[str, Point]] = deque(maxlen=most)
         """In the order of time, each with the id of whose it is."""
         self._kinds: dict[str, str] = {}
 

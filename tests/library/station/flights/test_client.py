@@ -66,6 +66,22 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
     assert "night shift" in [line.get("by") for line in station.audit()]
 
 
+def test_the_example_of_a_program_that_raises_events_prints_what_it_says(serve: Serve) -> None:
+    station, said = serve("pursue", speed=20.0), StringIO()
+    code, output = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)[2:4]
+
+    def program(url: str) -> None:
+        example = station.folder / "example.py"
+        example.write_text(code.replace("http://127.0.0.1:8765", url), "utf-8")
+        with redirect_stdout(said):
+            runpy.run_path(str(example))
+
+    beside(station, program)
+    assert said.getvalue() == output
+    happened = station.events("event.raised")
+    assert len({one["id"] for one in happened}) == len(happened)
+
+
 def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:
     station = serve(speed=1.0)
 

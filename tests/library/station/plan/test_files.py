@@ -7,18 +7,20 @@ from typing import Any
 
 import pytest
 
+from pluto_fleet.files.fleet import default_fleet
 from pluto_fleet.files.landmarks import Landmarks, NamedPlace
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.model import Mission
 from pluto_fleet.station.plan.plan import MissionPlan
-from tests.library.files.an_app import APP
+from tests.library.files.an_app import APP, SURVEY
 from tests.library.files.test_missions import FULL
 from tests.library.station.plan.drawing import (
     FLEET,
     a_plan,
     drawn,
     mission,
+    said,
     trip,
 )
 
@@ -104,6 +106,53 @@ each = "beds.csv"
     assert "each" not in text_now and "delay" not in text_now  # what was left out stays the default
     with pytest.raises(BadInput, match="lies beside a missions file, and this one is in no folder"):
         plan.import_toml(text, plan.revision)
+
+
+def test_what_is_done_on_the_way_and_what_is_followed_come_back_as_they_were(
+    tmp_path: Path,
+) -> None:
+    """And the next station takes them from where they are kept."""
+    text = """
+[[mission]]
+name = "Watch"
+
+  [[mission.trip]]
+  action = "take_photo"
+  source = [1.0, 1.5]
+  target = [9.0, 1.5]
+  along = { action = "take_photo", every = "2 m" }
+
+  [[mission.trip]]
+  action = "take_photo"
+  target = { track = "t7", reach = "1 m" }
+"""
+    keep = tmp_path / "plan.json"
+    fleet = default_fleet(SURVEY)
+    plan = a_plan(keep, fleet, app=SURVEY)
+    plan.import_toml(text, plan.revision)
+    data: Any = plan.data()
+    assert data["problems"] == []
+    sweep, chase = data["missions"][0]["trips"]
+    assert sweep["along"] == {"action": "take_photo", "every": "2 m"}
+    assert (chase["target"], chase["track"], chase["reach"]) == (None, "t7", "1 m")
+    for again in (plan, a_plan(keep, fleet, app=SURVEY)):
+        assert again.export_toml() == text.lstrip()
+    [mission] = plan.launchable()[0]
+    assert (mission.trips[0].along["metres"], mission.trips[1].track) == (2.0, "t7")
+
+
+def test_what_is_wrong_on_the_way_is_said_of_that_field() -> None:
+    plan = a_plan(fleet=default_fleet(SURVEY), app=SURVEY)
+    wrong = [trip("trip-none", along={"action": "dance"}), trip("trip-once", along="take_photo")]
+    plan.replace(plan.revision, [mission("mission-one", *wrong)])
+    assert [(one[1], one[2]) for one in said(plan)] == [
+        ("trip-none", "along"),
+        ("trip-once", "along"),
+    ]
+    [dance, once] = [one[3] for one in said(plan)]
+    assert dance.startswith("On the way") and "needs every" in once
+    with pytest.raises(BadInput, match="along has an unknown key"):
+        plan.replace(plan.revision, [mission("mission-one", trip(along={"often": 1}))])
 
 
 def test_a_file_may_name_places_of_the_map() -> None:

@@ -7,7 +7,7 @@ import { percent, t, tOr } from "../core/i18n.js";
 import { useCalm } from "../ui/hooks.js";
 import { Mark, Tags, useCamera } from "./camera.js";
 import { way } from "./routes.js";
-import { trackNames } from "./tracks.js";
+import { trackNames } from "./tracked.js";
 import { toPixels } from "./view.js";
 
 const TAIL = 30; // seconds of the way that it came

@@ -5,7 +5,7 @@ import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
 import { duration, many, number, roughly, t, typedNumber } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
-import { followed } from "../map/tracks.js";
+import { followed } from "../map/tracked.js";
 import {
   Battery, Button, Empty, Icon, IconButton, joined, Said, Select, Standing, toneOf, walking,
 } from "../ui/parts.js";

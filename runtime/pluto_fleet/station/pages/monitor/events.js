@@ -7,7 +7,7 @@ import { command, ofStation } from "../core/api.js";
 import { capital, clock, inWords, number, plain, t } from "../core/i18n.js";
 import { app, mayFly, selectMission, tell } from "../core/station.js";
 import { prefs } from "../core/prefs.js";
-import { called } from "../map/tracks.js";
+import { called } from "../map/tracked.js";
 import { Field } from "../ui/field.js";
 import { Button, Empty, joined, Problem, Said, Select } from "../ui/parts.js";
 
