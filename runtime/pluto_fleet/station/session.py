@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import traceback
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import closing, suppress
@@ -45,7 +46,7 @@ if TYPE_CHECKING:
     from ..flight.recorded_flight import RecordedFlight
     from ..journal.store import Store
     from ..shared.domain.trace import Event
-    from .wire import Alert, DroneRow, LineKind, MissionRow, State, TrackRow
+    from .wire import Alert, DroneRow, LineKind, MissionRow, State
 
 
 class Phase(Enum):
@@ -102,8 +103,10 @@ class FlightSession:
         self.feed = Feed(flight.app, units, self.id, name_of)
         self.missions: VersionedRows[MissionRow] = VersionedRows()
         self.drones: VersionedRows[DroneRow] = VersionedRows()
-        self.tracks: tuple[int, list[TrackRow]] = (0, [])
-        """What is tracked, with the version of its last change."""
+        self.tracks = 0, "[]"
+        """The version of the last change of what is tracked, and all of it as JSON."""
+        self._seen_at: dict[str, float] = {}
+        """When each of that was reported last."""
         self.stops = Stops()
         self.one: LiveFlight | None = None
         self.records: Standing | None = known
@@ -276,10 +279,12 @@ class FlightSession:
 
     def _see_tracks(self, number: int) -> bool:
         life = self.life
-        now = [] if life is None else [rows.track_row(*one) for one in life.tracked.now(self.now)]
-        if now == self.tracks[1]:
+        tracked = {} if life is None else dict(life.tracked.now(self.now))
+        seen_at = {id: one.seen for id, one in tracked.items()}
+        if seen_at == self._seen_at:
             return False
-        self.tracks = (number, now)
+        self._seen_at = seen_at
+        self.tracks = number, json.dumps([rows.track_row(*one) for one in tracked.items()])
         return True
 
     def note(self, now: float, state: State, alerts: Iterable[Alert]) -> None:

@@ -176,7 +176,7 @@ class Updates:
             "events": _listed(session.feed.events.since(seen) if session else ()),
         }
         if session is not None and session.tracks[0] > seen:
-            parts["tracks"] = json.dumps(session.tracks[1])
+            parts["tracks"] = session.tracks[1]
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"
 
 
