@@ -35,6 +35,7 @@ from . import (
 )
 from .commander import stop_motors
 from .connection import open_session, scan
+from .following import follow
 from .options import options_of
 from .preflight import firmware_facts
 from .session import CrazyflieSession
@@ -197,6 +198,10 @@ class Crazyflie:
     async def go_to(self, target: Point, speed: float) -> None:
         flying.check(self._id, target, speed)
         await flying.go_to(self._linked(), target, speed)
+
+    async def follow(self, target: Point, speed: float, seconds: float) -> None:
+        flying.check(self._id, target, speed)
+        await follow(self._linked(), target, speed, seconds)
 
     async def hold(self) -> None:
         await flying.hold(self._linked())

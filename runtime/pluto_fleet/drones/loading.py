@@ -26,14 +26,17 @@ from ..shared.domain.text import quoted
 from .localization import Localization
 from .protocol import (
     Acts,
+    ActsOnTheWay,
     Addressed,
     CaredFor,
     DroneNavigation,
     DroneSetup,
+    Follows,
     Identifiable,
     Locatable,
     Readable,
     Scannable,
+    Sees,
 )
 from .timeouts import shortened
 from .tracking import Tracker
@@ -98,7 +101,16 @@ NAVIGATION = PluginKind(
     argument="setup",
     such_as="my_drones.parrot:Parrot",
     methods=DroneNavigation,
-    abilities=(Acts, Readable, Locatable, CaredFor, Identifiable),
+    abilities=(
+        Acts,
+        ActsOnTheWay,
+        Follows,
+        Sees,
+        Readable,
+        Locatable,
+        CaredFor,
+        Identifiable,
+    ),
     of_class=(Scannable, Addressed),
 )
 LOCALIZATION = PluginKind(

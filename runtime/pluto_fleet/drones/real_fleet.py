@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import OWN, navigation_of, options_of
 from ..jobs.reports import SILENCE
-from ..shared.domain.actions import BUILT_IN, Plain
+from ..shared.domain.actions import BUILT_IN, PHOTO, Plain
 from ..shared.domain.model import Mission
+from ..shared.events.declared import FOLLOWING
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
@@ -88,6 +89,12 @@ def _planned(missions: Iterable[Mission[Any]]) -> Iterator[RequiredAction]:
     for mission in missions:
         for trip in mission.trips:
             yield RequiredAction(action=trip.action, parameters=dict(trip.parameters))
+            if trip.action == FOLLOWING:
+                yield RequiredAction(action=PHOTO, parameters={})
+            if along := getattr(trip, "along", None):
+                yield RequiredAction(
+                    action=along["action"], parameters=dict(along.get("parameters") or {})
+                )
 
 
 def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[RequiredAction]:

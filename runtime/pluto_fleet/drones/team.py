@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from ..files.fleet import OWN
-from ..jobs.controls import Command, FleetDrone
+from ..jobs.controls import Command, FleetDrone, GoTo
 from ..jobs.reports import SILENCE, DroneReport
 from ..jobs.telemetry import Subscription, Telemetry
 from ..shared.domain.actions import BUILT_IN, Plain
@@ -177,6 +177,9 @@ class Team:
 
     async def do(self, drone: str, command: Command) -> object:
         return await self._kernel.call_hook(commands.do, self.vehicles[drone], command)
+
+    def turn(self, drone: str, command: GoTo) -> bool:
+        return self.vehicles[drone].turn(command)
 
     def break_off(self, drone: str) -> None:
         self.vehicles[drone].break_off()

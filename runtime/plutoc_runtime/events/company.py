@@ -262,7 +262,9 @@ class Company(Part):
             if track is None:
                 since = duration(trip.lost_after)
                 return Failed(f"track {quoted(trip.track)} has had no news for {since}")
-            point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
+            height = core.airspace.cruise_height
+            flies = flight.flier.location[2] > height - AT
+            point = tracks.meeting(track, flight.flier, height, on_its_way=flies)
             if dist(point, trip.target) <= trip.reach:
                 continue
             if (why := self._out_of_reach(flight.flier, point)) is not None:

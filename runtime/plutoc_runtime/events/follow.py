@@ -21,6 +21,7 @@ from .tracks import Tracks
 if TYPE_CHECKING:
     from ..flow.flight import Flight
     from ..flow.mission import Core, MissionState
+    from ..time.kernel import Task
 
 STEP = 0.5
 """Seconds from one look at where it is to the next."""
@@ -45,22 +46,38 @@ class FollowAction(FollowDeclared):
         told = _Told(core)
         ends = kernel.now + trip.parameters["for"]
         picture = kernel.now
+        taking: Task[None] | None = None
         try:
             while True:
                 now = kernel.now
-                if now >= picture:
-                    photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
-                    keep(core, state.mission, trip, photo, action=PHOTO)
+                if taking is not None and taking.is_set:
+                    taking.result()  # raises what went wrong with the drone
+                    taking = None
+                if now >= picture and taking is None:
+                    taking = state.spawn(self._take(state, flight), f"{trip.name}: picture")
                     picture += trip.parameters["every"]
                 if now >= ends:
+                    if taking is not None:
+                        await taking
                     return
                 way = way_home(core, flight.flier)
                 left = flight.flier.battery_level - flight.flier.category.reserve
                 if left <= way < inf:
                     raise FlightFailed(Failure.BATTERY, NO_MORE)
-                await self._stay_near(state, flight, told, min(picture, ends, now + STEP))
+                until = min(ends, now + STEP)
+                if picture > now:
+                    until = min(until, picture)
+                await self._stay_near(state, flight, told, until)
         finally:
             told.no_more()
+            if taking is not None:
+                taking.cancel()
+
+    async def _take(self, state: MissionState, flight: Flight) -> None:
+        """Take a picture on the way: a camera takes its time, in which the drone flies on."""
+        core = state.core
+        photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
+        keep(core, state.mission, flight.trip, photo, action=PHOTO)
 
     async def _stay_near(
         self, state: MissionState, flight: Flight, told: _Told, until: float
@@ -81,9 +98,10 @@ class FollowAction(FollowDeclared):
                 raise FlightFailed(
                     Failure.ACTION, f"track {quoted(id)} has had no news for {since}"
                 )
-            point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
+            point, seconds = tracks.ahead(track, flight.flier, core.airspace.cruise_height)
             put(trip, target=point)
-            told.tell({"do": "go", "drone": flight.drone, "stops": [point]}, failed.set)
+            order = {"do": "go", "drone": flight.drone, "stops": [point], "seconds": seconds}
+            told.tell(order, failed.set)
         await kernel.within(failed, until, EventKind.TIMER, state.key)
         if failed.is_set and isinstance(why := failed.result(), FlightFailed):
             raise why

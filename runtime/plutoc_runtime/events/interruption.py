@@ -66,6 +66,8 @@ class Interruption:
         repeatable = flight.action.hook is not None or flight.action.repeat == "safe"
         if core.on_record is None or repeatable:
             run.state.break_off(flight)
+            # it will be flown again by this id, also if its action had begun
+            core.orders.give({"do": "forget", "drone": flight.drone, "flight": flight.id})
             self._take_back(flight, event)
             return
         flight.called_off = f"event {event.id} has interrupted it"

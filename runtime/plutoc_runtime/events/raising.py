@@ -50,11 +50,12 @@ if TYPE_CHECKING:
 class Happening:
     """One occurrence, and what has come of it."""
 
-    __slots__ = ("event", "made", "open", "why")
+    __slots__ = ("answered", "event", "made", "open", "why")
 
     def __init__(self, event: Event, blocks: Sequence[str]) -> None:
         self.event = event
         self.open = [*blocks]  # those whose creators have not answered yet
+        self.answered = Future[None]()  # set when all have
         self.made: list[str] = []  # the missions that came of it
         self.why = ""  # why none did, of the last creator that made none
 
@@ -147,12 +148,27 @@ class Events(Part):
         self._note("event.raised", **_as_noted(event, kind))
         on_record = self._core.on_record
         recorded = None if on_record is None else on_record()  # not what is noted after it
-        for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
+        if happening.open:
+            self._ask_creators(happening, recorded)
+            work = self._interrupt_later(happening)
+            self._core.kernel.spawn(work, FLEET, f"event {id} interrupts")
+        else:
+            self._interrupt(event)
+        return str(id)
+
+    def _interrupt(self, event: Event) -> None:
+        """Break off the flights that an event concerns."""
+        for flight, interruptions in tuple(self._interrupted.get(event.name, {}).items()):
             for each in interruptions:
                 if each.concerns(event):
                     each.soon(flight, event)
-        self._ask_creators(happening, recorded)
-        return str(id)
+
+    async def _interrupt_later(self, happening: Happening) -> None:
+        """Break them off once the missions that the event makes wait for drones: these may be theirs."""
+        kernel = self._core.kernel
+        until = kernel.now + PATIENCE
+        await kernel.within(happening.answered, until, EventKind.READY, FLEET)
+        self._interrupt(happening.event)
 
     def _raise(self, request: Mapping[str, Any]) -> None:
         """Raise an event as a person, or another program, wants."""
@@ -300,6 +316,8 @@ class Events(Part):
             happening.made.append(mission.name)
             self._note("event.over", id=event.id, made=mission.name)
             self._engine.begin([mission], at=creator.block)
+        if not happening.open:
+            happening.answered.set(None)
         self._engine.expect_no_more()
 
     async def _mission_of(self, creator: Creator, event: Event) -> Mission[Any] | None:
@@ -401,5 +419,7 @@ def _as_noted(event: Event, kind: EventType) -> dict[str, Any]:
 MOST = 1_000
 WITHIN = 10.0
 """So many events, within so many seconds, are those of hooks that raise each other's for ever."""
+PATIENCE = 1.0
+"""Seconds for which a flight that an event interrupts goes on, at most, until its creators have answered."""
 BUILT_IN = (EventType(name=LATE), EventType(name=LOST))
 _OF_ALL = (*FACTS, "name", "time", "at")

@@ -102,7 +102,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
                 core.orders.forget(number)
                 going = Future()
                 goal = place
-                order = {"do": "go", "drone": drone.id, "stops": [place]}
+                order = {"do": "go", "drone": drone.id, "stops": [place], "seconds": 0.0}
                 number = core.orders.give(order, going.set)
             await core.kernel.within(going, core.kernel.now + LOOK, EventKind.TIMER, state.key)
             if going.is_set and isinstance(failed := going.result(), FlightFailed):

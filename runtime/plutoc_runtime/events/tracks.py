@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise, starmap
+from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..fleet.reach import flight_seconds
@@ -87,26 +89,46 @@ class Tracks(Part):
             if future in waiting:
                 waiting.remove(future)
 
-    def meeting(self, track: Track, drone: Drone, height: float) -> Point:
-        """Return where a drone that leaves now meets an object, at a height above it.
+    def meeting(
+        self, track: Track, drone: Drone, height: float, *, on_its_way: bool = False
+    ) -> Point:
+        """Return where a drone that leaves now, or is `on_its_way`, meets an object, at a height above it.
 
         If it never catches up with it, that is where the object is now.
         """
         now = self._core.kernel.now
+        there = self._rest_of_the_way if on_its_way else self._way_there
         early = 0.0
         late = SOONEST
-        while self._way_there(track, drone, height, now, late) > late:
+        while there(track, drone, height, now, late) > late:
             early = late
             late *= 2
             if late > LATEST:
                 return self._above(track, height, now)
         while late - early > SOONEST:
             middle = (early + late) / 2
-            if self._way_there(track, drone, height, now, middle) > middle:
+            if there(track, drone, height, now, middle) > middle:
                 early = middle
             else:
                 late = middle
         return self._above(track, height, now + late)
+
+    def ahead(self, track: Track, drone: Drone, height: float) -> tuple[Point, float]:
+        """Return where a drone that is on its way is to meet an object, and in how many seconds.
+
+        Never so soon that it would be there before it is told where to fly next.
+        """
+        now = self._core.kernel.now
+        category = drone.category
+        after = AHEAD
+        for _ in range(TRIES):
+            point = self._above(track, height, now + after)
+            metres = dist(drone.location, point)
+            needed = category.motion.at_speed(metres, category.speed)
+            if needed <= after:
+                return point, after
+            after = needed
+        return self._above(track, height, now), 0.0
 
     def _way_there(
         self, track: Track, drone: Drone, height: float, now: float, after: float
@@ -115,6 +137,18 @@ class Tracks(Part):
         core = self._core
         point = self._above(track, height, now + after)
         return flight_seconds(drone.category, core.airspace, drone.location, [point], 0.0)
+
+    def _rest_of_the_way(
+        self, track: Track, drone: Drone, height: float, now: float, after: float
+    ) -> float:
+        """Return the same for one that flies already, and keeps its speed."""
+        category = drone.category
+        way = self._core.airspace.route(drone.location, self._above(track, height, now + after))
+        if way is None:
+            return inf
+        metres = sum(starmap(dist, pairwise((drone.location, *way))))
+        stops = STOPS if category.motion.smooth else 0.0
+        return category.motion.at_speed(metres, category.speed) + stops
 
     def _above(self, track: Track, height: float, when: float) -> Point:
         """Return the point above an object at a time, on the map."""
@@ -131,5 +165,11 @@ LONGEST_GAP = 5.0
 """Seconds between two reports from which on they say nothing of a velocity."""
 SOONEST = 0.1
 """Seconds to which a meeting is reckoned exactly."""
+STOPS = 1.0
+"""Seconds more in which a drone on smooth legs comes to rest from its speed."""
+AHEAD = 1.0
+"""Seconds in which a drone that follows is to be where the object will be, at least."""
+TRIES = 50
+"""How often the time until a meeting is reckoned again, for where the object will be by then."""
 LATEST = 600.0
 """Seconds from which on there is no meeting."""

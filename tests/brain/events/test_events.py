@@ -99,6 +99,28 @@ def test_an_event_makes_a_mission_that_flies() -> None:
     assert brain.mission("chase person")["status"] == "COMPLETED"
 
 
+def test_a_flight_is_broken_off_once_the_mission_of_the_event_can_have_its_drone() -> None:
+    """Else another that waits takes it, while the event is written to the disk."""
+    brain = charged(app=app_with(), recorded=True)
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    brain.go_on({}, {"cf1": {"reached": True, "landed": True, "problems": []}}, 0.0)
+    assert [order["do"] for order in settled(brain, 0.0)] == ["fly"]
+    raised(brain, 3.0, mission="patrol", at=[4.0, 2.0])
+    assert settled(brain, 3.0) == []
+    brain.tell({"durable": 100}, 3.1)
+    assert settled(brain, 3.1)[0]["do"] == "break_off"
+    assert brain.standing()["happenings"]["intruder-1"]["made"] == ["chase person"]
+
+
+def test_a_slow_disk_or_creator_keeps_no_flight_for_long() -> None:
+    brain = charged(app=app_with(), recorded=True)
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    brain.go_on({}, {"cf1": {"reached": True, "landed": True, "problems": []}}, 0.0)
+    settled(brain, 0.0)
+    raised(brain, 3.0, mission="patrol", at=[4.0, 2.0])
+    assert settled(brain, 10.0)[0]["do"] == "break_off"
+
+
 def test_an_id_happens_once() -> None:
     brain = charged(drones=2, app=app_with())
     raised(brain, 1.0, id="door", at=[4.0, 2.0])
@@ -175,7 +197,7 @@ def test_an_own_event_breaks_a_flight_off_and_charges_no_attempt() -> None:
     assert settled(brain, 2.0) == []
     raised(brain, 3.0, mission="patrol")
     orders = settled(brain, 3.0)
-    assert [order["do"] for order in orders] == ["break_off", "fly"]
+    assert [order["do"] for order in orders] == ["break_off", "forget", "fly"]
     row = brain.mission("patrol")
     assert row["status"] == "RUNNING" and row["attempts"] == 1
     assert row["todo"][0].get("attempt", 1) == 1

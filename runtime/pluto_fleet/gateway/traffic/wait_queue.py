@@ -127,7 +127,8 @@ class Wait:
     ways: Sequence[Section]
     beside: bool = False
     """It may end beside its target, if another drone has taken that."""
-    over: Future[Section] = field(default_factory=Future)
+    over: Future[Section | None] = field(default_factory=Future)
+    """Set with what it gets; None: it wants another section by now."""
     due: float = -inf
     """When it has to be looked at again, unless what keeps it changes before."""
     keepers: Collection[str] = ()
