@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from math import dist, inf
 from typing import NamedTuple
@@ -42,7 +43,9 @@ def stitches(mission: Mission, results: Results) -> Verdict:
     shots = best(photos)
     bad = {place: "blurred" if photos[place] else "missing" for place in photos.keys() - shots}
     for one, other, least in neighbours(photos):
-        if not {one, other} & bad.keys() and overlap(shots[one], shots[other]) < least:
+        if {one, other} & bad.keys() or not would_overlap(one, other, shots, least):
+            continue
+        if overlap(shots[one], shots[other]) < least:
             # The one further off its place is to blame.
             bad[max(one, other, key=lambda place: off(place, shots[place]))] = "overlaps too little"
     redo: list[Trip] = []
@@ -125,6 +128,14 @@ def neighbours(places: Iterable[Place]) -> Iterator[tuple[Place, Place, float]]:
             yield one, min(ahead, key=lambda place: place.x), AHEAD
         if aside:
             yield one, min(aside, key=lambda place: place.y), ASIDE
+
+
+def would_overlap(one: Place, other: Place, shots: Mapping[Place, Photo], least: float) -> bool:
+    """Return whether photos would have so much in common if each had been taken right at its place."""
+    a, b = (
+        replace(shots[place], position=(*place, shots[place].position[2])) for place in (one, other)
+    )
+    return overlap(a, b) >= least
 
 
 def overlap(a: Photo, b: Photo) -> float:

@@ -61,6 +61,8 @@ Seconds = Annotated[float, Meta(ge=0, le=1e9, description="Seconds of the flight
 Keep = Annotated[float, Meta(ge=0, le=1e9, description="Seconds by the clock on the wall.")]
 Length = str | Whole | float
 """Metres, or a text with a unit."""
+Share = str | Whole | float
+"""From 0 to 1, or a text with a percentage."""
 Priority = Annotated[int, Meta(ge=-1_000_000_000, le=1_000_000_000)]
 
 _watch = partial(operation, "GET", role="watch", reads=True)
@@ -236,11 +238,18 @@ class Interface:
         self,
         *,
         polygon: list[Point],
-        spacing: Length,
+        spacing: Length | None = None,
+        overlap: Share | None = None,
         height: Length | None = None,
         before: Point | None = None,
+        action: str | None = None,
+        on_the_way: bool = False,
     ) -> Swept:
-        """The targets with which an area is covered, in their order, by drones that come from `before`."""
+        """The trips with which an area is covered, in their order, by drones that come from `before`.
+
+        With a `spacing`, or the `overlap` that photos are to have. `on_the_way`: lines, on which the action is done
+        without a stop.
+        """
 
     # Commands
 

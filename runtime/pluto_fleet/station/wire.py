@@ -662,12 +662,27 @@ class SavedPlans(TypedDict):
     trash: list[TrashedPlan]
 
 
-class Swept(TypedDict):
-    """How an area is flown over: the targets of its trips, in their order."""
+class SweptTrip(TypedDict):
+    """A trip of those that fly over an area."""
 
-    targets: list[Point]
+    target: Point
+    source: Point | None
+    """Where its line begins; null: it is no line, but one place."""
+    every: float | None
+    """After how many metres of a line the action is done, each time."""
+
+
+class Swept(TypedDict):
+    """How an area is flown over."""
+
+    trips: list[SweptTrip]
+    """In their order."""
+    places: int
+    """At which the action is done."""
     metres: float
-    """The way from the first to the last."""
+    """The way from the first place to the last."""
+    seconds: float | None
+    """How long one drone takes for that, with what it does there; null: none can do the action."""
     forbidden: float
     """The share of the area that may not be flown over."""
 

@@ -10,7 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
-from math import dist
+from itertools import chain
+from math import dist, inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -24,13 +25,15 @@ from ...shared.domain import values
 from ...shared.domain.airspace import EPSILON, distance, inside
 from ...shared.domain.errors import BadInput, PlutoError
 from ...shared.domain.text import printable
+from ...shared.fleet.reach import flight_seconds
 from .pictures import floor_plan, safe_name
 
 if TYPE_CHECKING:
     from ...app import App
+    from ...files.lines import Line
     from ...shared.domain.airspace import Airspace, Corner, Polygon
     from ...shared.domain.model import Point
-    from ..wire import MapData, Place, Swept, Ways, Zone
+    from ..wire import MapData, Place, Swept, SweptTrip, Ways, Zone
     from ..wire import Picture as PictureData
 
 
@@ -52,10 +55,10 @@ class DrawnWays:
             return await asyncio.to_thread(self._find, read)
 
     async def sweep(self, area: dict[str, object]) -> Swept:
-        """Return the targets of an area's trips: those that `[[mission.area]]` of a missions file has.
+        """Return the trips of an area: those that `[[mission.area]]` of a missions file has.
 
-        `area` has its `polygon` and `spacing`, and may have a `height`, and `before`, the place from which
-        the drones come. Raises `BadInput` with all that is wrong.
+        `area` has what stands there, but for fields, and may have `before`, the place from which the drones come.
+        Raises `BadInput` with all that is wrong.
         """
         async with self._one_at_a_time:
             return await asyncio.to_thread(self._sweep, area)
@@ -88,11 +91,31 @@ class DrawnWays:
         lanes = read_lanes(table, self._app, self._airspace, come)
         document.refuse_if_bad()
         [made] = document.areas
+        lines = [line for lane in lanes for line in lane]
         return {
-            "targets": [[*line.end] for lane in lanes for line in lane],
+            "trips": [_swept(line) for line in lines],
+            "places": made.places,
             "metres": made.metres,
+            "seconds": self._seconds(lines, str(area.get("action", ""))),
             "forbidden": made.forbidden,
         }
+
+    def _seconds(self, lines: Sequence[Line], action: str) -> float | None:
+        """Return how long the fastest drone takes from the first place to the last, with what it does there."""
+        if action not in self._app.actions:
+            return None
+        kinds = [kind for kind in self._app.categories if kind.can(action)]
+        busy = self._app.actions[action].lasts({}) * len(lines)
+        ends = [(one.start, one.end) if one.places > 1 else (one.end,) for one in lines]
+        first, *others = chain.from_iterable(ends)
+        times = (flight_seconds(kind, self._airspace, first, others, busy) for kind in kinds)
+        return min((one for one in times if one < inf), default=None)
+
+
+def _swept(line: Line) -> SweptTrip:
+    if line.places == 1:
+        return {"target": [*line.end], "source": None, "every": None}
+    return {"target": [*line.end], "source": [*line.start], "every": round(line.every, 3)}
 
 
 NEAR = 0.5

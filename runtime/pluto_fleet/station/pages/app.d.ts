@@ -52,6 +52,7 @@ declare global {
   type SavedPlans = wire.SavedPlans;
   type State = wire.State;
   type Swept = wire.Swept;
+  type SweptTrip = wire.SweptTrip;
   type TrackRow = wire.TrackRow;
   type TrackWay = wire.TrackWay;
   type TrashedPlan = wire.TrashedPlan;

@@ -672,13 +672,27 @@ export interface State {
   busy: "" | "asking" | "connecting";
 }
 
-/** How an area is flown over: the targets of its trips, in their order. */
+/** How an area is flown over. */
 export interface Swept {
-  targets: number[][];
-  /** The way from the first to the last. */
+  /** In their order. */
+  trips: SweptTrip[];
+  /** At which the action is done. */
+  places: number;
+  /** The way from the first place to the last. */
   metres: number;
+  /** How long one drone takes for that, with what it does there; null: none can do the action. */
+  seconds: number | null;
   /** The share of the area that may not be flown over. */
   forbidden: number;
+}
+
+/** A trip of those that fly over an area. */
+export interface SweptTrip {
+  target: number[];
+  /** Where its line begins; null: it is no line, but one place. */
+  source: number[] | null;
+  /** After how many metres of a line the action is done, each time. */
+  every: number | null;
 }
 
 /** Something that moves, and is tracked. */
