@@ -141,6 +141,8 @@ class Living:
         )
         self.gateway.take_in = self.navigation.join
         self.gateway.rehearse = self.navigation.mishap
+        if world.movers:
+            self.gateway.tracker = self.navigation.tracks
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0

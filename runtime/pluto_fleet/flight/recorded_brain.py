@@ -16,6 +16,7 @@ from ..journal.facts import TRACKED
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
+from ..shared.events.declared import CompanyDeclared
 from ..shared.flow.record import fleet_data, update
 from ..shared.time.hours import Hours
 from ..shared.time.kernel import FLEET, Kernel
@@ -85,6 +86,10 @@ class RecordedBrain:
         self._seen: dict[str, tuple[object, ...]] = {}
         """The telemetry that the brain was told last, by drone."""
         self._heard = 0
+        self._waited_for = ["action.begun", "event.raised"]
+        """All that a brain waits for until it is durable."""
+        if any(isinstance(part, CompanyDeclared) for part in app.parts):
+            self._waited_for.append("trip.launched")
         """How many events the brain has said."""
         self._held: dict[str, dict[str, Any]] = {}
         """The flights that wait for the journal, by drone."""
@@ -194,7 +199,7 @@ class RecordedBrain:
     def _hear(self, event: Event) -> None:
         self._heard += 1
         self._take(event)
-        if event["event"] in ("action.begun", "event.raised"):  # all that a brain waits for
+        if event["event"] in self._waited_for:
             self.recorder.when_durable(partial(self._tell_durable, self._heard))
 
     def hook_ended(self, number: int) -> None:

@@ -124,8 +124,8 @@ class Alone:
         self._app = app
         self._hear = hear
         self._happens = () if fleet.world is None else fleet.world.events
-        kinds = [part.drones for part in app.parts if part.drones is not None]
-        kind: type[IdealDrones] = kinds[0] if kinds else IdealDrones
+        kinds = (part.drones() for part in app.parts)
+        kind = next(filter(None, kinds), IdealDrones)
         self.drones = kind(app, fleet, faults, seed, self)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:

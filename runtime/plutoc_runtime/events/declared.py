@@ -21,6 +21,7 @@ from .part import PartOf
 from .world import Mover, read_movers
 
 if TYPE_CHECKING:
+    from ..alone.drones import IdealDrones
     from ..domain.app import App
     from ..domain.model import Point
 
@@ -160,6 +161,12 @@ class EventsDeclared(PartOf):
 
 class TracksDeclared(PartOf):
     """What an app follows that moves."""
+
+    def drones(self) -> type[IdealDrones]:
+        """Return simulated drones that see it."""
+        from .alone import EventDrones  # of who simulates alone
+
+        return EventDrones
 
     def movers(self, world: Table) -> tuple[Mover, ...]:
         """Return what moves in the simulated world."""

@@ -83,6 +83,7 @@ class Interruption:
     def _take_back(self, flight: Flight, event: Event) -> None:
         state = self._run.state
         state.interrupt(flight, by=event.id)
+        state.flight = flight  # for branches that have yet to come to their monitor
         if state.carrier is None:
             self._reserves.reserve(state.mission.name, flight.flier)
         else:

@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from ..domain.trace import Row
     from ..flow.engine import Engine
     from ..flow.flight import Flight
+    from ..flow.mission import MissionState
     from ..flow.run import Run
     from .interruption import Whose
 
@@ -84,6 +85,8 @@ class Events(Part):
             engine.entries.append(creator.block)
         self.happenings: dict[str, Happening] = {}
         """By their ids."""
+        self._unasked: list[Happening] = []
+        """Those of an earlier run."""
         self._changed: dict[str, None] = {}
         self.reserved: dict[str, Drone] = {}
         """The drones that hover for their missions, by the names of these, since an event broke a flight off."""
@@ -199,12 +202,19 @@ class Events(Part):
         match noted:
             case {"event": "mission.late", "mission": mission, "t": when}:
                 self._soon(LATE, id=f"late/{mission}/{when}", mission=mission)
-            case {"event": "mission.ended", "mission": mission} if mission in self.reserved:
-                self.release(self._engine.states[mission].mission)
+            case {"event": "mission.ended", "mission": mission}:
+                self._end(self._engine.states[mission])
             case {"event": "drone.lost", "drone": drone, "at": at, "t": when}:
                 flown = self._flown_by(drone)
                 origin = {} if flown is None else {"mission": flown}
                 self._soon(LOST, id=f"lost/{drone}/{when}", drone=drone, at=at, **origin)
+
+    def _end(self, state: MissionState) -> None:
+        """Forget a mission that has ended: not every flight is set by then."""
+        self.release(state.mission)
+        if state.flight is not None:
+            for flights in self._interrupted.values():
+                flights.pop(state.flight, None)
 
     def _soon(self, name: str, **given: Any) -> None:
         """Raise a built-in event once what has just been noted is complete."""
@@ -392,11 +402,13 @@ class Events(Part):
             self.happenings[id] = happening = Happening(event_of(kind, facts), blocks)
             happening.made = [*row.get("made", ())]
             happening.why = row.get("why", "")
+            self._unasked.append(happening)
 
     def go_on(self) -> None:
-        """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
-        for happening in self.happenings.values():
+        """Ask the creators that had not answered at the end of an earlier run."""
+        for happening in self._unasked:
             self._ask_creators(happening, None)
+        self._unasked.clear()  # missions go on one by one, too
 
 
 def _row(happening: Happening) -> dict[str, Any]:

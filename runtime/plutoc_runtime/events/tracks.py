@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 from ..fleet.reach import flight_seconds
 from ..hooks.plain_data import point_of
 from ..time.kernel import FLEET, EventKind, Future
-from .alone import EventDrones
 from .declared import TracksDeclared
 from .part import Part
 
@@ -40,8 +39,6 @@ class Track:
 
 class TracksOf(TracksDeclared):
     """Makes the tracks of an app that follows what moves."""
-
-    drones = EventDrones
 
     def __call__(self, engine: Engine) -> Tracks:
         """Return what knows them in a running app."""
@@ -73,14 +70,17 @@ class Tracks(Part):
             for future in self._waiting.pop(id, ()):
                 future.set(track)
 
-    async def next(self, id: str, within: float) -> Track | None:
-        """Wait for the next report of an object; None: there is none in this time since the last one."""
+    async def next(self, id: str, within: float, began: float) -> Track | None:
+        """Wait for the next report of an object; None: there is none in this time since the last one.
+
+        Nor since a pursuit `began`: each takes that long at the least.
+        """
         future = Future[Track]()
         waiting = self._waiting.setdefault(id, [])
         waiting.append(future)
         kernel = self._core.kernel
         known = self.known.get(id)
-        since = kernel.now if known is None else known.time
+        since = began if known is None else max(began, known.time)
         try:
             if await kernel.within(future, since + within, EventKind.TIMER, FLEET):
                 return future.result()

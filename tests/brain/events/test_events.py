@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import pytest
@@ -17,9 +18,11 @@ from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.declared import Creator, Event, EventType
 from pluto_fleet.shared.events.interruption import anything, own
 from pluto_fleet.shared.events.raising import MOST, EventsOf
+from pluto_fleet.shared.flow import asking
 from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.event_monitor.step import watch_event
 from plutoc_blocks.gate_fifo.step import pass_first
+from plutoc_blocks.gate_funnel.step import wait_for_all
 from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_monitor.step import watch_trip
 from tests.brain.hand import charged, settled, trip
@@ -262,6 +265,52 @@ def test_a_creator_cancels_a_mission() -> None:
     assert (row["status"], row["reason"]) == ("CANCELLED", "because of intruder-1")
 
 
+async def beside(run: Run[Any], status: Status, *, look: Callable[..., object]) -> Status:
+    """TripMonitor ∥ EventMonitor ∥ a hook and a TripMonitor behind it → GateFunnel."""
+
+    async def monitor(run: Run[Any], status: Status) -> Status:
+        return await watch_event(run, status, event="intruder", of=own)
+
+    async def later(run: Run[Any], status: Status) -> Status:
+        return await watch_trip(run, await modify_mission(run, status, hook=look))
+
+    return await wait_for_all(run, status, watch_trip, monitor, later)
+
+
+def app_beside(look: Callable[..., object]) -> Any:
+    """Return an app whose flights a hook stands beside."""
+    watch = partial(beside, look=look)
+    return replace(app_with(lambda *_: None), flow=apps.flow(watch=watch))
+
+
+def test_a_branch_that_comes_late_to_its_monitor_finds_the_flight_broken_off() -> None:
+    async def look(mission: Any, context: Any) -> None:
+        await context.sleep(5.0)
+
+    brain = charged(app=app_beside(look))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    raised(brain, 3.0, mission="patrol")
+    assert [order["do"] for order in settled(brain, 3.0)] == ["break_off", "hold"]
+    assert "fly" in [order["do"] for order in settled(brain, 5.0)]
+    assert brain.mission("patrol")["attempts"] == 1
+
+
+def test_a_hook_that_breaks_each_flight_off_goes_round_for_ever_and_is_ended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Without any time between two launches, and without an end."""
+    monkeypatch.setattr(asking, "MOST_CALLS", 20)
+
+    def look(mission: Any, context: Any) -> None:
+        context.emit("intruder")
+
+    brain = charged(app=app_beside(look))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    assert "goes round in its graph for ever" in brain.mission("patrol")["reason"]
+
+
 def test_a_late_mission_is_an_event() -> None:
     brain = charged(app=app_with(event="late"))
     brain.begin([{"name": "patrol", "trips": [trip()], "promises": {"deadline": 5.0}}], 0.0)
@@ -287,6 +336,21 @@ def test_what_has_happened_survives_the_app() -> None:
     assert not later.standing()["happenings"]["door"]["open"]
     raised(later, 1.0, id="door", at=[4.0, 2.0])
     settled(later, 1.0)
+    assert [*later.standing()["missions"]] == ["chase person"]
+
+
+def test_missions_that_go_on_later_do_not_have_a_creator_asked_again() -> None:
+    async def slowly(event: Intruder, context: Any) -> apps.Mission | None:
+        await context.sleep(5.0)
+        return chase(event, context)
+
+    brain = charged(app=app_with(slowly), recorded=True)
+    raised(brain, 1.0, id="door", at=[4.0, 2.0])
+    later = charged(app=app_with(slowly), recorded=True)
+    later.restore(brain.standing(), 0.0)
+    later.go_on({}, {"cf1": {}}, 0.0)
+    later.go_on({}, {}, 1.0)
+    settled(later, 9.0)
     assert [*later.standing()["missions"]] == ["chase person"]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import dist
 from typing import Any
 
@@ -38,6 +39,7 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.relief import watch_relieved
 from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.brain.hand import charged, settled
 from tests.kit import apps
 
 
@@ -85,20 +87,24 @@ async def relieved(run: Run[Any]) -> Status:
     return await watch_relieved(run, status, relief=0.15)
 
 
-def flown(
-    trips: Sequence[Trip],
-    *movers: Mover,
-    look: Any = None,
-    drones: int = 1,
-    chase: Any = None,
-    flow: Any = flow,
-    category: Category = apps.SCOUT,
-) -> Outcome:
-    """Fly trips, each of a mission, in a world with these movers."""
+async def untiring(run: Run[Any]) -> Status:
+    """create → allocate → launch → watch, and again after each failure."""
+    status = create_mission(run, run.status)
+    while True:
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
+        status = await watch_trip(run, launch_trip(run, status))
+        if status is Status.COMPLETED:
+            return status
+
+
+def pursuing(
+    look: Any = None, chase: Any = None, flow: Any = flow, category: Category = apps.SCOUT
+) -> Any:
+    """Return an app that follows what moves, and looks along the way."""
     creator = Creator(event="intruder", block="pursue", hook=chase)
     creators = () if chase is None else (creator,)
     app: Any = apps.app(flow, categories=(category,)).given
-    app = replace(
+    return replace(
         app,
         trip=Trip,
         fields=(*app.fields, *TRIP_FIELDS, ALONG),
@@ -108,7 +114,22 @@ def flown(
             TracksOf(),
             CompanyOf((AlongAction(name="look", hook=look),)),
         ),
+        resumes=("allocate",),
     )
+
+
+def flown(
+    trips: Sequence[Trip],
+    *movers: Mover,
+    look: Any = None,
+    drones: int = 1,
+    chase: Any = None,
+    flow: Any = flow,
+    category: Category = apps.SCOUT,
+    until: float | None = None,
+) -> Outcome:
+    """Fly trips, each of a mission, in a world with these movers."""
+    app = pursuing(look, chase, flow, category)
     fleet = FleetData(
         airspace=Airspace(),
         drones=[
@@ -120,7 +141,7 @@ def flown(
     missions: list[Any] = []
     for number, trip in enumerate(trips):
         missions.append(apps.mission(f"m{number}", trip, index=number))
-    return simulate(app, missions, fleet, seed=1, faults=Faults(), until=None, on_event=None)
+    return simulate(app, missions, fleet, seed=1, faults=Faults(), until=until, on_event=None)
 
 
 def photos(outcome: Outcome) -> list[Mapping[str, Any]]:
@@ -165,6 +186,15 @@ def test_a_track_without_news_fails_the_trip() -> None:
     mission = outcome.standing["missions"]["m0"]
     assert mission["status"] == "FAILED"
     assert mission["reason"] == 'track "t1" has had no news for 2 s'
+
+
+def test_each_flight_after_a_track_without_news_takes_its_time() -> None:
+    """Else one that is retried without a bound would never let time go on."""
+    mover = walker((9.0, 9.0), (9.5, 9.0), speed=0.5)
+    outcome = flown([following()], mover, flow=untiring, until=30.0)
+    launches = [event["t"] for event in outcome.events if event["event"] == "trip.launched"]
+    assert 5 < len(launches) < 16
+    assert all(after - before >= 2.0 for before, after in pairwise(launches))
 
 
 def test_follow_stays_within_reach_and_takes_pictures() -> None:
@@ -223,6 +253,39 @@ def test_an_action_along_the_way_sees_what_moves_and_ends_with_the_leg() -> None
     assert outcome.count("event.raised") == 1
     (done,) = (event["t"] for event in outcome.events if event["event"] == "trip.completed")
     assert ended and done - ended[0] == pytest.approx(1.0)  # the photo at the end takes a second
+
+
+def test_an_action_along_the_way_begins_once_its_drone_has_taken_off() -> None:
+    """Else one that fails at once, and is retried without a bound, would never let time go on."""
+    begun: list[tuple[float, float]] = []
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        begun.append((context.now, context.live(drone).position[2]))
+        raise ActionFailed("the lens is dirty")
+
+    patrol = Trip(name="p", action="take_photo", target=(9.0, 0.5, 1.2), along={"action": "look"})
+    outcome = flown([patrol], look=look, flow=untiring, until=20.0)
+    assert all(height > 0.0 for _, height in begun)
+    assert 5 < len(begun) == outcome.count("trip.failed") < 200
+
+
+def test_an_action_along_the_way_begins_once_its_launch_is_on_record() -> None:
+    """A drone that hovers flies at once; if the app is killed then, nothing was done for a flight that never was."""
+    looked: list[float] = []
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        looked.append(context.now)
+
+    brain = charged(app=pursuing(look), recorded=True)
+    brain.go_on({}, {"cf1": {}}, 0.0)
+    way = {"action": "take_photo", "target": [9.0, 0.5, 1.2], "along": {"action": "look"}}
+    brain.begin([{"name": "m", "trips": [way]}], 0.0)
+    brain.tell({"telemetry": {"cf1": {"landed": False}}}, 0.0)
+    settled(brain, 5.0)
+    assert brain.mission("m")["status"] == "RUNNING" and not looked
+    brain.tell({"durable": 1000}, 5.0)
+    settled(brain, 6.0)
+    assert looked
 
 
 def test_what_an_action_along_the_way_raises_fails_the_trip() -> None:
