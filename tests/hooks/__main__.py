@@ -181,7 +181,7 @@ def _trips_of(app: App, rng: Random, new: Callable[..., Any]) -> Callable[..., A
 
     def trip(**given: Any) -> Any:
         action = rng.choice(able)
-        parameters = {
+        parameters: dict[str, Any] = {
             one.name: one.default or _SAMPLES.get(one.name, "x") for one in action.parameters
         }
         more = {"action": action.name, "parameters": parameters, **_needed(app, "trip")}

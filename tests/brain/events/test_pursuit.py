@@ -278,7 +278,8 @@ def test_an_action_along_the_way_begins_once_its_launch_is_on_record() -> None:
 
     brain = charged(app=pursuing(look), recorded=True)
     brain.go_on({}, {"cf1": {}}, 0.0)
-    way = {"action": "take_photo", "target": [9.0, 0.5, 1.2], "along": {"action": "look"}}
+    along = {"along": {"action": "look"}}
+    way = {"action": "take_photo", "target": [9.0, 0.5, 1.2], "fields": along}
     brain.begin([{"name": "m", "trips": [way]}], 0.0)
     brain.tell({"telemetry": {"cf1": {"landed": False}}}, 0.0)
     settled(brain, 5.0)
