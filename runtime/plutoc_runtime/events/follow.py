@@ -94,6 +94,9 @@ class FollowAction(FollowDeclared):
             tracks: Tracks = core.parts[Tracks]
             track = tracks.known.get(id)
             if track is None or kernel.now - track.time > trip.lost_after:
+                began = kernel.now if track is None else track.time
+                track = await tracks.next(id, trip.lost_after, began)
+            if track is None:
                 since = duration(trip.lost_after)
                 raise FlightFailed(
                     Failure.ACTION, f"track {quoted(id)} has had no news for {since}"

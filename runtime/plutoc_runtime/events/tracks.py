@@ -81,10 +81,14 @@ class Tracks(Part):
         kernel = self._core.kernel
         known = self.known.get(id)
         since = began if known is None else max(began, known.time)
+        due = since + within
         try:
-            if await kernel.within(future, since + within, EventKind.TIMER, FLEET):
-                return future.result()
-            return None
+            while not await kernel.within(future, due, EventKind.TIMER, FLEET):
+                if kernel.time() - due <= HELD_UP:
+                    return None
+                # it was held up, and what was told is yet to be heard
+                due = kernel.time() + HELD_UP
+            return future.result()
         finally:
             if future in waiting:
                 waiting.remove(future)
@@ -165,6 +169,8 @@ LONGEST_GAP = 5.0
 """Seconds between two reports from which on they say nothing of a velocity."""
 SOONEST = 0.1
 """Seconds to which a meeting is reckoned exactly."""
+HELD_UP = 0.1
+"""Seconds by which a timer may be late, before it is asked whether something was told meanwhile."""
 STOPS = 1.0
 """Seconds more in which a drone on smooth legs comes to rest from its speed."""
 AHEAD = 1.0
