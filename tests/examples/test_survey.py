@@ -5,14 +5,19 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from statistics import mean, median
 from typing import Any
 
+import pytest
+
+from pluto_fleet.cli import main as fleet_main
 from pluto_fleet.files.missions import load_missions
 from pluto_fleet.flight.simulate import simulate
 from pluto_fleet.shared.domain.model import Photo
 from pluto_fleet.shared.domain.text import duration
 from tests.kit.apps import EXAMPLES, NO_FAULTS, Example, events, example
+from tests.kit.command import run
 
 SEEDS = range(20)
 WAYS = {"at each place": "missions.toml", "on the way": "on_the_way.toml"}
@@ -130,3 +135,14 @@ def test_a_line_takes_each_of_its_photos_once_however_others_are_in_its_way() ->
     heights = {round(_photo(result.value).position[2], 1) for result in taken}
     assert len(taken) == 24
     assert len(heights) > 1
+
+
+def test_a_dry_run_has_each_photo_on_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is a command, though its drone stops for none."""
+    monkeypatch.chdir(EXAMPLES / "aerial_mapping")
+    files = ("on_the_way.toml", "--fleet", "fleet.toml")
+    ran = run(
+        partial(fleet_main, example("aerial_mapping").app), "fly", *files, "--sim", "--dry-run"
+    )
+    assert ran.code == 0, ran.out + ran.err
+    assert ran.out.count("take_photo on the way") == 20

@@ -27,6 +27,7 @@ from ..jobs.controls import (
     Land,
     Read,
     TakeOff,
+    Trigger,
     Write,
 )
 from ..report.report import exit_code, report
@@ -203,6 +204,8 @@ class CommandLog(ForwardingControls):
                 given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
                 what = [*([] if item is None else [toml_value(item.name)]), *given]
                 self._note(drone, f"{action}, {', '.join(what)}" if what else action)
+            case Trigger(action):
+                self._note(drone, f"{action} on the way", self.telemetry[drone].location)
             case Read(name):
                 self._note(drone, f"read {name}")
             case Write(name, value):

@@ -11,7 +11,9 @@ from typing import Any
 import pytest
 
 from pluto_fleet.app import App
+from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.files.missions import missions_of
+from pluto_fleet.files.plan_check import impossible
 from pluto_fleet.files.reading import parsed
 from pluto_fleet.files.writing import missions_text
 from pluto_fleet.shared.domain.airspace import Airspace, Corner, Polygon
@@ -172,3 +174,20 @@ def test_what_cannot_be_done_on_the_way_is_told() -> None:
     along = 'along = { action = "measure", every = "1 m" }'
     assert "leave out along" in said(f"{DIG}  {along}\n")
     assert "leave out one" in said(f'{DIG}  overlap = "50 %"\n')
+
+
+def test_a_promise_that_a_line_is_too_long_for_is_told() -> None:
+    """Its drone comes back to where it took off, and has been far away meanwhile."""
+    line = 'source = [20, 1]\n  target = [1, 1]\n  along = { action = "take_photo", every = "1 m" }'
+    text = f"""
+[[mission]]
+deadline = "30 s"
+  [[mission.trip]]
+  action = "take_photo"
+  {line}
+"""
+    drone = DroneEntry(id="cf1", category="scout", home=(1.0, 1.0, 0.0))
+    team = FleetFile(airspace=OPEN, drones=(drone,))
+    (told,) = impossible(missions(text), SURVEY, team)
+    assert "due after 30 s, and takes" in told
+    assert impossible(missions(text.replace("[20, 1]", "[5, 1]")), SURVEY, team) == []
