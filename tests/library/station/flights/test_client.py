@@ -82,6 +82,25 @@ def test_the_example_of_a_program_that_raises_events_prints_what_it_says(serve: 
     assert len({one["id"] for one in happened}) == len(happened)
 
 
+def test_an_event_in_json_happens_as_the_page_says_and_what_cannot_be_is_told_with_409(
+    serve: Serve,
+) -> None:
+    station = serve("pursue", speed=20.0)
+    path, body, answer = re.findall(
+        r"8765(/api/events/\w+) .*\n *-d '(.*)'\n(.*)\n```", PAGE, re.MULTILINE
+    )[0]
+    given = json.loads(body)
+    assert station.ask("POST", path, {**given, "id": "nothing flies"}).status == 409
+    station.flying()
+    assert station.ask("POST", path, {**given, "id": ""}).status == 400
+    for wrong in ({"at": [-1.0, 0.0]}, {"fields": {"size": 3}}, {"mission": "nobody's"}):
+        assert station.ask("POST", path, {**given, "id": str(wrong), **wrong}).status == 409
+    assert station.ask("POST", f"{path}s", {"id": "of another name"}).status == 409
+    assert station.ask("POST", path, given).body.decode() == answer
+    happened = [one for one in station.events("event.raised") if one["id"] == given["id"]]
+    assert [(one["at"][:2], one["fields"]) for one in happened] == [(given["at"], given["fields"])]
+
+
 def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:
     station = serve(speed=1.0)
 
