@@ -79,6 +79,8 @@ class Company(Part):
         self._core.accompany = self.accompany
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
+        self.relieving: dict[Flight, Drone] = {}
+        """The drones that are about to take flights over."""
         self._live: dict[Flight, FlyingDrone] = {}
         """The drones of the actions along the ways."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import inf
+from math import dist, inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import PHOTO, Parameter
@@ -14,7 +14,7 @@ from ..domain.text import duration, quoted
 from ..flow.own_action import NO_MORE, way_home
 from ..time.kernel import EventKind, Future
 from .changes import keep
-from .company import track_of
+from .company import Company, track_of
 from .declared import FOLLOWING, FollowDeclared
 from .tracks import Tracks
 
@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from ..flow.mission import Core, MissionState
     from ..time.kernel import Task
 
+ASIDE = 0.8
+"""The share of the reach by which two drones keep to their sides of a target while one takes over from the other."""
+ROOM = 4.0
+"""How many times the reach the one that comes is away when the other makes room for it."""
 STEP = 0.5
 """Seconds from one look at where it is to the next."""
 
@@ -46,19 +50,20 @@ class FollowAction(FollowDeclared):
         told = _Told(core)
         ends = kernel.now + trip.parameters["for"]
         picture = kernel.now
-        taking: Task[None] | None = None
+        taking: Task[FlightFailed | None] | None = None
         try:
             while True:
                 now = kernel.now
                 if taking is not None and taking.is_set:
-                    taking.result()  # raises what went wrong with the drone
+                    _raise(taking.result())
                     taking = None
-                if now >= picture and taking is None:
+                waits = flight.flier.telemetry.landed  # for others, until its way is free
+                if now >= picture and taking is None and not waits:
                     taking = state.spawn(self._take(state, flight), f"{trip.name}: picture")
                     picture += trip.parameters["every"]
                 if now >= ends:
                     if taking is not None:
-                        await taking
+                        _raise(await taking)
                     return
                 way = way_home(core, flight.flier)
                 left = flight.flier.battery_level - flight.flier.category.reserve
@@ -73,11 +78,15 @@ class FollowAction(FollowDeclared):
             if taking is not None:
                 taking.cancel()
 
-    async def _take(self, state: MissionState, flight: Flight) -> None:
-        """Take a picture on the way: a camera takes its time, in which the drone flies on."""
+    async def _take(self, state: MissionState, flight: Flight) -> FlightFailed | None:
+        """Take a picture on the way: a camera takes its time, in which the drone flies on; return what befell it."""
         core = state.core
-        photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
+        try:
+            photo = await core.orders.ask("act", flight.drone, action=PHOTO, parameters={})
+        except FlightFailed as error:
+            return error
         keep(core, state.mission, flight.trip, photo, action=PHOTO)
+        return None
 
     async def _stay_near(
         self, state: MissionState, flight: Flight, told: _Told, until: float
@@ -102,6 +111,13 @@ class FollowAction(FollowDeclared):
                     Failure.ACTION, f"track {quoted(id)} has had no news for {since}"
                 )
             point, seconds = tracks.ahead(track, flight.flier, core.airspace.cruise_height)
+            company: Company = core.parts[Company]
+            relief = company.relieving.get(flight)
+            if relief is not None and dist(relief.location, point) <= ROOM * trip.reach:
+                point = tracks.aside(point, relief.location, -ASIDE * trip.reach)
+                category = flight.flier.category
+                metres = dist(flight.flier.location, point)
+                seconds = max(seconds, category.motion.at_speed(metres, category.speed))
             put(trip, target=point)
             order = {"do": "go", "drone": flight.drone, "stops": [point], "seconds": seconds}
             told.tell(order, failed.set)
@@ -110,6 +126,11 @@ class FollowAction(FollowDeclared):
             raise why
         if failed.is_set:  # it has arrived
             await kernel.sleep(until - kernel.now, key=state.key)
+
+
+def _raise(failed: FlightFailed | None) -> None:
+    if failed is not None:
+        raise failed
 
 
 class _Told:

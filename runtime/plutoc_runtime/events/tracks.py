@@ -134,6 +134,24 @@ class Tracks(Part):
             after = needed
         return self._above(track, height, now), 0.0
 
+    def aside(self, point: Point, other: Point, metres: float) -> Point:
+        """Return a point so many metres from this one on the side of another, or, if less than 0, on the far one.
+
+        If no drone may be there, that is this point.
+        """
+        airspace = self._core.airspace
+        x, y, z = point
+        far = dist(point[:2], other[:2])
+        if far == 0.0:
+            return point
+        share = min(metres, far) / far
+        moved = (
+            round(x + share * (other[0] - x), 3),
+            round(y + share * (other[1] - y), 3),
+            z,
+        )
+        return point if airspace.problem(moved) is not None else moved
+
     def _way_there(
         self, track: Track, drone: Drone, height: float, now: float, after: float
     ) -> float:
