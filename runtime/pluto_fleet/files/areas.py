@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import chain, count, pairwise
 from math import dist
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..app import App
 from ..extras import has
@@ -18,9 +18,12 @@ from ..shared.domain.fields import Entity
 from ..shared.domain.model import Point, Trip
 from ..shared.domain.text import number, quoted
 from ..shared.domain.values import Keys, Table, read_parameters
-from .coverage import NEAREST, read_covered, read_on_the_way
-from .lines import Line, lines, longest_line, stops
+from .coverage import read_covered, read_on_the_way
+from .lines import NEAREST, Line, lines, longest_line, stops
 from .reading import Document, MadeOfArea, PlanTable, no_such_name
+
+if TYPE_CHECKING:
+    from .sweep import Covered, Sweep
 
 MOST_IN_ALL = 100_000
 MOST_AREAS = 10_000
@@ -117,32 +120,8 @@ def read_lanes(
         return ()
     if corners is None or document.swept > MOST_IN_ALL:  # of what is too much, one has told
         return ()
-    from . import sweep as geometry  # shapely takes long to import
-
-    wrong = geometry.problem_of(corners)
-    if wrong is not None:
-        table.problem(f"polygon {wrong}", "polygon")
-    if wrong is not None or covered is None:
-        return ()
-    key = "spacing" if "spacing" in table.data else "overlap"
-    called = f"{key} {values.shown(table.data[key])}"
-    try:
-        found = geometry.sweep(
-            corners, covered, airspace, before and before[:2], over_edges=on_the_way
-        )
-    except geometry.TooManyPlaces:
-        document.swept += geometry.MOST
-        table.problem(
-            f"{called} makes more than {geometry.MOST:,} trips of this area: widen it", key
-        )
-        return ()
-    if not found.places:
-        said = "covers nothing that may be flown over: it lies in no-fly areas, or off the map"
-        table.problem(f"polygon {said}", "polygon")
-    document.swept += max(len(found.places), MOST_IN_ALL // MOST_AREAS)
-    if document.swept > MOST_IN_ALL:
-        said = f"makes more than {MOST_IN_ALL:,} trips, or has more than {MOST_AREAS:,} areas"
-        table.problem(f"with this area the file {said}: widen the {key}", key)
+    found = _swept(table, corners, covered, airspace, before, on_the_way)
+    if found is None:
         return ()
     places = [[(x, y, z) for x, y in lane] for lane in found.lanes]
     if on_the_way:
@@ -151,9 +130,6 @@ def read_lanes(
     else:
         flown = [stops(lane) for lane in places]
     each = [line for lane in flown for line in lane]
-    if any(line.places > 1 and line.every < NEAREST for line in each):
-        table.problem(f"{called} is too little: on the way it is {number(NEAREST)} m at least", key)
-        return ()
     way = [point for line in each for point in (line.start, line.end)]
     made = MadeOfArea(
         who=table.who,
@@ -165,6 +141,50 @@ def read_lanes(
     document.areas.append(made)
     document.is_made = True
     return flown
+
+
+def _swept(
+    table: PlanTable,
+    corners: Polygon,
+    covered: Covered | None,
+    airspace: Airspace,
+    before: Point | None,
+    on_the_way: bool,
+) -> Sweep | None:
+    """Return how an area is swept; None: it cannot be, and that is noted."""
+    from . import sweep as geometry  # shapely takes long to import
+
+    document = table.document
+    wrong = geometry.problem_of(corners)
+    if wrong is not None:
+        table.problem(f"polygon {wrong}", "polygon")
+    if wrong is not None or covered is None:
+        return None
+    key = "spacing" if "spacing" in table.data else "overlap"
+    mend = "widen" if key == "spacing" else "lessen"
+    called = f"{key} {values.shown(table.data[key])}"
+    if on_the_way and min(*covered(True), *covered(False)) < NEAREST:
+        said = f"leaves too little between two places: on the way {number(NEAREST)} m are the least"
+        table.problem(f"{called} {said}", key)
+        return None
+    try:
+        found = geometry.sweep(
+            corners, covered, airspace, before and before[:2], over_edges=on_the_way
+        )
+    except geometry.TooManyPlaces:
+        document.swept += geometry.MOST
+        said = f"makes more than {geometry.MOST:,} trips of this area: {mend} it"
+        table.problem(f"{called} {said}", key)
+        return None
+    if not found.places:
+        said = "covers nothing that may be flown over: it lies in no-fly areas, or off the map"
+        table.problem(f"polygon {said}", "polygon")
+    document.swept += max(len(found.places), MOST_IN_ALL // MOST_AREAS)
+    if document.swept > MOST_IN_ALL:
+        said = f"makes more than {MOST_IN_ALL:,} trips, or has more than {MOST_AREAS:,} areas"
+        table.problem(f"with this area the file {said}: {mend} the {key}", key)
+        return None
+    return found
 
 
 def _metres(airspace: Airspace, start: Point, end: Point) -> float:

@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 SPACING = values.Quantity(Type.LENGTH, 0.05, 10_000.0)
 """The side of the square around each place."""
-NEAREST = 0.1
-"""The fewest metres between two places on the way."""
 OVERLAP = values.Quantity(Type.PERCENT, 0.0, 0.9)
 """The share of its ground that a photo has in common with one beside it."""
 VIEW = values.Quantity(Type.ANGLE, 0.1, 3.0)

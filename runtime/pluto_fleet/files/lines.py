@@ -13,6 +13,8 @@ from ..shared.domain.model import Category, Point
 SHARE = 1 / 3
 """The most that a line takes of what a battery has above its reserve: as much is left for the way there, and back."""
 
+NEAREST = 0.1
+"""The fewest metres between two places on the way."""
 _FAR = 1e6
 _TINY = 1e-6
 
@@ -42,7 +44,9 @@ def lines(lane: Sequence[Point], airspace: Airspace, longest: float) -> list[Lin
         parts = max(1, ceil(dist(run[0], run[-1]) / longest - _TINY))
         size = ceil(len(run) / parts)
         cut = [run[first : first + size] for first in range(0, len(run), size)]
-        found += [Line(part[0], part[-1], len(part)) for part in cut]
+        for part in cut:
+            line = Line(part[0], part[-1], len(part))
+            found += [line] if line.every >= NEAREST else stops(part)
     return found
 
 

@@ -132,7 +132,7 @@ def test_no_line_takes_more_than_a_third_of_a_battery() -> None:
     assert max(dist(one.source, one.target) for one in mission.trips) == pytest.approx(3.0)
 
 
-@pytest.mark.parametrize("number", range(12))
+@pytest.mark.parametrize("number", [*range(12), 154])
 def test_areas_drawn_by_chance_are_covered(number: int) -> None:
     """Concave and thin ones, at the map's edge, with no-fly areas in them."""
     area = drawn(number)
@@ -143,7 +143,7 @@ def test_areas_drawn_by_chance_are_covered(number: int) -> None:
     try:
         [mission] = missions(text, area.airspace)
     except BadInput as error:
-        assert "covers nothing" in str(error) or "is too little" in str(error)
+        assert "covers nothing" in str(error)
         return
     places = [spot for trip in mission.trips for spot in spots(trip)]
     assert share_covered(points, places, spacing) >= ENOUGH
@@ -168,7 +168,7 @@ def test_what_cannot_be_done_on_the_way_is_told() -> None:
         in said(DIG, app=app)
     )
     assert "declare `action take_photo along` in it" in said(DIG, app=APP)
-    assert "is too little: on the way it is 0.1 m at least" in said(
+    assert "leaves too little between two places: on the way 0.1 m are the least" in said(
         DIG.replace('"1 m"', '"6 cm"').replace("9", "2").replace("4", "2")
     )
     along = 'along = { action = "measure", every = "1 m" }'
