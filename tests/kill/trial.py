@@ -23,8 +23,8 @@ from tests.kill.plans import Plan
 
 LONGEST = 0.7
 """Seconds until something is killed."""
-SOON = 0.03
-"""Seconds from when it is told of an event until it is killed, at the most."""
+SOON = (0.0, 0.02, 0.2, 0.5)
+"""Seconds from when it is told of an event until it is killed, about."""
 PLACES = ((2.0, 3.0), (4.0, 1.0), (6.0, 5.0))
 """Where events happen that it is told of."""
 
@@ -110,7 +110,7 @@ class Trial:
         id = self.random.choice((new, new, *known[-1:]))
         teller = Thread(target=self._tell, args=(id,))
         teller.start()
-        self.flight.wait(self.random.uniform(0.0, SOON))
+        self.flight.wait(self.random.choice(SOON) * self.random.uniform(0.5, 1.5))
         self._kill(victim)
         teller.join()
 

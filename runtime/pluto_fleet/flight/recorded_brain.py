@@ -179,9 +179,10 @@ class RecordedBrain:
 
     def _track(self, reports: Mapping[str, Any]) -> None:
         """Record where what moves is: nothing follows from it but what the brain says."""
-        now = round(self.kernel.now, 3)
-        if news := self.tracked.take(reports, now):
-            self.recorder.measure({"t": now, "event": TRACKED, "tracks": news})
+        now = self.kernel.now
+        if news := self.tracked.take(reports, round(now, 3)):
+            # to the same digits as all else, or time would go back to the next event
+            self.recorder.measure({"t": round(now, 6), "event": TRACKED, "tracks": news})
 
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""

@@ -46,3 +46,16 @@ def test_an_action_on_the_way_begins_again_with_the_next_brain() -> None:
     (done,) = living.times("trip.completed")
     assert max(second) <= done
     assert len(living.times("trip.launched")) == 1
+
+
+def test_what_is_told_of_a_track_has_its_time_as_all_else() -> None:
+    """Rounded to milliseconds, it would be later than what comes just after it."""
+    trip = Trip(name="1", action="take_photo", target=(9.0, 0.5, 1.2))
+    living = Living(described(pursuing()), apps.mission("m", trip))
+    walks = {"tracks": {"t1": {"kind": "person", "at": [3.0, 3.0, 0.0]}}}
+    living.at(1.0006, lambda: living.life.told(walks))
+    living.at(1.0007, lambda: living.life.note("log", text="later", mission=None))
+    living.run()
+    times = [float(str(event["t"])) for event in living.memory.events]
+    assert "tracked" in [event["event"] for event in living.memory.events]
+    assert times == sorted(times)
