@@ -110,3 +110,21 @@ def test_one_that_waits_for_its_way_asks_for_the_other() -> None:
     field.advance(6.0)
     assert heard == [None]
     assert field.navigation.bodies["cf1"].location == (1.0, 3.0, 1.2)
+
+
+def test_a_real_drone_may_shoot_past_where_it_turns_and_others_keep_away_from_there() -> None:
+    """For two seconds, as after a stop: then it is surely on its new way."""
+    field = Field(homes=((1, 1), (3.9, 1)), slack=0.15)
+    link = field.link(1)
+    up(field, link)
+    go(link, [], 9.0, 1.0, 1.2)
+    field.advance(0.1)
+    other = Task(id="o", drone="cf2", stops=((3.9, 1.0, 1.2),), action=None, item=None)
+    link.fly(other, lambda _: None)  # which is on the way of the first
+    field.advance(3.9)  # that is at (3, 1) by then
+    go(link, [], 3.0, 5.0, 1.2)
+    beside = field.navigation.bodies["cf2"]
+    field.advance(1.5)
+    assert beside.landed
+    field.advance(2.0)
+    assert not beside.landed

@@ -117,6 +117,8 @@ class Traffic:
             return None
         now = self._kernel.now
         shoots = self._shoots(section.drone, now)
+        if shoots:
+            section = replace(section, shoots=shoots)
         for way in self._ways(section, ways):
             if shoots:
                 way = replace(way, shoots=shoots)

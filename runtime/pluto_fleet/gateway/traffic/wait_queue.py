@@ -50,6 +50,10 @@ class Obstacle:
             self._points, self._last = claim.points, 0
             self._until = claim.until if stops else now + HOVERS
             return
+        if claim.shoots and now < claim.until:  # then it is on its route alone
+            self._points, self._last = (), 0
+            self._until = claim.until
+            return
         shape = claim.shape(now)
         if claim.points is not self._points or claim.at > self._last:
             self._points, self._clear = claim.points, 0.0
