@@ -194,7 +194,7 @@ def pursuit(page: Page, station: Station) -> Iterator[str]:
     page.get_by_text("Raise an event…").click()
     yield "raise"
     station.tell("stop", how="land")
-    until(lambda: station.phase == "stopped", "all have landed")
+    until(lambda: station.phase in ("stopped", "over"), "all have landed")
     open_page(page, "History")
     flights = page.get_by_role("table", name="Flights").locator("tbody").get_by_role("button")
     flights.first.click()
@@ -202,6 +202,9 @@ def pursuit(page: Page, station: Station) -> Iterator[str]:
     slider.evaluate(SCRUB.replace("/ 2", "- 5"))
     expect(page.locator(".replay .tracked").first).to_be_visible()
     yield "replayed-events"
+    page.get_by_role("tablist", name="Of this flight").get_by_role("tab", name="Report").click()
+    expect(page.get_by_role("article")).to_contain_text("Intruder")
+    yield "report-of-events"
 
 
 def lists(page: Page, name: str) -> None:

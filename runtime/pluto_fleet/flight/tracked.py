@@ -51,7 +51,7 @@ class TrackedObjects:
         self._known: dict[str, Tracked] = {}
 
     def take(self, reports: Mapping[str, Any], now: float) -> dict[str, Any]:
-        """Take over reports: `at`, and perhaps `kind`; return those that a journal must have.
+        """Take over reports: `at`, and perhaps `kind`, and how many seconds `ago`; return those that a journal must have.
 
         These are few: what was reported of an object that stands, or just before, says nothing new.
         """
@@ -62,14 +62,15 @@ class TrackedObjects:
             before = self._known.pop(id, None)  # those that were reported last are last
             known = before or Tracked("", at, now)
             kind = str(report.get("kind", known.kind))
+            ago = report.get("ago", 0.0)
             told = {"at": at} if before and kind == before.kind else {"at": at, "kind": kind}
             known.kind = kind
             known.at = at
-            known.seen = now
+            known.seen = round(now - ago, 3)
             self._known[id] = known
             if known.is_news():
-                known.way.append((now, at))
-                news[id] = told
+                known.way.append((known.seen, at))
+                news[id] = {**told, "ago": ago} if ago else told
         for id in [*self._known][:-MOST]:
             del self._known[id]
         return news

@@ -230,10 +230,11 @@ class KeptRow(TypedDict):
 
 
 class TrackFacts(TypedDict):
-    """Where something was that moves; `kind` the first time."""
+    """Where something was that moves; `kind` the first time, and how many seconds `ago` where that is not now."""
 
     at: Point
     kind: NotRequired[str]
+    ago: NotRequired[float]
 
 
 class ClockRow(TypedDict):

@@ -155,19 +155,14 @@ def _parameters(given: Iterable[Parameter]) -> list[ParameterData]:
     ]
 
 
-def _events(app: App) -> list[EventData] | None:
-    for part in app.parts:
-        if isinstance(part, EventsDeclared):
-            creates = {creator.event for creator in part.creators}
-            return [
-                {
-                    "name": one.name,
-                    "fields": _parameters(one.fields),
-                    "creates": one.name in creates,
-                }
-                for one in part.types
-            ]
-    return None
+def _events(app: App) -> list[EventData]:
+    declared = [part for part in app.parts if isinstance(part, EventsDeclared)]
+    creates = {creator.event for part in declared for creator in part.creators}
+    return [
+        {"name": one.name, "fields": _parameters(one.fields), "creates": one.name in creates}
+        for part in declared
+        for one in part.types
+    ]
 
 
 def _units(kind: Type) -> list[str]:

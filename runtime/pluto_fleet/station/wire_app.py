@@ -144,8 +144,8 @@ class AppData(TypedDict):
     actions: list[ActionData]
     categories: list[CategoryData]
     drones: list[FleetDrone]
-    events: list[EventData] | None
-    """Those that it declares, which can be raised; null: nothing happens in this app."""
+    events: list[EventData]
+    """Those that it declares, which can be raised."""
     layers: list[Layer]
     """How results are shown on the map."""
     map: MapShape

@@ -29,6 +29,13 @@ def test_what_is_not_reported_any_more_is_known_for_a_minute_as_it_was_seen_last
     assert [*objects.now(99.1 + KEPT)] == []
 
 
+def test_what_a_tracker_saw_a_while_ago_was_there_then() -> None:
+    objects = TrackedObjects()
+    news = objects.take({"t1": {"at": [1.0, 0.0, 0.0], "ago": 1.5}}, 10.0)
+    [(_, one)] = objects.now(10.0)
+    assert (news["t1"]["ago"], one.seen, one.way[0][0]) == (1.5, 8.5, 8.5)
+
+
 def test_of_a_flood_of_objects_the_last_are_known() -> None:
     objects = TrackedObjects()
     for number in range(5 * MOST):

@@ -29,7 +29,8 @@ class Ways:
         if event["event"] != TRACKED:
             return
         for id, told in event["tracks"].items():
-            self._places.append((id, [event["t"], *told["at"]]))
+            seen = round(event["t"] - told.get("ago", 0.0), 3)
+            self._places.append((id, [seen, *told["at"]]))
             if "kind" in told:
                 self._kinds[id] = told["kind"]
 

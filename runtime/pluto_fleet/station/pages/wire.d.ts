@@ -43,8 +43,8 @@ export interface AppData {
   actions: ActionData[];
   categories: CategoryData[];
   drones: FleetDrone[];
-  /** Those that it declares, which can be raised; null: nothing happens in this app. */
-  events: EventData[] | null;
+  /** Those that it declares, which can be raised. */
+  events: EventData[];
   /** How results are shown on the map. */
   layers: Layer[];
   map: MapShape;

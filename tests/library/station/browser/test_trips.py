@@ -57,6 +57,26 @@ def drawn(station: Station, visit: Visit, *actions: tuple[str, Place]) -> tuple[
 
 
 @pytest.mark.long
+def test_a_trip_does_something_on_its_way_as_its_card_says(serve: Serve, visit: Visit) -> None:
+    station, page = drawn(serve("aerial_mapping"), visit, ("Take photo", (3.0, 4.0)))
+    page.get_by_label("On the way").select_option("take_photo")
+    often = page.get_by_label("How often: a length or a time")
+    expect(often).to_have_value("1 m")
+    often.fill("often")
+    expect(card_of(page, 1).locator("[data-field=along] .problem")).to_contain_text("2 m")
+    often.fill("2 m")
+    until(lambda: along(station) == {"action": "take_photo", "every": "2 m"}, "it is kept")
+    expect(card_of(page, 1).locator("[data-field=along] .problem")).to_be_hidden()
+    page.get_by_label("On the way").select_option("")
+    until(lambda: along(station) is None, "it is taken away")
+
+
+def along(station: Station) -> object:
+    """Return what the only trip does on its way."""
+    return trips(station)[0].get("along")
+
+
+@pytest.mark.long
 def test_the_arrow_keys_move_a_pin_and_delete_removes_it_and_undo_brings_it_back(
     ward: Station, visit: Visit
 ) -> None:

@@ -11,13 +11,16 @@ import { called } from "../map/tracked.js";
 import { Field } from "../ui/field.js";
 import { Button, Empty, joined, Problem, Said, Select } from "../ui/parts.js";
 
+/** Whether anything came of it: an app that declares no events may still react to what is built in. @param {EventRow} row */
+export const mattered = ({ over, broke_off: broken }) => over !== null || broken.length > 0;
+
 const SHOWN = 100;
 const RAISED_IN = ["flying", "stopped", "interrupted"]; // what is stopped hears of it when it goes on
 
 /** @param {{ world: World, live: boolean }} props */
 export function EventList({ world, live }) {
   const rows = world.events.all().slice(-SHOWN).reverse();
-  const types = /** @type {AppShape} */ (app.value).events ?? [];
+  const types = /** @type {AppShape} */ (app.value).events;
   const canRaise = live && mayFly.value && types.length > 0 && RAISED_IN.includes(world.state.value.phase);
   return h("div", null, canRaise && h(Raise, { world, types }),
     rows.length ? h("ul", { "aria-label": t("monitor.events") }, rows.map((row) => h(Happened, { key: row.id, row })))
@@ -40,11 +43,11 @@ function Happened({ row: { id, name, time, at, track, mission, drone, fields, ma
     ...Object.entries(fields).filter(([, value]) => value !== null).map(([field, value]) => `${plain(field)}: ${inWords(/** @type {Scalar} */ (value))}`),
     mission && h(MissionLink, { name: mission }), drone,
   ].filter(Boolean);
-  const isAsked = over === null && app.value?.events?.find((one) => one.name === name)?.creates;
+  const isAsked = over === null && app.value?.events.find((one) => one.name === name)?.creates;
   return h("li", { class: "event-entry", "data-event": id },
     h("p", { class: "row" }, h("span", { class: "muted num" }, clock(time)), h("strong", { class: "called" }, capital(name)), h("small", { class: "called" }, id)),
     facts.length > 0 && h("p", { class: "because" }, joined(facts)),
-    made.length > 0 && h("p", null, t("event.made", { n: made.length }), " ", joined(made.map((one) => h(MissionLink, { name: one })))),
+    made.length > 0 && h("p", null, t("event.made"), " ", joined(made.map((one) => h(MissionLink, { name: one })))),
     broken.length > 0 && h("p", null, t("event.broke-off"), " ", joined(broken.map((one) => h(MissionLink, { name: one })))),
     !made.length && (why || !broken.length) && h("p", { class: "because" }, why ? h(Said, { text: why }) : t(isAsked ? "event.open" : "event.nobody")));
 }

@@ -15,7 +15,7 @@ import { Tracks } from "../map/tracks.js";
 import { Button, Icon, SaidWords, SureButton, Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
 import { DroneCard, DroneList } from "./drones.js";
-import { EventList, picking } from "./events.js";
+import { EventList, mattered, picking } from "./events.js";
 import { Graph } from "./graph.js";
 import { MissionList } from "./missions.js";
 
@@ -82,7 +82,7 @@ export function Watch({ world, isLive, foot }) {
     if (row && row.x !== null && row.y !== null) camera.reveal(row.x, row.y);
   }, [drone, mission, world, camera]);
   useEffect(() => () => { picking.value = null; }, []);
-  const has = { graph: shape.graph && prefs.graph.value, events: shape.events };
+  const has = { graph: shape.graph && prefs.graph.value, events: shape.events.length || world.events.all().some(mattered) };
   const lists = LISTS.filter((name) => !(name in has) || has[/** @type {keyof typeof has} */ (name)]);
   const list = lists.find((name) => name === prefs.railTab.value) ?? "missions";
   return h(MapSplit, {

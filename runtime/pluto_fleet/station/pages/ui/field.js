@@ -4,7 +4,7 @@
 import { h } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
 import { capital, inWords, t, TIME, typedNumber, typedQuantity, usualUnit } from "../core/i18n.js";
-import { Check, Problem, Select } from "./parts.js";
+import { Check, Input, Problem, Select } from "./parts.js";
 
 const NUMERIC = ["int", "float"];
 
@@ -156,15 +156,11 @@ function Along(props) {
   const { action, every } = now;
   const pick = (/** @type {string} */ name) =>
     (name ? { action: name, ...(spaced.includes(name) ? { every: every ?? USUALLY_EVERY } : {}) } : undefined);
-  const write = (/** @type {Event} */ event, /** @type {boolean} */ typing) => {
-    const { value } = /** @type {HTMLInputElement} */ (event.currentTarget);
-    onChange({ ...now, every: value }, typing, null);
-  };
   return h("div", { class: "row along" },
     h(Select, { ...shared(props), class: "", value: action, options: [["", t("none")], ...actions.map((name) => [name, capital(name)])], onPick: (name) => onChange(pick(name), false, null) }),
-    spaced.includes(action) && h("input", {
-      "aria-label": t("field.every"), placeholder: t("field.such-as", { example: "2 m" }), maxLength: 20, autocomplete: "off", disabled: locked, value: every ?? "",
-      onInput: (/** @type {Event} */ event) => write(event, true), onChange: (/** @type {Event} */ event) => write(event, false),
+    spaced.includes(action) && h(Input, {
+      class: "", "aria-label": t("field.every"), placeholder: t("field.such-as", { example: "2 m" }), maxLength: 20, autocomplete: "off", disabled: locked, value: every ?? "",
+      onText: (text) => onChange({ ...now, every: text }, true, null), // and no onChange: that comes, too, as it is taken away
     }));
 }
 
