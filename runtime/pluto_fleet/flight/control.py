@@ -18,7 +18,15 @@ from ..shared.domain.status import Status
 from ..shared.domain.text import counted, quoted
 from ..shared.time.kernel import FLEET, Future, Task
 from .changing import TripChange, refuse_if_stale
-from .kept_events import events_of, given_of, has_happened, is_kept, is_known, kept_one, noted
+from .kept_events import (
+    events_of,
+    given_of,
+    has_happened,
+    is_kept,
+    is_known,
+    kept_one,
+    noted,
+)
 from .mishaps import Mishaps
 from .mission_status import ANSWERS, aside
 from .reconcile import ANSWERS as DONE_OR_NOT

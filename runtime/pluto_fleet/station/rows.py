@@ -16,7 +16,16 @@ if TYPE_CHECKING:
     from ..flight.tracked import Tracked
     from ..gateway.sightings import Sighting
     from ..journal.standing import Record
-    from .wire import DroneRow, MissionRow, Question, SaidKey, Scalar, TrackRow, TripRow, Words
+    from .wire import (
+        DroneRow,
+        MissionRow,
+        Question,
+        SaidKey,
+        Scalar,
+        TrackRow,
+        TripRow,
+        Words,
+    )
 
 
 def words(key: SaidKey, text: str, **facts: Scalar | list[str]) -> Words:
