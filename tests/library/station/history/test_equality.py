@@ -170,7 +170,7 @@ def test_a_drone_that_follows_is_seen_in_the_replay_at_every_instant(serve: Serv
     station.tell("start")
     page = Page(station)
     station.until(lambda: page.look() and len(track_of(page)) > 0, "something is followed")
-    station.until(lambda: page.look() and page.shown.t > 60, "it was followed for a while")
+    station.until(lambda: page.look() and (page.shown.t or 0.0) > 60, "it was followed for a while")
     station.tell("stop", how="land")
     station.until(lambda: page.look() in ENDS, "the flight has ended")
     frames = replayed(station, page.flight)
