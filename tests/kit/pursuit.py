@@ -7,6 +7,7 @@ from dataclasses import replace
 from random import Random
 
 from pluto_fleet.files.fleet import FleetFile
+from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.events.world import Mover
 
@@ -36,8 +37,8 @@ def peopled(
     movers = tuple(_person(f"t{n}", chance, width, depth, paces) for n in range(1, people + 1))
     return replace(
         fleet,
-        drones=[replace(first, id=f"cf{n}", home=home) for n, home in enumerate(homes, 1)],
-        world=replace(fleet.world, movers=movers),
+        drones=tuple(replace(first, id=f"cf{n}", home=home) for n, home in enumerate(homes, 1)),
+        world=replace(fleet.world or WorldData(), movers=movers),
     )
 
 
