@@ -98,7 +98,7 @@ def table(surveys: Mapping[str, Sequence[Survey]]) -> str:
             [one.ahead for one in runs]
         ),
         "in common with the next strip": lambda runs: share([one.aside for one in runs]),
-        "runs with a whole map": lambda runs: f"{sum(one.complete for one in runs)} of {len(runs)}",
+        "runs in which every mission was completed": lambda runs: f"{sum(one.complete for one in runs)} of {len(runs)}",
     }
     lines = [f"| | {' | '.join(surveys)} |", f"| --- |{' ---: |' * len(surveys)}"]
     for called, said in rows.items():
