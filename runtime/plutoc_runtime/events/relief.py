@@ -66,10 +66,11 @@ async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
         except FlightFailed as error:
             core.fleet.recover(drone, str(error))
             taken_over = True
-            await core.kernel.sleep(LOOK, key=state.key)
         finally:
             if not taken_over:  # the flight is over, or the mission
                 core.fleet.dismiss(drone)
+        # who takes over may be low as well: time passes until it is relieved
+        await core.kernel.sleep(LOOK, key=state.key)
 
 
 async def _until_low(state: MissionState, flight: Flight, margin: float) -> None:
