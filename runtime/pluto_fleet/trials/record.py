@@ -12,6 +12,7 @@ from typing import Any
 from ..app import App
 from ..flight.offline import decided
 from ..flight.reconcile import id_of
+from ..journal.database import written
 from ..journal.facts import row_of
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
@@ -245,7 +246,7 @@ class TrialRecord:
     def commit(self, entry: Entry, events: list[Event]) -> None:
         """Add a durable entry."""
         for table, key, row in entry.rows:
-            self._rows[table, key] = json.dumps(row)
+            self._rows[table, key] = written(row)
         for event in events:
             self._time = float(str(event["t"]))
             self.events.append(event)

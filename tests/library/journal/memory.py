@@ -8,6 +8,7 @@ from errno import ENOSPC
 from pathlib import Path
 
 from pluto_fleet.journal import errors
+from pluto_fleet.journal.database import written
 from pluto_fleet.journal.errors import JournalError
 from pluto_fleet.journal.facts import row_of
 from pluto_fleet.journal.standing import Row, Standing, inherited
@@ -46,7 +47,7 @@ class Memory:
 
     def replace(self, rows: Sequence[Row]) -> None:
         """Have other rows, as somebody has written them."""
-        self._rows = {(table, key): json.dumps(row) for table, key, row in rows}
+        self._rows = {(table, key): written(row) for table, key, row in rows}
 
     def standing(self) -> Standing:
         """Return where everything stands, by the durable rows."""
@@ -84,4 +85,4 @@ class Memory:
         for entry in entries:
             self._events.append(entry.events)
             for table, key, row in entry.rows:
-                self._rows[table, key] = json.dumps(row)
+                self._rows[table, key] = written(row)
