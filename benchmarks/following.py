@@ -11,6 +11,7 @@ a metre, in the median.
 
 from __future__ import annotations
 
+import argparse
 import asyncio
 import sys
 from collections.abc import Sequence
@@ -105,6 +106,9 @@ async def followed(speed: float, folder: Path) -> Figures:
 
 def main() -> int:
     """Print a row for each speed."""
+    argparse.ArgumentParser(
+        description="How near a Crazyflie stays to somebody who walks."
+    ).parse_args()
     print("| it walks at, m/s | metres away: median | 95 % | hardly moves |")
     print("| ---: | ---: | ---: | ---: |")
     far = False
