@@ -43,8 +43,11 @@ SPEEDS = (0.2, 0.3, 0.4, 0.5)
 HALL = Airspace(size=(12.0, 8.0))
 PATH: Sequence[Corner] = ((2.0, 7.5), (5.0, 5.0), (3.0, 2.0), (8.0, 3.0))
 SCOUT = Category(name="scout", speed=1.0, flight_time=420, charge_time=1200)
-LASTS, CATCHES_UP = 60.0, 5.0
-AHEAD, AGAIN, LOOK = 1.0, 0.5, 0.05
+LASTS = 60.0
+CATCHES_UP = 5.0
+AHEAD = 1.0
+AGAIN = 0.5
+LOOK = 0.05
 REACH = 0.5
 
 
@@ -83,7 +86,8 @@ async def followed(speed: float, folder: Path) -> Figures:
         return at
 
     def tell(number: int) -> None:
-        before, here = place(clock() - AGAIN), place(clock())
+        before = place(clock() - AGAIN)
+        here = place(clock())
         x, y = (b + AHEAD * (b - a) / AGAIN for a, b in zip(before, here, strict=True))
         stop = min(max(x, 0.0), 12.0), min(max(y, 0.0), 8.0), 1.2
         order = {"do": "go", "id": number, "drone": "cf1", "stops": [stop], "seconds": AHEAD}

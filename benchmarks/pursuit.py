@@ -33,7 +33,8 @@ from pluto_fleet.trials.case import fresh
 from tests.kit import apps
 from tests.kit.pursuit import peopled, releases
 
-DRONES, PEOPLE = (2, 3, 4, 5, 6, 7, 8), (1, 2, 3, 5, 7, 10)
+DRONES = (2, 3, 4, 5, 6, 7, 8)
+PEOPLE = (1, 2, 3, 5, 7, 10)
 SEEDS = 20
 A_SHIFT = 3600.0
 """Seconds after which a mission should have ended."""

@@ -33,7 +33,8 @@ from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.trials.case import fresh
 from tests.kit import apps
 
-DRONES, PEOPLE = 3, 2
+DRONES = 3
+PEOPLE = 2
 APART = 0.15
 """The share by which both may differ."""
 

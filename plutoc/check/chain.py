@@ -66,7 +66,8 @@ def _known(graph: Graph, part: Part, targets: Sequence[str], way: Way) -> str | 
 
 def _leads(graph: Graph, name: str, target: str) -> bool:
     """Return whether a block leads to another, through blocks at most that have nothing to do with flights."""
-    seen, waiting = {name}, [name]
+    seen = {name}
+    waiting = [name]
     while waiting:
         for edge in graph.outgoing.get(waiting.pop(), ()):
             if edge.target == target:

@@ -72,7 +72,8 @@ def fork_of(fork: Fork) -> str:
 
 def or_guarded(graph: Graph, fork: Fork) -> str:
     """The other way to mend a fork that may not be meant, if its block has more than one answer."""
-    node, status = graph.node[fork[0]], fork[1]
+    node = graph.node[fork[0]]
+    status = fork[1]
     answers = {answer for taken in node.block.accepts_by_guard for answer in node.emitted(taken)}
     if answers == {status}:
         return ""

@@ -196,7 +196,9 @@ class _Desk:
     """Serves requests of other processes."""
 
     def __init__(self, server: Server, world: MovingWorld, over: asyncio.Event) -> None:
-        self._server, self._world, self._over = server, world, over
+        self._server = server
+        self._world = world
+        self._over = over
         self._began = time.monotonic()
         self._camera: asyncio.Server | None = None
         self._tracker: asyncio.Server | None = None

@@ -27,7 +27,8 @@ class Lines:
         host, _, port = str(address).rpartition(":")
         if not host or not port.isdecimal() or [*options] != ["address"]:
             raise BadInput('it takes one option, such as address = "127.0.0.1:5006"')
-        self._host, self._port = host, int(port)
+        self._host = host
+        self._port = int(port)
 
     async def tracks(self) -> AsyncIterator[Track]:
         """Yield what is said, as long as the other program serves."""

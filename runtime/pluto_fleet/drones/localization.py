@@ -51,7 +51,9 @@ class LocalizationFeed:
     ) -> None:
         self.name = name
         """Its name in the fleet file."""
-        self._drones, self._log, self._clock = dict(drones), log, clock
+        self._drones = dict(drones)
+        self._log = log
+        self._clock = clock
         self._source = Source(
             f"the localization {name}", "positions", source.positions, self._hear, log
         )

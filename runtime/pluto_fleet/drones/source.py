@@ -29,7 +29,10 @@ class Source:
     ) -> None:
         """`name` and `gives` are for sentences: "the localization ceiling", "positions"."""
         self.name = name
-        self._gives, self._call, self._hear, self._log = gives, call, hear, log
+        self._gives = gives
+        self._call = call
+        self._hear = hear
+        self._log = log
         self._said: set[str] = set()
         self._listening: asyncio.Task[None] | None = None
 

@@ -71,12 +71,14 @@ class TrackFeed:
         clock: Callable[[], float] = monotonic,
     ) -> None:
         """`name`: its name in the fleet file."""
-        self._airspace, self._clock = airspace, clock
+        self._airspace = airspace
+        self._clock = clock
         self._source = Source(f"the tracker {name}", "tracks", tracker.tracks, self._hear, log)
         self._known: dict[str, Track] = {}
         self._news: dict[str, None] = {}
         """The tracks of which something is new since the last call."""
-        self.start, self.close = self._source.start, self._source.close
+        self.start = self._source.start
+        self.close = self._source.close
 
     def news(self) -> Mapping[str, object]:
         """Return where things are that were seen since the last call, and how many seconds `ago` that was."""
@@ -126,7 +128,8 @@ class TrackFeed:
 
     def _checked(self, one: object) -> Track | None:
         """Return a track of any copy of the class, with its time; None: it is none, and that is said."""
-        id, kind = getattr(one, "id", None), getattr(one, "kind", "")
+        id = getattr(one, "id", None)
+        kind = getattr(one, "kind", "")
         if not is_name(id):
             self._say("gave what is no track: it has no id that can be shown")
             return None

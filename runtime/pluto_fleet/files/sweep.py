@@ -195,7 +195,8 @@ class _Grid:
         """Return whether the place of a cell may be its middle, wherever the area's edge is."""
         if self._over_edges is None:
             return False
-        x, y = cell.centroid.x, cell.centroid.y
+        x = cell.centroid.x
+        y = cell.centroid.y
         return self._over_edges.problem((x, y, self._over_edges.cruise_height)) is None
 
     def _nearest(self, shape: Any, cell: Any) -> Corner:

@@ -155,7 +155,9 @@ class Executor:
         route = self._routes.get(drone)
         if route is None:
             return False
-        route.stops, route.seconds, route.is_new = stops, seconds, True
+        route.stops = stops
+        route.seconds = seconds
+        route.is_new = True
         traffic = self._traffic
         if traffic is not None and traffic.wants_another(drone):
             return True

@@ -124,7 +124,8 @@ def _field(field: Field, built_in: Container[str]) -> FieldData:
     if isinstance(kind, Type):
         data["units"] = _units(kind)
     if isinstance(field, OwnField):
-        data["own"], data["needed"] = True, bool(field.hint)
+        data["own"] = True
+        data["needed"] = bool(field.hint)
     if isinstance(field, AlongField):
         data["actions"] = list(field.actions)
         data["spaced"] = [name for name in field.actions if name in built_in]

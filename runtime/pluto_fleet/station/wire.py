@@ -218,7 +218,7 @@ class EventRow(TypedDict):
     broke_off: list[str]
     """The missions whose flights it has broken off."""
     why: str
-    """Why no mission was made of it; empty: one was, nobody was asked, or nobody has answered yet."""
+    """Why no mission was made of it; empty: one was, no creator was asked, or none has answered yet."""
     over: float | None
     """When that was decided, in seconds of the flight."""
 

@@ -230,7 +230,8 @@ class TripsDoNotOverlap:
         if launched is None:
             self._say(f"{at(event)}: {event['trip']} of {mission} ended and was not in flight")
         elif launched != flight(event):
-            this, other = named(flight(event)), named(launched)
+            this = named(flight(event))
+            other = named(launched)
             self._say(f"{at(event)}: {this} of {mission} ended, not {other}")
 
     def _interrupt(self, event: Event) -> None:

@@ -35,7 +35,8 @@ def test_of_a_graph_just_this_is_said_and_found_out(case: Section, update: bool)
 @pytest.mark.parametrize("case", params(FOLLOWED))
 def test_advice_that_is_followed_to_the_letter_leads_to_a_sound_graph(case: Section) -> None:
     """Each time fewer mistakes are left, or another one: none comes twice."""
-    text, said = case.given, set[str]()
+    text = case.given
+    said = set[str]()
     while found := _errors(text):
         assert found[0].message not in said, text
         said.add(found[0].message)

@@ -30,13 +30,15 @@ async def test_it_stays_near_somebody_who_walks_around_corners(one: Hangar, up: 
     loop = asyncio.get_running_loop()
     began = loop.time()
     going: asyncio.Task[None] | None = None
-    far, ways = list[float](), list[float]()
+    far = list[float]()
+    ways = list[float]()
     here = one.position
     while (passed := loop.time() - began) < 40.0:
         if going is not None:
             going.cancel()
             await asyncio.wait([going])
-        before, now = walker(max(0.0, passed - AGAIN)), walker(passed)
+        before = walker(max(0.0, passed - AGAIN))
+        now = walker(passed)
         x, y, z = (a + (a - b) / AGAIN for a, b in zip(now, before, strict=True))
         going = asyncio.create_task(up.follow((x, y, z), FAST, 1.0))
         await asyncio.sleep(AGAIN)

@@ -176,7 +176,8 @@ async def test_one_on_its_way_is_sent_on_without_a_hover_at_the_pace_that_is_ask
     tmp_path: Path,
 ) -> None:
     async with flying(tmp_path) as flown:
-        team, drone = flown.team, flown.drones["cf1"]
+        team = flown.team
+        drone = flown.drones["cf1"]
         await flown.up()
         assert not team.turn("cf1", GoTo((9.0, 9.0, 1.0)))  # it is on no way
         flies = flown.begin(team.do("cf1", GoTo((5.0, 1.0, 1.0))))

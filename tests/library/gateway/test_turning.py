@@ -28,7 +28,8 @@ def test_what_goes_somewhere_is_sent_on_without_a_stop_and_answers_the_last_orde
     field = Field(measures=True)
     link = field.link(1)
     up(field, link)
-    first, last = list[object](), list[object]()
+    first = list[object]()
+    last = list[object]()
     go(link, first, 9.0, 1.0, 1.2)
     field.advance(4.0)  # it is at (3, 1) by then
     go(link, last, 3.0, 5.0, 1.2)

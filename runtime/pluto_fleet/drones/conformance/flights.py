@@ -215,7 +215,8 @@ async def tour(subject: Author) -> FlightRecord:
     return flight.record
 
 
-AHEAD, AGAIN = 1.0, 0.5
+AHEAD = 1.0
+AGAIN = 0.5
 """Seconds ahead of what it follows to which a drone is sent, and until it is sent on."""
 
 
@@ -223,7 +224,8 @@ async def followed(subject: Author) -> FlightRecord:
     """Follow what moves along x, and is known twice a second."""
     async with flying(subject, subject.make) as flight:
         await flight.sets_out()
-        drone, pace = flight.navigation, subject.pace
+        drone = flight.navigation
+        pace = subject.pace
         x, y, _ = drone.telemetry.position
         lasts = subject.away / pace
 

@@ -68,7 +68,8 @@ class Reservation:
         `shoots`: where it may still shoot to, until a time.
         """
         self.points, self.at, self.tail = points, 0, tail
-        self.shoots, self.until = shoots, until
+        self.shoots = shoots
+        self.until = until
         self.moves, self.fails = True, False
         self.box = _widened(box_of((*points, *tail, *shoots) if tail or shoots else points))
 

@@ -51,7 +51,8 @@ class Obstacle:
             self._until = claim.until if stops else now + HOVERS
             return
         if claim.shoots and now < claim.until:  # then it is on its route alone
-            self._points, self._last = (), 0
+            self._points = ()
+            self._last = 0
             self._until = claim.until
             return
         shape = claim.shape(now)

@@ -145,7 +145,7 @@ export interface EventRow {
   made: string[];
   /** The missions whose flights it has broken off. */
   broke_off: string[];
-  /** Why no mission was made of it; empty: one was, nobody was asked, or nobody has answered yet. */
+  /** Why no mission was made of it; empty: one was, no creator was asked, or none has answered yet. */
   why: string;
   /** When that was decided, in seconds of the flight. */
   over: number | null;

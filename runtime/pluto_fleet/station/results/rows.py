@@ -140,8 +140,10 @@ class ResultRows:
         quantity = None
         if name == MEASURE:
             quantity = given.pop("quantity", None)
-        meaning, value = self._meanings.of(name or "", quantity), plain(data)
-        row["action"], row["parameters"] = name, given
+        meaning = self._meanings.of(name or "", quantity)
+        value = plain(data)
+        row["action"] = name
+        row["parameters"] = given
         place = row["at"] or row["target"]
         row["place"] = None if place is None else self._name_of(place)
         row["kind"], row["layers"] = meaning.kind, [*meaning.layers]

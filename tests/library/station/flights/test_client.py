@@ -67,7 +67,8 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
 
 
 def test_the_example_of_a_program_that_raises_events_prints_what_it_says(serve: Serve) -> None:
-    station, said = serve("pursue", speed=20.0), StringIO()
+    station = serve("pursue", speed=20.0)
+    said = StringIO()
     code, output = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)[2:4]
 
     def program(url: str) -> None:
