@@ -31,6 +31,16 @@ def without_statement(source: Source, span: Span) -> Fix | None:
     )
 
 
+def line_below(source: Source, span: Span, text: str) -> Fix:
+    """Return how to write a line below the one in which something ends, as far in as that one."""
+    before = source.text[source.text.rfind("\n", 0, span.start) + 1 : span.start].lstrip("\ufeff")
+    indent = before[: len(before) - len(before.lstrip(_BLANK))]
+    end = source.text.find("\n", span.end)
+    end = len(source.text) if end < 0 else end
+    end -= source.text.endswith("\r", span.end, end)
+    return Fix(span=Span(end, end), text=f"\n{indent}{text}")
+
+
 def without_item(source: Source, span: Span) -> Fix | None:
     """Return how to take an item that is not the first one out of a list."""
     comma = _last_sign(source.text, span.start)

@@ -78,6 +78,10 @@ MEASURES = (
     "python benchmarks/journal.py",
     "python benchmarks/crazyflie.py",
     "python benchmarks/invariants.py",
+    "python benchmarks/following.py",
+    "python benchmarks/pursuit.py",
+    "python benchmarks/event_latency.py",
+    "python benchmarks/pursuit_real_time.py",
 )
 
 

@@ -134,11 +134,7 @@ def _obstacle(chance: Random) -> Polygon:
 
 def judged(area: Drawn, number: int) -> Judged:
     """Cover an area, and judge that."""
-    strewn = [
-        point
-        for point in _strewn(area.corners, Random(f"strewn {number}"))
-        if area.airspace.problem((*point, 0.0)) is None
-    ]
+    points = strewn(area, number)
     entry = {
         "polygon": [list(corner) for corner in area.corners],
         "action": "take_photo",
@@ -149,7 +145,7 @@ def judged(area: Drawn, number: int) -> Judged:
         [mission] = missions_of(parsed("area.toml", text), APP, area.airspace)
     except BadInput as error:
         nothing = "covers nothing that may be flown over" in str(error)
-        least = len(strewn) <= (1 - ENOUGH) * STREWN
+        least = len(points) <= (1 - ENOUGH) * STREWN
         return Judged(0, 1.0, [] if nothing and least else [f"it is refused: {error}"])
     targets = [trip.target for trip in mission.trips]
     wrong = [said for target in targets if (said := area.airspace.problem(target))]
@@ -158,7 +154,13 @@ def judged(area: Drawn, number: int) -> Judged:
         for x, y, _ in targets
         if not inside((x, y), area.corners) and _from_edge((x, y), area.corners) > _NEARLY
     ]
-    return Judged(len(targets), _share(strewn, targets, area.spacing), wrong)
+    return Judged(len(targets), share_covered(points, targets, area.spacing), wrong)
+
+
+def strewn(area: Drawn, number: int) -> list[Corner]:
+    """Return points all over what may be flown over of an area."""
+    points = _strewn(area.corners, Random(f"strewn {number}"))
+    return [point for point in points if area.airspace.problem((*point, 0.0)) is None]
 
 
 def _strewn(corners: Polygon, chance: Random) -> list[Corner]:
@@ -179,7 +181,9 @@ def _from_edge(point: Corner, polygon: Polygon) -> float:
     return min(distance(point, a, b) for a, b in edges)
 
 
-def _share(points: Sequence[Corner], targets: Sequence[Sequence[float]], spacing: float) -> float:
+def share_covered(
+    points: Sequence[Corner], targets: Sequence[Sequence[float]], spacing: float
+) -> float:
     """Return the share of points in the square of this side around some target."""
     if not points:
         return 1.0

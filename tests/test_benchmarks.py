@@ -113,3 +113,12 @@ def test_the_path_of_a_trip_is_measured() -> None:
     assert [end for _, _, end in counted] == ["mission.ended", "drone.free"] * 2
     alone, *_, together = (int(files) for files, _, _ in counted)
     assert 5 < alone < together
+
+
+def test_pursuit_is_measured() -> None:
+    """Here of one flight: each pair has its row, and no rule is broken."""
+    few = ["--drones", "5", "--people", "2", "--seeds", "1", "--json"]
+    (cell,) = json.loads(measured("pursuit.py", *few))["cells"]
+    assert (cell["drones"], cell["people"]) == (5, 2)
+    assert 0.0 < cell["seen"] <= 1.0
+    assert cell["seconds"]["median"] > 0.0

@@ -74,10 +74,10 @@ class Server:
             os.kill(gateway, 9)
 
 
-def serve(sources: Sequence[Path], fleet: Path, folder: Path) -> Server:
+def serve(sources: Sequence[Path], fleet: Path, folder: Path, app: str = "watched") -> Server:
     """Start the station of the app in a folder of its own; app and library are imported from `sources`."""
     folder.mkdir(parents=True, exist_ok=True)
-    words = [sys.executable, "-m", "watched", "serve", "--sim", "--fleet", str(fleet)]
+    words = [sys.executable, "-m", app, "serve", "--sim", "--fleet", str(fleet)]
     words += ["--port", "0", "--folder", str(folder)]
     begun = time.perf_counter()
     process = subprocess.Popen(

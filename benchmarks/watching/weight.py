@@ -12,8 +12,8 @@ from pluto_fleet.station.web.static import pages
 Weights = dict[str, int]
 
 _IMPORTS = re.compile(r'(?:from|import)\s*"(\.{1,2}/[^"]+)"')
-_PAGES = re.compile(r'(\w+):\s*\(\)\s*=>\s*import\("(\.[^"]+)"\)')
-"""In main.js, which loads each page when the head is there."""
+_PAGE = re.compile(r"/pages/(\w+)/page\.js")
+"""What main.js loads when the head is there."""
 _ON_DEMAND = re.compile(r"/pages/(texts/(?!en\.)|icon-|index\.html)")
 """Other languages, icons of an installed program, and what is served at / already."""
 
@@ -23,8 +23,7 @@ def kilobytes(library: Path) -> dict[str, float]:
     files = pages(library / "pluto_fleet" / "station" / "pages")
     weights = {name: len(gzip.compress(file.plain, mtime=0)) for name, file in files.items()}
     texts = {name: file.plain.decode() for name, file in files.items() if name.endswith("js")}
-    loaded = dict(_PAGES.findall(texts["/pages/main.js"]))
-    opened = {page: _needed(_at("/pages/main.js", path), texts) for page, path in loaded.items()}
+    opened = {page[1]: _needed(name, texts) for name in texts if (page := _PAGE.fullmatch(name))}
     everything = {name for name in weights if not _ON_DEMAND.match(name)}
     head = _needed("/pages/main.js", texts)
     head |= everything.difference(head, *opened.values())

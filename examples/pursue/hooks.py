@@ -16,7 +16,9 @@ LOOKS = 0.25
 """Seconds from one look to the next."""
 BOUND = 5.0
 """Seconds from when an intruder is seen to the picture."""
-STAYS = 30.0
+REACH = 0.7
+"""Metres from somebody within which a camera has them on its picture, from the usual height."""
+STAYS = 90.0
 """Seconds for which a drone stays with whom it has a picture of."""
 URGENT = 10
 """The priority of a picture that is to be taken within a bound."""
@@ -42,7 +44,12 @@ def chase(event: IntruderEvent, context: Context) -> Mission | None:
     if event.at is None or event.track is None:
         return None  # its place is not known
     picture = Trip(
-        name="picture", action="take_photo", target=event.at, track=event.track, priority=URGENT
+        name="picture",
+        action="take_photo",
+        target=event.at,
+        track=event.track,
+        reach=REACH,
+        priority=URGENT,
     )
     return Mission(name=f"chase {event.track}", trips=[picture], promises={"deadline": BOUND})
 
@@ -63,18 +70,14 @@ def stay_with(event: PicturedEvent, context: Context) -> Mission | None:
         action="follow",
         target=event.at,
         track=event.track,
+        reach=REACH,
         parameters={"for": STAYS, "every": 2.0},
     )
     return Mission(name=f"stay with {event.track}", trips=[follow])
 
 
-def release_seen(mission: Mission, context: Context) -> Status:
-    """Let go of who is stayed with when a bound is broken, so that the drone is free for the others.
-
-    All else that comes here goes on: a patrol, and a chase, which has no picture yet.
-    """
-    if not mission.name.startswith("stay with"):
-        return Status.STANDBY
+def release(mission: Mission, context: Context) -> Status:
+    """Let go of who is stayed with: a bound is broken, and the drone is wanted for the others."""
     context.log("let go: there is a picture, and a bound is broken")
     mission.trips.clear()
     return Status.COMPLETED

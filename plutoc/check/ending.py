@@ -19,7 +19,7 @@ from plutoc.check.flow import (
     is_final,
     ordered,
 )
-from plutoc.check.forks import gates_of, handed_on
+from plutoc.check.forks import gates_of, handed_on, past_gate
 from plutoc.check.statuses import arrows_of, explore, unflown
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import round_of
@@ -64,7 +64,8 @@ def stuck(flow: Flow, whole: Flow, found: Branches, idle: Collection[str]) -> li
         blocks = [(node, left) for node, left, _ in lost]
         way = (flow if place in flow.places else whole).way(place, statuses[0])
         gate = _gate(whole, found[fork])
-        diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, way))
+        past = past_gate(whole, found, fork, gate) if gate else None
+        diagnostics.append(errors.stuck_in_fork(flow.graph, fork, blocks, gate, past, way))
     return diagnostics
 
 

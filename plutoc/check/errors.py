@@ -16,15 +16,17 @@ from plutoc.check.phrases import (
     error,
     fork_of,
     listed,
+    or_guarded,
     related_to,
     taken_by,
     warning,
     whole_mission,
     with_emits,
 )
+from plutoc.check.side_by_side import behind, last_arrow, put_beside, through_gate
 from plutoc.diagnostic import Diagnostic, Fix
 from plutoc.edits import is_single, without_arrow
-from plutoc.graph.model import Action, Edge, Graph, Node
+from plutoc.graph.model import START, Action, Edge, Graph, Node
 from plutoc.graph.wording import all_of
 from plutoc.syntax.tokens import joined
 from plutoc_runtime.domain.status import Status
@@ -32,11 +34,16 @@ from plutoc_runtime.domain.status import Status
 # Where missions come in
 
 
-def no_creator(graph: Graph) -> Diagnostic:
+def no_creator(graph: Graph, of_events: Sequence[Node]) -> Diagnostic:
+    what = "missions from the user's trips" if of_events else "missions"
     return error(
         "P2001",
         (graph, graph.name_span),
-        f"no block of `{graph.name}` makes missions",
+        f"no block of `{graph.name}` makes {what}",
+        related=tuple(
+            related_to(graph, node.name_span, "missions of events are made here")
+            for node in of_events
+        ),
         help="declare a block that makes them and begin with `start -> NAME`; "
         "`plutoc blocks` lists the kinds",
     )
@@ -85,12 +92,19 @@ def no_start(graph: Graph, creator: Node) -> Diagnostic:
 
 
 def start_elsewhere(graph: Graph, edge: Edge, creator: Node) -> Diagnostic:
+    target = graph.node.get(edge.target)
+    of_events = target is not None and target.block.creates
+    drawn = [(each.source, each.target) for each in graph.edges]
+    wanted = (START if of_events else creator.name, creator.name if of_events else edge.target)
+    arrow = " -> ".join(wanted)
+    mend = f"remove it: `{arrow}` is there" if wanted in drawn else f"write `{arrow}` instead"
     return error(
         "P2004",
         (graph, edge.span),
-        f"`start` leads to `{edge.target}`, which does not make missions",
-        related=(related_to(graph, creator.name_span, "missions are made here"),),
-        help=f"`start` leads to `{creator.name}` only; draw `{creator.name} -> {edge.target}`",
+        f"`start` leads to `{edge.target}`, which "
+        + ("makes missions of events only" if of_events else "does not make missions"),
+        related=(related_to(graph, creator.name_span, "the user's missions are made here"),),
+        help=mend,
     )
 
 
@@ -139,7 +153,9 @@ def starved(
     edges: Sequence[Edge],
     leaving: Mapping[str, Sequence[Status]],
     way: Way,
+    before: Node | None,
 ) -> Diagnostic:
+    """`before` is the block at the end of the way, if it watches the flight that this one would watch."""
     return error(
         "P2007",
         (graph, node.name_span),
@@ -148,7 +164,7 @@ def starved(
             related_to(graph, edge.span, f"`{edge.source}` emits {listed(leaving[edge.source])}")
             for edge in edges
         ),
-        help=_fed(graph, node, leaving),
+        help=put_beside(graph, before, node, way) if before else _fed(graph, node, leaving),
         ways=(way,),
     )
 
@@ -157,7 +173,8 @@ def _fed(graph: Graph, node: Node, leaving: Mapping[str, Sequence[Status]]) -> s
     if node.block.holds and all(Status.RUNNING in statuses for statuses in leaving.values()):
         return f"it cannot hold a mission in flight: put it {before_allocation(graph, node)}"
     if node.block.limits:
-        return f"lead an arrow here from a block that launches; {whole_mission(graph)}"
+        whole = "" if node.block.interrupts else f"; {whole_mission(graph)}"
+        return f"lead an arrow here from a block that launches{whole}"
     return "lead an arrow here from a block that emits what it accepts"
 
 
@@ -225,6 +242,7 @@ def idle_otherwise(graph: Graph, edge: Edge, leaving: Sequence[Status]) -> Diagn
 def stuck(
     graph: Graph, node: Node, statuses: Sequence[Status], way: Way, taker: str | None
 ) -> Diagnostic:
+    second = behind(graph, node)
     return error(
         "P2009",
         (graph, node.name_span),
@@ -234,7 +252,9 @@ def stuck(
             for edge in graph.outgoing[node.name]
             if edge.takes
         ),
-        help=taken_by(node, statuses[0], taker),
+        help=(
+            put_beside(graph, node, second, way) if second else taken_by(node, statuses[0], taker)
+        ),
         ways=(way,),
     )
 
@@ -263,7 +283,7 @@ _ARROWS = 8
 """So many are proposed at once."""
 
 
-def _missing_arrow(graph: Graph, node: Node, statuses: Sequence[Status], gate: str) -> str:
+def _missing_arrow(graph: Graph, node: Node, statuses: Sequence[Status], gate: str | None) -> str:
     guard = f" when {', '.join(s.value for s in statuses)}" if graph.outgoing[node.name] else ""
     return f"{node.name} -> {gate}{guard}"
 
@@ -273,14 +293,23 @@ def stuck_in_fork(
     fork: Fork,
     left: Sequence[tuple[Node, Sequence[Status]]],
     gate: str | None,
+    past: Way | None,
     way: Way,
 ) -> Diagnostic:
+    """`past` is a way from a fork inside past the gate, which closes that one instead."""
     node, statuses = left[0]
+    missing = [
+        _missing_arrow(graph, each, stays, gate) for each, stays in left if gate != each.name
+    ]
+    arrow = last_arrow(graph, past) if past else None
     if gate is None:
         meet = "let its branches meet at a gate"
+    elif missing:
+        meet = f"lead its branches to `{gate}`: add {all_of(missing[:_ARROWS])}"
+    elif arrow:
+        meet = through_gate(graph, *arrow, gate)
     else:
-        missing = [_missing_arrow(graph, each, stays, gate) for each, stays in left[:_ARROWS]]
-        meet = f"lead its branches to `{gate}`: add {all_of(missing)}"
+        meet = f"give the fork inside a gate of its own, and lead that gate to `{gate}`"
     return error(
         "P2009",
         (graph, node.name_span),
@@ -293,8 +322,7 @@ def stuck_in_fork(
             )
             for other, stays in left[1:]
         ),
-        help=f"{meet}; or, if only one of the arrows from `{fork[0]}` was meant to take "
-        f"{fork[1].value}, guard the others with `when`",
+        help=f"{meet}{or_guarded(graph, fork)}",
         ways=(way,),
     )
 
@@ -368,7 +396,7 @@ def too_tangled(graph: Graph, places: int, steps: int) -> Diagnostic:
 def no_allocation(graph: Graph, node: Node, way: Way) -> Diagnostic:
     edges = [e for e in graph.outgoing[way[-2].node] if e.target == node.name]
     missing = chain.missing(graph, allocated=False, launched=True)[0]
-    through = chain.way_through(graph, edges, allocated=False, launched=True)
+    through = chain.way_through(graph, edges, way, allocated=False, launched=True)
     return error(
         "P2021",
         (graph, node.name_span),
@@ -395,7 +423,7 @@ def left_unlaunched(
 ) -> Diagnostic:
     """Nothing launches the trip between a block and those that watch its flight."""
     missing = " and no ".join(chain.missing(graph, allocated=allocated, launched=False))
-    through = chain.way_through(graph, edges, allocated=allocated, launched=False)
+    through = chain.way_through(graph, edges, way, allocated=allocated, launched=False)
     watch = graph.node[edges[0].target]
     return error(
         "P2022",

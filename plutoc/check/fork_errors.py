@@ -13,10 +13,12 @@ from plutoc.check.phrases import (
     fate,
     fork_of,
     is_flown,
+    or_guarded,
     related_to,
     whole_mission,
     with_emits,
 )
+from plutoc.check.side_by_side import behind, last_arrow, put_beside, through_gate
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.model import Graph, Node
 from plutoc.graph.wording import all_of
@@ -33,18 +35,22 @@ def astray(
 ) -> Diagnostic:
     """`beside` is the branch in which a block holds the mission that others fly; `limited` is a fork with a limit."""
     first, lost = branches[0]
-    guard = f"only one of the arrows was meant to take {first.fork[1].value}, guard the others"
-    if gates:
-        mend = f"close the fork first, at `{gates[0]}`; or, if {guard} with `when`"
-    else:
-        mend = f"if {guard} with `when`; else let the branches meet at a gate"
+    guard = or_guarded(graph, first.fork)
+    past = last_arrow(graph, way) if is_flown(lost) and gates else None
+    watches = graph.node[first.fork[0]].block.watches  # then the flight is over, and was no fork
     if beside:
         holds = graph.node[beside.edge.target]
         mend = (
             f"`{holds.name}` holds only what comes through it, and not the branch beside it: "
-            f"put it {before_allocation(graph, holds)}; or, if {guard} with `when`"
+            f"put it {before_allocation(graph, holds)}{guard}"
         )
-    elif limited and is_flown(lost):
+    elif past and (watches or past[0] is not first.edge):
+        mend = through_gate(graph, *past, gates[0]) + ("" if watches else guard)
+    elif gates:
+        mend = f"close the fork first, at `{gates[0]}`{guard}"
+    else:
+        mend = f"let the branches meet at a gate{guard}"
+    if limited and is_flown(lost) and not beside:
         mend += f"; a limit is for one flight: {whole_mission(graph)}"
     to = "" if lost[0].node == first.edge.target else f" to `{first.edge.target}`"
     return error(
@@ -198,13 +204,18 @@ def interrupted_twice(graph: Graph, first: Node, second: Node, way: Way) -> Diag
 
 
 def unwatched_limit(graph: Graph, node: Node, way: Way) -> Diagnostic:
+    second = behind(graph, node)
     does = "breaks off" if node.block.interrupts else "sets a limit to"
     return error(
         "P2023",
         (graph, node.name_span),
         f"`{node.name}` {does} a flight, but no block beside it watches the flight",
-        help="put it on one branch of a fork, a block that only watches on another, and let both meet "
-        "at a gate",
+        help=(
+            put_beside(graph, node, second, way)
+            if second and not second.block.limits
+            else "put it on one branch of a fork, a block that only watches on another, and let both meet "
+            "at a gate"
+        ),
         ways=(way,),
     )
 

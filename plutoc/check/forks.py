@@ -126,8 +126,19 @@ def _holds(graph: Graph, branch: Branch) -> bool:
 
 
 def _limits(graph: Graph, branch: Branch) -> bool:
-    """Whether a branch limits the flight that the fork is about."""
-    return any(graph.node[name].block.limits for name in branch.nodes)
+    """Whether a branch sets a limit to the flight that the fork is about."""
+    blocks = [graph.node[name].block for name in branch.nodes]
+    return any(block.limits and not block.interrupts for block in blocks)
+
+
+def past_gate(flow: Flow, found: Branches, fork: Fork, gate: str) -> Way | None:
+    """Return the way past a gate out of a fork, in a branch of this one, that closes there instead."""
+    for inner in dict.fromkeys(one for branch in found[fork] for one in branch.inner):
+        if gate in gates_of(found[inner]):
+            for branch in found[inner]:
+                if branch.astray and is_flown(branch.astray):
+                    return flow.way(*branch.astray)
+    return None
 
 
 def handed_on(graph: Graph, gate: str, way: Way) -> Node | None:

@@ -70,6 +70,19 @@ def fork_of(fork: Fork) -> str:
     return f"the fork at `{fork[0]}` ({fork[1].value})"
 
 
+def or_guarded(graph: Graph, fork: Fork) -> str:
+    """The other way to mend a fork that may not be meant, if its block has more than one answer."""
+    node = graph.node[fork[0]]
+    status = fork[1]
+    answers = {answer for taken in node.block.accepts_by_guard for answer in node.emitted(taken)}
+    if answers == {status}:
+        return ""
+    return (
+        f"; or, if only one of the arrows from `{node.name}` was meant to take {status.value}, "
+        "guard the others with `when`"
+    )
+
+
 def _found(
     code: str,
     at: tuple[Graph, Span],

@@ -8,6 +8,7 @@ import networkx as nx
 
 from plutoc.check import errors
 from plutoc.check.flow import Flow, Place, is_final, ordered
+from plutoc.check.side_by_side import watched_before
 from plutoc.diagnostic import Diagnostic
 from plutoc.graph.digraph import components, reachable, subgraph
 from plutoc.graph.model import END, START, Edge, Graph, Node
@@ -22,7 +23,7 @@ def entry(graph: Graph) -> tuple[tuple[Node, ...], tuple[Edge, ...], list[Diagno
     of_events = [node for node in graph.nodes if node.block.creates and node.hook]
     creators = [node for node in graph.nodes if node.block.creates and not node.hook]
     if not creators:
-        return (), (), [errors.no_creator(graph)]
+        return (), (), [errors.no_creator(graph, of_events)]
     started = {edge.target for edge in graph.outgoing[START]}
     creator = next((node for node in creators if node.name in started), creators[0])
     found = [errors.second_creator(graph, n, creator) for n in creators if n is not creator]
@@ -117,9 +118,11 @@ def starved(flow: Flow) -> list[Diagnostic]:
         edges = [e for e in flow.edges if e.target == node.name and flow.leaves.get(e.source)]
         if edges and not all(is_stuck(flow, edge.source) for edge in edges):
             leaving = {edge.source: ordered(flow.leaves[edge.source]) for edge in edges}
-            found.append(
-                errors.starved(flow.graph, node, edges, leaving, flow.way_to(edges[0].source))
-            )
+            first = watched_before(flow.graph, node)
+            if first is not None and first.name not in flow.nearest:
+                first = None
+            way = flow.way_to(first.name if first else edges[0].source)
+            found.append(errors.starved(flow.graph, node, edges, leaving, way, first))
     return found
 
 

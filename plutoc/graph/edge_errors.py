@@ -6,9 +6,9 @@ from collections.abc import Iterable, Sequence
 
 from plutoc.block import IN_GRAPH
 from plutoc.diagnostic import Diagnostic, Related, error
-from plutoc.edits import without_arrow
-from plutoc.graph.model import START
-from plutoc.graph.names import in_snake_case
+from plutoc.edits import line_below, without_arrow
+from plutoc.graph.model import START, Hook
+from plutoc.graph.names import Style, has_style, in_snake_case, reserved
 from plutoc.graph.wording import all_of, alternatives, meant
 from plutoc.source import Source, Span
 from plutoc.syntax.tree import Name
@@ -35,6 +35,34 @@ def unknown_block(
         kind = "KIND" if snake == name.text else name.text
         help = f"declare it in the app: `{snake} = {kind}`"
     return error("P1032", message, source, name.span, help=meant(name.text, blocks) or help)
+
+
+def unknown_source(source: Source, name: Name, near: Sequence[str]) -> Diagnostic:
+    """A flow that begins with what is neither a block nor an event."""
+    snake = in_snake_case(name.text)
+    kind = "KIND" if snake == name.text else name.text
+    return error(
+        "P1032",
+        f"there is no block and no event `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, near)
+        or f"declare it in the app: `{snake} = {kind}`, or `event {snake}`",
+    )
+
+
+def unknown_event(source: Source, name: Name, near: Sequence[str], creator: Hook) -> Diagnostic:
+    """A flow that begins with no event, and leads to what makes missions of events."""
+    right = has_style(name.text, Style.SNAKE) and not reserved(name.text)
+    declared = f"event {name.text if right else in_snake_case(name.text)}"
+    return error(
+        "P1032",
+        f"there is no event `{name.text}`",
+        source,
+        name.span,
+        help=meant(name.text, near) or f"declare it in the app: `{declared}`",
+        fix=line_below(source, creator.span, declared) if right and not near else None,
+    )
 
 
 def kind_in_a_flow(source: Source, name: Name, kind: Name) -> Diagnostic:

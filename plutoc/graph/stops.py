@@ -69,6 +69,13 @@ def check_stops(
     blocks = [name for name, declared in scope.items() if declared.role == BLOCK]
     proposals: dict[str, list[str]] = {}
     kin: dict[str, list[str]] = {}
+    inside = {
+        name.text
+        for flow in flows
+        for i, stop in enumerate(flow.stops)
+        for name in stop.names
+        if not _may_be_source(flow, i)
+    }
     for flow in flows:
         last = len(flow.stops) - 1
         for i, stop in enumerate(flow.stops):
@@ -89,11 +96,28 @@ def check_stops(
                         proposals[name.text] = near(name.text, legal)
                         kin[name.text] = [] if enough else _of_kind(name.text, nodes)
                     role = declared.role if declared else None
-                    found.append(
-                        errors.unknown_block(
-                            source, name, proposals[name.text], role, kin[name.text]
-                        )
-                    )
+                    proposed = proposals[name.text]
+                    creator = _creator_behind(flow, i, nodes)
+                    if role or kin[name.text] or name.text in inside:
+                        wrong = errors.unknown_block(source, name, proposed, role, kin[name.text])
+                    elif creator is not None and creator.hook is not None:
+                        wrong = errors.unknown_event(source, name, proposed, creator.hook)
+                    else:
+                        wrong = errors.unknown_source(source, name, proposed)
+                    found.append(wrong)
+
+
+def _may_be_source(flow: FlowDecl, i: int) -> bool:
+    """Return whether an event may stand at a stop: at the first one, unless its arrow has a guard."""
+    return i == 0 and not (flow.guard and len(flow.stops) == 2)
+
+
+def _creator_behind(flow: FlowDecl, i: int, nodes: Mapping[str, Node]) -> Node | None:
+    """Return what makes missions of events, if a stop leads there: nothing but an event can."""
+    if not _may_be_source(flow, i):
+        return None
+    behind = [nodes.get(name.text) for name in flow.stops[1].names]
+    return next((node for node in behind if node and node.block.creates and node.hook), None)
 
 
 def _of_kind(kind: str, nodes: Mapping[str, Node]) -> list[str]:
@@ -110,9 +134,10 @@ def _legal(
 ) -> Sequence[str]:
     """Return what could stand at a stop: what is proposed must not be refused there."""
     last, guard = len(flow.stops) - 1, flow.guard
+    if _creator_behind(flow, i, nodes):
+        return sorted(set(sources) - {START})
     if i < last:
-        is_start = i == 0 and not (guard and last == 1)
-        return [*blocks, *sorted(sources)] if is_start else blocks
+        return [*blocks, *sorted(sources)] if _may_be_source(flow, i) else blocks
     wanted = {name.text for name in guard.statuses} if guard else set()
     return [
         name

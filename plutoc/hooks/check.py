@@ -44,7 +44,7 @@ def policies_for_all(checked: Checked, hooks: Source) -> frozenset[str]:
     return frozenset(
         hook.name
         for hook, function in functions
-        if isinstance(function, Function) and as_defined(hook, function.args).passed == FOR_ALL
+        if isinstance(function, Function) and as_defined(hook, function).passed == FOR_ALL
     )
 
 
@@ -99,7 +99,7 @@ def _of_definition(
     if definition is None:
         return
     if not isinstance(definition, ast.ClassDef):
-        hook = as_defined(hook, definition.args)
+        hook = as_defined(hook, definition)
     at = errors.At(
         app=checked.graph.source, hooks=hooks, hook=hook, span=name_span(hooks, definition)
     )

@@ -352,6 +352,17 @@ def unknown_event_field(
     )
 
 
+def set_event_field(hooks: Source, span: Span, event: str, name: str) -> Diagnostic:
+    """A hook says what the app knows by itself."""
+    return error(
+        "P3022",
+        f"`{name}` of the event `{event}` is set by the app",
+        hooks,
+        span,
+        help="leave it out; to name another one, give the event a field of its own",
+    )
+
+
 def wrong_event_field(hooks: Source, span: Span, event: str, name: str, wanted: str) -> Diagnostic:
     """A hook says something of an event that is of another type."""
     return error(

@@ -68,8 +68,11 @@ def expected(checked: Checked) -> tuple[Expected, ...]:
     return tuple(sorted(hooks, key=lambda hook: hook.span.start))
 
 
-def as_defined(hook: Expected, arguments: ast.arguments) -> Expected:
-    """Return what is expected of a hook with these parameters: a policy has one of two shapes."""
+def as_defined(hook: Expected, function: ast.FunctionDef | ast.AsyncFunctionDef) -> Expected:
+    """Return what is expected of a hook as it is written: it may wait, and a policy has one of two shapes."""
+    if isinstance(function, ast.AsyncFunctionDef) and hook.may_wait:
+        return replace(hook, first_line=f"async {hook.first_line.removeprefix('async ')}")
+    arguments = function.args
     by_place = [*arguments.posonlyargs, *arguments.args]
     names = {arg.arg for arg in by_place[:2]}
     needed = len(by_place) - len(arguments.defaults)

@@ -19,6 +19,8 @@ from plutoc_runtime.domain.quantities import Type
 
 _OF_ALL = frozenset({"id", "at", "track"})
 """What can be said of each event."""
+_SET = frozenset({"time", "mission", "trip", "drone"})
+"""What else each event has: the app sets it."""
 
 
 def raised(checked: Checked, hooks: Source) -> Iterator[Diagnostic]:
@@ -62,6 +64,8 @@ def _of_fields(hooks: Source, call: ast.Call, event: Event) -> Iterator[Diagnost
             wanted = _wanted(fields[name], value)
             if wanted:
                 yield errors.wrong_event_field(hooks, span, event.name, name, wanted)
+        elif name in _SET:
+            yield errors.set_event_field(hooks, span, event.name, name)
         elif name not in _OF_ALL:
             meant = next(iter(near(name, fields)), None)
             yield errors.unknown_event_field(hooks, span, event.name, name, meant)

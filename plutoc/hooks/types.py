@@ -39,8 +39,11 @@ _TAKES = {
 }
 """Types besides its own that something can be taken for; every one can be for an object."""
 
-_GIVES = {"Assignment": {"Again", "dict", "list", "tuple", "set", "frozenset"}}
-"""What else a hook may say that it returns, where something is wanted."""
+_GIVES = {
+    "Assignment": {"Again", "dict", "list", "tuple", "set", "frozenset"},
+    "Mission": {"None"},
+}
+"""What else a hook may say that it returns, where something is wanted: a creator may never make a mission."""
 
 _NEVER_WRONG = "object"
 _LONGEST = 40
@@ -69,10 +72,10 @@ def of_types(
             fits = {arrives, "int"} if arrives == "float" else {arrives, *_GIVES.get(arrives, ())}
             if not (allowed <= fits if at.hook.result else allowed & fits):
                 yield errors.wrong_return(place, written, arrives)
-        elif not allowed & {arrives, *_TAKES.get(arrives, ())} and not (
-            arrives == "Event" and allowed & {*at.hook.events}
-        ):
-            yield errors.wrong_annotation(place, name, written, arrives)
+        elif not allowed & {arrives, *_TAKES.get(arrives, ())}:
+            events = at.hook.events if arrives == "Event" else ()
+            if not allowed & {*events}:
+                yield errors.wrong_annotation(place, name, written, " | ".join(events) or arrives)
 
 
 def _expected(

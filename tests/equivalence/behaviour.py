@@ -16,12 +16,16 @@ from typing import Any
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.model import Drone, Mission, Results, Trip
 from pluto_fleet.shared.domain.status import TripStatus
+from pluto_fleet.shared.events.context import Context as EventContext
+from pluto_fleet.shared.events.declared import Event
 from pluto_fleet.shared.hooks.context import Context, Verdict
 from plutoc.block import HookKind
 from plutoc.graph.model import Graph, Hook
 from plutoc_runtime.domain.status import Status
 
 PAUSES = (0.0, 0.0, 0.5, 1.0, 2.0, 4.0, 6.5, 15.0)
+MADE = 3
+"""Missions that a creator makes: their hooks raise events, too."""
 PATIENCE = 40
 """Calls of a mission's hooks, after which they raise: some graphs are mazes without a way out."""
 
@@ -40,10 +44,16 @@ class Behaviour:
     clock: Callable[[], float] = lambda: 0.0
     diary: list[str] = field(default_factory=list)
     calls: Counter[tuple[str, str]] = field(default_factory=Counter)
+    raises: bool = False
+    """They raise events now and then."""
 
     def hooks(self, graph: Graph) -> SimpleNamespace:
         """Return a module `hooks` for an app."""
-        made = {action.name: self._action(action.name) for action in graph.actions}
+        self.raises = bool(graph.events)
+        made = {
+            one.name: (self._along if one.name in graph.along else self._action)(one.name)
+            for one in graph.actions
+        }
         makers = {
             HookKind.MODIFIER: self._modifier,
             HookKind.EVALUATOR: self._evaluator,
@@ -84,11 +94,13 @@ class Behaviour:
             if must and (Status.FAILED not in hook.emits or chance.random() < 0.7):
                 await context.trip_ended(mission.current)
             self._note(hook.name, "goes on", mission, context)
+            self._emit(chance, context)
             return self._said(hook, mission, chance)
 
         def is_quick(mission: AnyMission, context: Context, *, limit: float = 0.0) -> object:
             chance = self._chance(hook.name, mission.name)
             self._note(hook.name, "is quick", mission, context)
+            self._emit(chance, context)
             if chance.random() < 0.2:
                 context.log(f"{hook.name} says {chance.random():.3f}")
             if chance.random() < 0.2 and len(mission.trips) > 2:
@@ -145,10 +157,19 @@ class Behaviour:
         return judges if plain else takes_time
 
     def _creator(self, hook: Hook) -> Callable[..., object]:
-        def creator(event: object, context: object) -> None:
-            return None  # as yet nothing raises an event
+        def makes(event: Event, context: EventContext) -> object:
+            chance = self._chance(hook.name, "")
+            living = context.missions
+            self.diary.append(f"{context.now:.6f} {hook.name} {event.id} {len(living)}")
+            if len(living) > 1 and chance.random() < 0.1:
+                context.cancel(living[-1], "it was one too many")
+            if not living or self.calls[hook.name, ""] > MADE or chance.random() < 0.2:
+                return None
+            like = living[0]
+            trips = [*like.trips, *like.completed_trips][:1]
+            return _another(like, trips=[_another(one, action="take_photo") for one in trips])
 
-        return creator
+        return makes
 
     def _policy(self, hook: Hook) -> Callable[..., object]:
         def chooses(trip: Trip, candidates: Sequence[Drone]) -> Drone | None:
@@ -160,6 +181,29 @@ class Behaviour:
             return None if chance.random() < 0.05 else chance.choice(candidates)
 
         return chooses
+
+    def _emit(self, chance: Random, context: Context) -> None:
+        """Raise an event now and then, some of them once only."""
+        if self.raises and chance.random() < 0.3:
+            once = chance.choice((None, None, "one", "two"))
+            of_events: Any = context
+            of_events.emit(chance.choice(("smoke", "seen")), id=once)
+
+    def _along(self, name: str) -> Callable[..., object]:
+        async def looks(drone: Drone, trip: Trip, context: Context) -> object:
+            chance = self._chance(name, trip.name)
+            for _look in range(chance.choice((1, 3, 30))):
+                self.diary.append(f"{context.now:.6f} {name} {trip.name} {drone.id} looks")
+                self._emit(chance, context)
+                await context.sleep(chance.choice((0.5, 1.0, 2.0)))
+            if chance.random() < 0.2:
+                raise ActionFailed("it saw nothing")
+            return None
+
+        async def sees_at_once(drone: Drone, trip: Trip, context: Context) -> None:
+            self.diary.append(f"{context.now:.6f} {name} {trip.name} {drone.id} looks")
+
+        return looks if self.patient else sees_at_once
 
     def _action(self, name: str) -> Callable[..., object]:
         def begins(trip: Trip, drone: Drone, context: Context, given: str) -> Random:
@@ -183,6 +227,7 @@ class Behaviour:
             else:
                 await context.sleep(chance.choice(PAUSES))
             self.diary.append(f"{context.now:.6f} {name} {trip.name} is done")
+            self._emit(chance, context)
             return gives(chance)
 
         async def never_waits(
@@ -191,6 +236,13 @@ class Behaviour:
             return gives(begins(trip, drone, context, f"{dose:g}{how}"))
 
         return acts if self.patient else never_waits
+
+
+def _another(like: Any, **given: object) -> Any:
+    """Return a new mission or trip with what one must have."""
+    names = ("target", "owner", "gentle", "name")
+    known = {name: getattr(like, name) for name in names if hasattr(like, name)}
+    return type(like)(**{**known, **given})
 
 
 def _flying(mission: AnyMission) -> bool:

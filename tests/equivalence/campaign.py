@@ -83,8 +83,10 @@ class Tally:
 def drawn(name: str) -> tuple[str, Checked, Random, int]:
     """Draw a sound graph; return how many were refused before it, too."""
     rng = Random(name)
+    luck = Random(f"{name}/events")
+    events = luck if luck.random() < 0.5 else None
     for refused in range(1000):
-        text = random_source(rng)
+        text = random_source(rng, events=events)
         checked = sound(text)
         if checked is not None:
             return text, checked, rng, refused

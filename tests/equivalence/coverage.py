@@ -98,12 +98,15 @@ REASONS = (
         "had no drone within",
     ),
     *("crashed at", "lost its link", "ran out of battery", "could not do it", "slipped"),
+    *("has had no news", "saw nothing", "one too many"),
     *("failed the trip", "must return", "raised", "no drone of the fleet", "aboard"),
 )
 """What a reason says: of limits that ran out, mishaps, and hooks that did wrong."""
 EVENTS = (
     *("trip.delayed", "trip.reset", "drone.charging", "drone.lost"),
     *("mission.extended", "mission.judged", "mission.repeated", "mission.modified"),
+    *("event.raised", "event.over", "trip.interrupted", "trip.skipped", "trip.handed_over"),
+    "action.result",
 )
 
 
@@ -149,6 +152,7 @@ WANTED = (
     *(f"block: {kind}" for kind in ("TripMonitor", "TimerMonitor", "GapMonitor", "GateFIFO")),
     *(f"block: {kind}" for kind in ("GateFunnel", "MissionRepeater", "MissionEvaluator")),
     *(f"block: {kind}" for kind in ("MissionModifier", "PriorityManager")),
+    *(f"block: {kind}" for kind in ("EventMonitor", "TripSkipper")),
     *(f"block: {kind}" for kind in others.BLOCKS),
     *RETRIES.values(),
     *("modifier with emits", "modifier without emits", "allocate_within"),

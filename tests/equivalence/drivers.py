@@ -26,11 +26,16 @@ if TYPE_CHECKING:
 Arguments = TypeVarTuple("Arguments")
 
 
+MOST_TURNS = 10_000
+"""Turns at one time; after that asyncio takes for due, again and again, what is due a rounding later."""
+
+
 class _ToTheLastBit(JumpingLoop):
     """A loop that comes to each time that was asked for exactly: no difference of two is rounded."""
 
     def __init__(self) -> None:
         self.whens: list[float] = []
+        self._turns = 0  # since the time went on
         super().__init__()
         self.now = 0.0
 
@@ -45,8 +50,10 @@ class _ToTheLastBit(JumpingLoop):
         return super().call_at(when, callback, *args, context=context)
 
     def advance(self, seconds: float) -> None:
-        if seconds <= TURN:
+        self._turns += 1
+        if seconds <= TURN and self._turns < MOST_TURNS:
             return
+        self._turns = 0
         while self.whens and self.whens[0] <= self.now:
             heappop(self.whens)
         if self.whens:

@@ -15,17 +15,30 @@ from pluto_fleet.app import App
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
 from pluto_fleet.shared.alone.world import Faults
 from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.model import AfterTrip, Item, Mission, Point, Trip
 from pluto_fleet.shared.domain.motion import STRAIGHT, Motion
+from pluto_fleet.shared.events.world import Mover
 from plutoc.emit.model_file import fields_of, own_field
 from plutoc.graph.model import Graph
 from plutoc_runtime.domain.fields import Entity, Field, FieldType
 from plutoc_runtime.domain.quantities import Type
 from plutoc_runtime.domain.status import Status
+from plutoc_runtime.events.declared import AlongField, TrackField
 
-Plain = bool | int | float | str | None
+Plain = bool | int | float | str | None | dict[str, str | float]
 TIMES = (0.0, 0.5, 2.0, 5.0, 7.0, 9.0, 11.0, 13.0, 15.0, 17.0, 21.0, 25.0, 30.0, 60.0)
+WALKERS = WorldData(
+    movers=(
+        Mover(name="t1", kind="person", path=((1.0, 0.5), (7.0, 1.5)), speed=0.25, repeat=True),
+        Mover(name="t2", kind="dog", path=((8.0, 1.5), (1.0, 0.5)), speed=0.5, starts=5.0),
+    )
+)
+TRACKS = (None, None, "t1", "t2", "t3")
+"""What a trip follows; the last one is never seen."""
 LIMITS = ("safe_time", "gap", "deadline")
+OF_A_PURSUIT = ("reach", "lost_after")
+"""The fields that trips have as they are."""
 BUILT_IN = ("take_photo", "take_photo", "measure")
 ITEM = Item(name="pills", mass=0.004)
 
@@ -66,6 +79,8 @@ class World:
     entry: tuple[str, Status] | None = None
     """The block where the missions go on, as if they had been interrupted, and how they stand."""
     motion: Motion = STRAIGHT
+    walkers: bool = False
+    """Something moves."""
 
     @property
     def fleet(self) -> FleetFile:
@@ -80,6 +95,7 @@ class World:
             after_trip=self.after_trip,
             max_airborne=self.max_airborne,
             motion=self.motion,
+            world=WALKERS if self.walkers else None,
         )
 
     @property
@@ -131,6 +147,7 @@ def random_world(rng: Random, graph: Graph, times: Sequence[float] = TIMES) -> W
         max_airborne=rng.choice((None, None, None, 1, 2)),
         faults=drawing.faults(),
         until=rng.choice((150.0, 400.0, 900.0)),
+        walkers=graph.reacts,
     )
 
 
@@ -152,8 +169,9 @@ class _World:
         """All limits of the mission, if they are to fall on one instant."""
         self.fields = fields_of(graph)
         self.own = tuple(map(own_field, graph.fields))
-        own = tuple(action.name for action in graph.actions)
-        wanted = (*BUILT_IN, *own, *own)
+        own = tuple(one.name for one in graph.actions if one.name not in graph.along)
+        follow = ("follow",) if graph.follows else ()
+        wanted = (*BUILT_IN, *follow, *own, *own)
         known = [each.actions for each in graph.categories]
         able = [name for name in wanted if any(can is None or name in can for can in known)]
         self.actions = (able or wanted) if rng.random() < 0.95 else wanted
@@ -206,6 +224,8 @@ class _World:
     def parameters(self, name: str) -> dict[str, bool | int | float | str]:
         if name == "measure":
             return {"quantity": "temperature"}
+        if name == "follow":
+            return {"for": 4.0, "every": 1.0}
         declared = [
             p for action in self.graph.actions if action.name == name for p in action.parameters
         ]
@@ -221,7 +241,7 @@ class _World:
         given = {
             each.name: self.value(each)
             for each in self.fields
-            if each.on is entity and self.given(each)
+            if each.on is entity and each.name not in OF_A_PURSUIT and self.given(each)
         }
         return {**given, **own}
 
@@ -231,6 +251,11 @@ class _World:
         return self.rng.random() < (0.6 if self.limit is None else 0.2)
 
     def value(self, wanted: Field) -> Plain:
+        if isinstance(wanted, AlongField):
+            action = self.rng.choice(wanted.actions)
+            return {"action": action, **({} if action == "look" else {"seconds": 2.0})}
+        if isinstance(wanted, TrackField):
+            return self.rng.choice(TRACKS)
         match wanted.type:
             case FieldType.TIME | FieldType.TIME_OF_DAY:
                 if self.limit is not None and wanted.name in LIMITS:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.shared.alone.testing import AppKit, Clock, HookCall, KitContext
+from pluto_fleet.shared.events import testing as with_events
 from tests.examples.test_docs import DOCS, blocks
 from tests.kit.apps import EXAMPLES, compiled, compiled_file
 from tests.kit.command import python
@@ -35,23 +36,25 @@ def package(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_hooks_of_the_page_pass_its_tests(package: Path) -> None:
     """And the generated ones, which hold for any."""
     tests = sum(text.count("\ndef test_") for text in blocks(PAGE, "python"))
-    assert tests == 8
+    assert tests == 10
     words = ("-m", "pytest", "-q", "-p", "no:cacheprovider", "--ignore=tests/test_flow.py")
     ran = python(*words, cwd=package, PYTHONPATH="")
-    assert f"{tests + 4} passed" in ran.out, ran.out + ran.err
+    assert f"{tests + 5} passed" in ran.out, ran.out + ran.err
 
 
 def test_the_page_lists_what_there_is() -> None:
     """All that a test can use, and each fixture."""
     text = PAGE.read_text("utf-8")
-    for of, kind in (("kit", AppKit), ("clock", Clock), ("call", HookCall)):
+    kits = (("kit", AppKit), ("kit", with_events.AppKit))
+    for of, kind in (*kits, ("clock", Clock), ("call", HookCall)):
         for name in vars(kind):
             if not name.startswith("_"):
                 assert re.search(rf"`{of}\.{name}[`(]", text), f"{of}.{name}"
     inner = {"lend", "take_back"}
-    for name in {*vars(KitContext), "lines", "sensors", "written"} - inner:
+    of_events = {"emitted", "stored", "missions", "cancelled", "see"}
+    for name in {*vars(KitContext), "lines", "sensors", "written", *of_events} - inner:
         if not name.startswith("_"):
-            assert f"`context.{name}`" in text, name
+            assert re.search(rf"`context\.{name}[`(]", text), name
 
 
 def test_the_page_lists_the_fixtures(package: Path) -> None:

@@ -3,41 +3,58 @@
     python -m tests.hooks --apps 5000
 
 Each app is simulated, and flown in virtual time with a journal, where its brain dies and another goes on; each time
-also with hooks that write nothing. Nothing raises, no mission ends by a bug, the good mission ends as it does among good
-ones, and no two flights and no two completions are one.
+also with hooks that write nothing. Nothing raises, no mission ends by a bug, none hangs, the good mission ends as it
+does among good ones, and no two flights and no two completions are one. In most apps events happen: raised by hooks,
+and told from outside at any moment. Each happens once, no attempt is charged where one breaks a flight off, and no
+action on the way goes on when its flight is over.
 """
 
 from __future__ import annotations
 
 import sys
-from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from random import Random
 from typing import Any
 
 from pluto_fleet.app import App, described
-from pluto_fleet.flight.simulate import simulate
+from pluto_fleet.flight.simulate import Sampling, simulate
+from pluto_fleet.shared.brain import Brain
+from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.trace import Event
+from pluto_fleet.shared.events.declared import AlongField, TrackField
+from pluto_fleet.shared.events.world import Mover
 from pluto_fleet.shared.flow import asking
-from pluto_fleet.trials.invariants import Invariants
-from pluto_fleet.trials.rules import AttemptsCountUp, NothingAfterTheEnd, TripsDoNotOverlap
 from plutoc.compile import analyse, planned
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.equivalence.flows import Package, packaged
-from tests.hooks.vandals import Vandals
+from tests.hooks.judge import hanging, outlived, wrong
+from tests.hooks.vandals import EVENTS, Vandals
 from tests.kit import apps
 from tests.kit.campaign import Campaign
 from tests.kit.graphs.graph import random_source
 from tests.kit.living import Living
 
-LONGEST = 1_500.0
+LONGEST = 600.0
 """Seconds after which those that still fly are left to it."""
 CALLS = 100  # of hooks between two launches, instead of a hundred thousand
-RULES = (AttemptsCountUp, NothingAfterTheEnd, TripsDoNotOverlap)
+WALKERS = WorldData(
+    movers=(
+        Mover(name="t1", kind="person", path=((1.0, 1.0), (4.0, 4.0)), speed=0.3, repeat=True),
+        Mover(name="t2", kind="dog", path=((4.0, 1.0), (1.0, 3.0)), speed=0.5, starts=5.0),
+    )
+)
+TRACKS = ("t1", "t2", "t3")
+"""What trips follow and events are about; the last one is never seen."""
+BATTERIES = (1e7, 1e7, 60.0)
+"""Seconds that one lasts: with the last of these others must take over."""
 HOMES = [(0.5, 0.5, 0.0)] * 10  # all of one home: it does not matter who flies
+APART = [(0.5 + 1.5 * n, 0.5, 0.0) for n in range(10)]
+"""Over a crash drones would be in each other's way at one home."""
 
 
 def one_app(number: int) -> list[str]:
@@ -48,7 +65,7 @@ def one_app(number: int) -> list[str]:
     crashes = [rng.uniform(0.0, 60.0) + 60.0 * n for n in range(rng.choice((1, 2, 3)))]
     for struck in ([], crashes):
         before, after = (_flown(package, number, active, struck, said) for active in (False, True))
-        # over a crash drones may be in each other's way
+        # over a crash drones may be in each other's way, and events come at other moments
         if before != after if not struck else " raised " in after[1]:
             said.append(f"the good mission ends {after}, and among good ones {before}")
     return said
@@ -58,7 +75,9 @@ def accepted(number: int) -> Package:
     """Return an app that the compiler accepts, drawn from its number."""
     rng = Random(f"hooks/{number}")
     while True:
-        text = random_source(rng, (4, 6, 8, 10), strange=0.0, plain=rng.random() < 0.3)
+        events = Random(f"hooks/{number}/events") if number % 4 else None
+        plain = rng.random() < 0.3
+        text = random_source(rng, (4, 6, 8, 10), strange=0.0, plain=plain, events=events)
         with suppress(Rejected):
             checked, _ = analyse(Source("app.pluto", text))
             if checked.graph.hooks:
@@ -72,11 +91,20 @@ def _flown(
     vandals = Vandals(number, package.graph, active)
     events = list[Event]()
     given = package.app(vandals.module, patient=True)
-    category = replace(given.categories[0], speed=2.0, flight_time=1e7, actions=None)
-    app = described(replace(given, categories=(category, *given.categories[1:])))
-    vandals.trip = _trips_of(app, Random(f"{number}/new"))
-    missions = _missions_of(app, _trips_of(app, Random(f"{number}/trips")), Random(number))
-    fleet = apps.fleet(*HOMES, categories=[category.name])
+    battery = Random(f"{number}/battery").choice(BATTERIES)
+    category = replace(
+        given.categories[0], speed=2.0, flight_time=battery, charge_time=60.0, actions=None
+    )
+    given = replace(given, categories=(category, *given.categories[1:]))
+    app = described(given)
+    vandals.trip = _trips_of(app, Random(f"{number}/new"), given.trip)
+    vandals.mission = partial(given.mission, **_needed(app, "mission"))
+    missions = _missions_of(
+        app, _trips_of(app, Random(f"{number}/trips"), app.trip), Random(number)
+    )
+    homes = APART if crashes else HOMES
+    fleet = replace(apps.fleet(*homes, categories=[category.name]), world=WALKERS)
+    told = _told(package, Random(f"{number}/told"))
     usual = asking.MOST_CALLS
     asking.MOST_CALLS = CALLS
     try:
@@ -84,6 +112,8 @@ def _flown(
             living = Living(app, *missions, on=fleet)
             for when in crashes:
                 living.crash(when)
+            for when, event, facts in told:
+                living.at(when, partial(_tell, living, event, facts))
             living.run(LONGEST)
             ended = living.life.missions
             events = living.events
@@ -92,13 +122,43 @@ def _flown(
                 "faults": apps.NO_FAULTS,
                 "until": LONGEST,
                 "on_event": events.append,
+                "sampling": _telling(told),
             }
             ended = simulate(app, missions, fleet, seed=number, **how).missions
     finally:
         asking.MOST_CALLS = usual
     said += [one.reason for one in ended if "bug" in one.reason]
     said += wrong(events)
+    said += outlived(vandals.looked, events)
+    # one that is bad may wait for ever: its hooks say for what
+    said += [one for one in hanging(events, LONGEST) if not (active and one.startswith("bad"))]
     return next((one.status.value, one.reason) for one in ended if one.name == "good")
+
+
+def _told(package: Package, rng: Random) -> list[tuple[float, str, dict[str, Any]]]:
+    """Draw of what the app is told while it flies, and when."""
+    told = list[tuple[float, str, dict[str, Any]]]()
+    for _ in range(rng.choice((0, 1, 2, 4)) if package.graph.events else 0):
+        facts = {"id": f"told {rng.randint(1, 3)}", "at": [3.0, 3.0], "track": rng.choice(TRACKS)}
+        told.append((rng.uniform(0.0, 90.0), rng.choice(EVENTS), facts))
+    return sorted(told, key=lambda one: one[0])
+
+
+def _tell(living: Living, event: str, facts: dict[str, Any]) -> None:
+    with suppress(BadInput):  # no brain lives, or all is over
+        living.life.control.raise_event(event, facts)
+
+
+def _telling(told: Sequence[tuple[float, str, dict[str, Any]]]) -> Sampling | None:
+    """Return what tells a simulation of this, every second of what has come."""
+    left = [*told]
+
+    def look(brain: Brain, now: float, drones: object) -> None:
+        while left and left[0][0] <= now:
+            _, event, facts = left.pop(0)
+            brain.command({"command": "raise", "event": event, **facts}, now)
+
+    return Sampling(every=1.0, look=look) if told else None
 
 
 def _missions_of(app: App, trip: Callable[..., Any], rng: Random) -> list[Any]:
@@ -114,36 +174,38 @@ def _missions_of(app: App, trip: Callable[..., Any], rng: Random) -> list[Any]:
     return made
 
 
-def _trips_of(app: App, rng: Random) -> Callable[..., Any]:
+def _trips_of(app: App, rng: Random, new: Callable[..., Any]) -> Callable[..., Any]:
     """Return what makes trips of an app: with actions that its first drones can do."""
     can = app.categories[0].can
     able = [one for one in app.actions.values() if can(one.name) and not one.name.endswith("_item")]
 
     def trip(**given: Any) -> Any:
         action = rng.choice(able)
-        parameters = {one.name: one.default or "x" for one in action.parameters}
+        parameters: dict[str, Any] = {
+            one.name: one.default or _SAMPLES.get(one.name, "x") for one in action.parameters
+        }
         more = {"action": action.name, "parameters": parameters, **_needed(app, "trip")}
-        return app.trip(**{**more, **given})
+        for field in app.fields:
+            if isinstance(field, AlongField) and rng.random() < 0.6:
+                more[field.name] = _along(rng.choice(field.actions))
+            if isinstance(field, TrackField) and rng.random() < 0.3:
+                more[field.name] = rng.choice(TRACKS)
+        return new(**{**more, **given})
 
     return trip
+
+
+def _along(action: str) -> dict[str, Any]:
+    """Return an action on the way: one of the app's own goes on, a built-in one is done again and again."""
+    return {"action": action, **({} if action == "look" else {"seconds": 1.0})}
+
+
+_SAMPLES = {"for": 4.0}
 
 
 def _needed(app: App, on: str) -> dict[str, Any]:
     needed: list[Any] = [one for one in app.fields if one.on.value == on and one.hint]
     return {one.name: one.sample for one in needed}
-
-
-def wrong(events: Sequence[Event]) -> list[str]:
-    """Return what must not be in a run: two flights of one id, or two completions."""
-    invariants = Invariants({}, RULES)
-    for event in events:
-        invariants.take(event)
-    done = Counter(
-        tuple(str(event[fact]) for fact in ("mission", "trip", "round", "attempt"))
-        for event in events
-        if event["event"] == "trip.completed"
-    )
-    return invariants.found + [f"completed {n} times: {of}" for of, n in done.items() if n > 1]
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

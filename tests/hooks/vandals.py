@@ -8,6 +8,7 @@ from random import Random
 from types import SimpleNamespace
 from typing import Any
 
+from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.status import DroneStatus, Status, TripStatus
 from pluto_fleet.shared.hooks.context import Verdict
 from plutoc.block import HookKind
@@ -16,6 +17,13 @@ from plutoc.graph.model import Graph, Hook
 DEEPEST = 5
 FLIGHTS = 6
 """Steps from an argument to what is written; flights after which an evaluator asks for no more."""
+MADE = 4
+"""Missions that creators make at the most: those raise events, too."""
+EVENTS = "smoke", "seen"
+ODD_EVENTS = "late", "lost", "nothing", 7, None
+ORIGIN = "id", "at", "track", "level", "mission", "drone", "time", "nonsense"
+LOOKS = 12
+"""Times that an action on the way goes on: not all flights last as long."""
 PLACES = (1.0, 2.0, 1.2), (2, 3), [4.0, 4.0], (1e9, 0.0), (float("nan"), 1.0)
 NUMBERS = -5, 0, 3, 10**30, 2.5, float("nan"), float("inf"), True
 VALUES: tuple[object, ...] = (
@@ -40,18 +48,31 @@ class Vandals:
 
     trip: Callable[..., Any]
     """Makes a trip of the app."""
+    mission: Callable[..., Any]
+    """Makes a mission of the app."""
 
     def __init__(self, seed: int, graph: Graph, active: bool) -> None:
         self._seed = seed
         self._active = active
         self._called = 0
+        self._made = 0
+        self.looked: dict[str, list[float]] = {}
+        """When actions on the way went on, by the names that their trips had at the launch."""
+        self._has_events = bool(graph.events)
         makers = {
             HookKind.MODIFIER: self._modifier,
             HookKind.EVALUATOR: self._evaluator,
             HookKind.POLICY: self._policy,
             HookKind.CREATOR: self._creator,
         }
-        acts = {one.name: self._action(one.name, one.returns) for one in graph.actions}
+        acts = {
+            one.name: (
+                self._along(one.name)
+                if one.name in graph.along
+                else self._action(one.name, one.returns)
+            )
+            for one in graph.actions
+        }
         self.module = SimpleNamespace(
             **{one.name: makers[one.kind](one) for one in graph.hooks}, **acts
         )
@@ -62,6 +83,7 @@ class Vandals:
             answer = chance.choice(hook.emits) if hook.emits else None
             self._spoil(mission, mission, context)
             await context.sleep(chance.choice((0.0, 0.0, 0.5, 5.0)))
+            self._raise(chance, mission, context)
             self._spoil(mission, mission, context)
             return answer and Status[answer.name]
 
@@ -79,8 +101,25 @@ class Vandals:
         return evaluator
 
     def _creator(self, hook: Hook) -> Callable[..., object]:
-        def creator(event: object, context: object) -> None:
-            return None  # as yet nothing raises an event
+        def creator(event: Any, context: Any) -> object:
+            chance = Random(f"{self._seed}/{hook.name}/{event.id}")
+            spoils = SimpleNamespace(name="bad")
+            self._spoil(spoils, event, context)
+            living = context.missions
+            if self._is_bad(spoils) and chance.random() < 0.3:
+                for one in living:
+                    if one.name.startswith("bad"):
+                        context.cancel(one, chance.choice(("it is bad", "", 7)))
+                        break
+            if self._made >= MADE or chance.random() < 0.2:
+                return None
+            self._made += 1
+            made = self.mission(name="bad made", trips=[self._new(chance)])
+            if not self._is_bad(spoils):
+                return made
+            self._spoil(spoils, made, event, context)
+            drawn = chance.random()
+            return made if drawn < 0.8 else chance.choice((*VALUES, *living, self._new(chance)))
 
         return creator
 
@@ -106,6 +145,7 @@ class Vandals:
         async def action(drone: Any, trip: Any, context: Any, **_: object) -> object:
             self._spoil(trip, drone, trip, context)
             await context.sleep(1.0)
+            self._raise(self._chance_of(name, trip), trip, context)
             self._spoil(trip, drone, trip, context)
             return GIVES.get(returns)
 
@@ -113,11 +153,45 @@ class Vandals:
         action.__name__ = name
         return action
 
+    def _along(self, name: str) -> Callable[..., object]:
+        async def along(drone: Any, trip: Any, context: Any, **_: object) -> object:
+            chance = self._chance_of(name, trip)
+            looked = self.looked.setdefault(str(trip.name), [])
+            for _look in range(chance.choice((1, LOOKS, LOOKS))):
+                looked.append(context.now)
+                if chance.random() < 0.2:
+                    context.store(chance.choice((1, "seen", 2.5)))
+                self._raise(chance, trip, context)
+                self._spoil(trip, drone, trip, context)
+                await context.sleep(0.5)
+            if self._is_bad(trip) and chance.random() < 0.2:
+                raise chance.choice((ActionFailed("it saw nothing"), ValueError("bad"), SystemExit))
+            return chance.choice((None, 3, "seen"))
+
+        along.__module__ = __name__
+        along.__name__ = name
+        return along
+
+    def _raise(self, chance: Random, of: Any, context: Any) -> None:
+        """Raise an event now and then; a bad one says of it what it likes."""
+        if not self._has_events or chance.random() < 0.7:
+            return
+        if not self._is_bad(of):
+            context.emit(chance.choice(EVENTS), at=chance.choice(((2.0, 3.0), None)))
+            return
+        given = {one: self._value(chance, (of, context)) for one in ORIGIN if chance.random() < 0.1}
+        event: Any = chance.choice((*EVENTS, *EVENTS, *EVENTS, *ODD_EVENTS))
+        with suppress(*[Exception] * (chance.random() < 0.9)):
+            context.emit(event, **given)
+
     def _is_bad(self, of: Any) -> bool:
         return self._active and str(of.name).startswith("bad")
 
     def _chance(self, hook: str, mission: Any) -> Random:
         return Random(f"{self._seed}/{hook}/{mission.name}/{mission.attempts}")
+
+    def _chance_of(self, hook: str, trip: Any) -> Random:
+        return Random(f"{self._seed}/{hook}/{trip.name}/{trip.attempt}")
 
     def _spoil(self, of: Any, *given: object) -> None:
         """Write somewhere, a few times; what that raises is caught now and then."""

@@ -1,10 +1,11 @@
 """Kills brains and gateways of real flights at random moments, and says what came of it.
 
     python -m tests.kill --brain 500 --gateway 100
+    python -m tests.kill --brain 150 --gateway 50 --plan lookout
 
 Every flight is resumed after each kill and judged at its end: nothing that was acknowledged may be
 lost, no mission may hang, and nothing may be picked or released twice, counted by the simulated
-world. The moments are drawn by the seed, but real processes meet them differently each time.
+world. One app is told of events while it is killed: each happens once, and one mission comes of it. The moments are drawn by the seed, but real processes meet them differently each time.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from random import Random
 from tempfile import mkdtemp
 
 from tests.kill.lives import Flight
+from tests.kill.lookout import LOOKOUT, lookout_in
 from tests.kill.painter import HOUSE, painter_in
 from tests.kill.plans import PLANS
 from tests.kill.trial import Tally, Trial
@@ -28,6 +30,7 @@ MISHAPS = ("crash=0%", "crash=0%", "crash=5%,action=5%", "link=10%,action=10%")
 """What goes wrong besides."""
 KILLS = (2, 7)
 """How many a flight gets at most."""
+ALL = (*PLANS, HOUSE, LOOKOUT)
 HOPELESS = 10
 """Flights in a row with nothing killed: then something else is wrong."""
 
@@ -35,12 +38,18 @@ HOPELESS = 10
 class Flights:
     """Flights, until so many brains and gateways were killed."""
 
-    def __init__(self, folder: Path, *, brains: int, gateways: int, seed: int) -> None:
+    def __init__(
+        self, folder: Path, *, brains: int, gateways: int, seed: int, only: str | None = None
+    ) -> None:
         self.tally = Tally()
-        self._folder, self._brains, self._gateways, self._seed = folder, brains, gateways, seed
-        self._plans = (*PLANS, HOUSE)
+        self._folder = folder
+        self._brains = brains
+        self._gateways = gateways
+        self._seed = seed
+        self._plans = [plan for plan in ALL if only in (None, plan.app)]
         self._sources = {plan.app: compiled(plan.app) / "src" for plan in PLANS}
         self._sources[HOUSE.app] = painter_in(folder / "painter")
+        self._sources[LOOKOUT.app] = lookout_in(folder / "lookout")
 
     def _left(self) -> tuple[int, int]:
         """Return how many brains and gateways are still to be killed."""
@@ -91,12 +100,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     campaign.option("--brain", type=int, default=500, help="kills of the brain (default: 500)")
     campaign.option("--gateway", type=int, default=100, help="of the gateway (default: 100)")
     campaign.option("--seed", type=int, default=1, help="which moments (default: 1)")
+    campaign.option("--plan", choices=[plan.app for plan in ALL], help="fly this one alone")
     campaign.option("--folder", type=Path, help="where to fly; default: a new one, named")
     campaign.in_time()
     options = campaign.parse(arguments)
     folder = options.folder or Path(mkdtemp(prefix="kill-"))
     print(f"flights in {folder}", flush=True)
-    flights = Flights(folder, brains=options.brain, gateways=options.gateway, seed=options.seed)
+    flights = Flights(
+        folder,
+        brains=options.brain,
+        gateways=options.gateway,
+        seed=options.seed,
+        only=options.plan,
+    )
     for number, wrong in campaign.each(flights.fly, flights.numbers()):
         if wrong:
             campaign.found(f"flight {number}", *wrong)

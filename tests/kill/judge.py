@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,12 +16,16 @@ from pluto_fleet.journal.standing import Standing
 from pluto_fleet.report.sentences import line_of
 from pluto_fleet.trials.invariants import Invariants
 from pluto_fleet.trials.time_rules import PromisesAreKept
+from tests.kill.lookout import looks
 from tests.kill.painter import painted
 
 Event = dict[str, Any]
 
 ONCE = ("pick_item", "release_item", "spray")
 """The actions that must not be done twice."""
+
+MADE_OF = ("smoke", "intruder")
+"""The events that missions are made of."""
 
 ENDS = ("COMPLETED", "FAILED", "UNCERTAIN")
 
@@ -102,3 +106,36 @@ def wrong(journal: Path, rows: Sequence[str], standing: Standing) -> Iterator[st
             key = trip["action"], f"{name}/{trip['name']}/{record['round']}"
             if trip["action"] in ONCE and done[key] != 1:
                 yield f"{key[1]} is COMPLETED, and the world has done it {done[key]} times"
+
+
+def mistaken(taken: Mapping[str, bool], rows: Sequence[str], standing: Standing) -> Iterator[str]:
+    """Yield which events were lost, happened twice, or did not come to just one mission.
+
+    `taken` has all that it was told of, by whether it has said that it has taken them over.
+    """
+    raised = Counter(event["id"] for event in events_of(rows) if event["event"] == "event.raised")
+    for id, answered in taken.items():
+        if answered and id not in raised:
+            yield f"event {id} was taken over, and has not happened"
+    for id, times in raised.items():
+        if times > 1:
+            yield f"event {id} has happened {times} times"
+    for id, row in standing.happenings.items():
+        if row["event"]["name"] not in MADE_OF:
+            continue
+        missions = [name for name in standing.missions if name == id or name.startswith(f"{id} ")]
+        if row["open"] or row.get("made") != [id] or missions != [id]:
+            yield f"of event {id} came {missions}, and it says {row}"
+
+
+def outlived(folder: Path, rows: Sequence[str]) -> Iterator[str]:
+    """Yield the actions along the way that went on while their trips did not fly."""
+    flown: dict[str, list[list[float]]] = {}
+    for event in events_of(rows):
+        if event["event"] == "trip.launched":
+            flown.setdefault(event["trip"], []).append([event["t"]])
+        elif event["event"] in ("trip.completed", "trip.failed", "trip.interrupted"):
+            flown[event["trip"]][-1].append(event["t"])
+    for look in looks(folder):
+        if not any(begun <= look.time <= end for begun, end in flown[look.trip]):
+            yield f"at {look.time} s {look.trip} looked, and has flown {flown[look.trip]}"

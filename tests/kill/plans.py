@@ -26,6 +26,8 @@ class Plan:
     app: str
     missions: str
     fleet: str
+    event: str = ""
+    """What it is told of while it flies; empty: of nothing."""
 
     def write(self, folder: Path) -> Mapping[str, Path]:
         """Write both files, and return where they are."""
@@ -35,11 +37,12 @@ class Plan:
         return files
 
 
-def plan(name: str, app: str = "", missions: str | None = None) -> Plan:
+def plan(name: str, app: str = "", missions: str | None = None, event: str = "") -> Plan:
     """Return the plan of a folder; `missions`: others than its own."""
     folder = HERE / "plans" / name
     text = (folder / "missions.toml").read_text() if missions is None else missions
-    return Plan(app=app or name, missions=text, fleet=(folder / "fleet.toml").read_text())
+    fleet = (folder / "fleet.toml").read_text()
+    return Plan(app=app or name, missions=text, fleet=fleet, event=event)
 
 
 def source_of(app: str, hooks: str, folder: Path) -> Path:

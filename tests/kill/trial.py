@@ -10,16 +10,23 @@ from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from random import Random
+from threading import Thread
 
-from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.journal.place import commands_note, gateway_folder
 from pluto_fleet.journal.reader import Reader, standing_of
 from pluto_fleet.journal.standing import Standing
-from tests.kill.judge import done_by_the_world, lost, phase, unkept, wrong
-from tests.kill.lives import Flight, alive, eventually
+from pluto_fleet.process.ipc import ask
+from pluto_fleet.shared.domain.errors import BadInput
+from tests.kill.judge import done_by_the_world, lost, mistaken, outlived, phase, unkept, wrong
+from tests.kill.lives import PATIENCE, Flight, alive, eventually
 from tests.kill.plans import Plan
 
 LONGEST = 0.7
 """Seconds until something is killed."""
+SOON = (0.0, 0.02, 0.2, 0.5)
+"""Seconds from when it is told of an event until it is killed, about."""
+PLACES = ((2.0, 3.0), (4.0, 1.0), (6.0, 5.0))
+"""Where events happen that it is told of."""
 
 
 @dataclass(slots=True)
@@ -31,6 +38,8 @@ class Tally:
     gateways: Counter[str] = field(default_factory=Counter)
     ends: Counter[str] = field(default_factory=Counter)
     reasons: Counter[str] = field(default_factory=Counter)
+    told: Counter[str] = field(default_factory=Counter)
+    """Events that were told, by whether that was answered."""
     actions: int = 0
     """Picks and releases that the world has done."""
     decided: int = 0
@@ -41,6 +50,8 @@ class Tally:
             yield f"{kills.total()} kill -9 of the {what}: {where or 'none'}"
         yield f"missions: {', '.join(f'{n} {end}' for end, n in self.ends.most_common())}"
         yield from (f"  {count} × {reason}" for reason, count in self.reasons.most_common())
+        answered = ", ".join(f"{count} {how}" for how, count in self.told.most_common())
+        yield f"events told: {answered or 'none'}"
         yield f"items picked or released: {self.actions}; decided by a person: {self.decided}"
 
 
@@ -56,6 +67,8 @@ class Trial:
     tally: Tally
     early: float = 0.2
     """How often a life is killed before it need have come to its drones."""
+    taken: dict[str, bool] = field(default_factory=dict)
+    """By their ids, the events that it was told of: whether it has said that it has taken them over."""
     _seen: list[str] = field(default_factory=list)
     """What has been read of its journal."""
     _wrong: list[str] = field(default_factory=list)
@@ -71,7 +84,10 @@ class Trial:
             code = self.flight.wait(self.random.uniform(0.0, LONGEST))
             if code is not None:
                 break
-            self._kill(victim)
+            if self.plan.event:
+                self._tell_and_kill(victim)
+            else:
+                self._kill(victim)
         self._end(self.flight.see_through() if code is None else code)
         return self._wrong
 
@@ -87,6 +103,30 @@ class Trial:
                 os.kill(pid, signal.SIGKILL)
                 self.tally.gateways[self._now()] += 1
 
+    def _tell_and_kill(self, victim: str) -> None:
+        """Kill while it is told of an event: of a new one, or once more of one that it was told of."""
+        known = [*self.taken]
+        new = f"told {len(known)}"
+        id = self.random.choice((new, new, *known[-1:]))
+        teller = Thread(target=self._tell, args=(id,))
+        teller.start()
+        self.flight.wait(self.random.choice(SOON) * self.random.uniform(0.5, 1.5))
+        self._kill(victim)
+        teller.join()
+
+    def _tell(self, id: str) -> None:
+        x, y = PLACES[len(self.taken) % len(PLACES)]
+        facts = {"id": id, "at": [x, y], "fields": {"level": len(self.taken)}}
+        request = {"command": "raise-event", "event": self.plan.event, **facts}
+        self.taken.setdefault(id, False)
+        try:
+            ask(commands_note(self.flight.journal), request, PATIENCE)
+        except BadInput as why:  # it had ended, or ends
+            self.tally.told[f"not answered: {str(why).rpartition(': ')[2]}"] += 1
+        else:
+            self.tally.told["answered"] += 1
+            self.taken[id] = True
+
     def _now(self) -> str:
         """Return what went on; nothing that was on record may have gone."""
         before, self._seen = self._seen, self._rows()
@@ -100,6 +140,8 @@ class Trial:
         standing = self._standing()
         self._wrong += unkept(self.flight.lives, self._seen)
         self._wrong += wrong(journal, self._seen, standing)
+        self._wrong += mistaken(self.taken, self._seen, standing)
+        self._wrong += outlived(self.flight.folder, self._seen)
         if code not in (0, 1):
             self._wrong.append(f"exit code {code}: {self.flight.lives[-1][-400:]}")
         pid = gateway_of(journal)

@@ -141,6 +141,8 @@ class Living:
         )
         self.gateway.take_in = self.navigation.join
         self.gateway.rehearse = self.navigation.mishap
+        if world.movers:
+            self.gateway.tracker = self.navigation.tracks
         self.events: list[Event] = []
         self.done: Future[float] = Future()
         self._epoch = 0
@@ -165,6 +167,7 @@ class Living:
             listeners=[self.events.append],
             charges=fleet.charges_at_home,
         )
+        life.in_simulation = True
         disk.life = life
         return life
 

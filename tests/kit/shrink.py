@@ -61,7 +61,17 @@ def _plain(value: Any) -> Iterator[Any]:
         yield from [plain] if plain != value else []
 
 
-_WORDS = ("category", "action", "evaluator", "modifier", "policy", "mission", "trip")
+_WORDS = (
+    "category",
+    "action",
+    "event",
+    "creator",
+    "evaluator",
+    "modifier",
+    "policy",
+    "mission",
+    "trip",
+)
 
 
 def smaller_sources(text: str) -> Iterator[str]:

@@ -21,7 +21,7 @@ from tests.kit.browser import A_STEP, ARGUMENTS, Scheme, chromium
 from tests.kit.campaign import Campaign
 from tests.kit.station import Station, Stations
 from tests.pages.looking import in_language, looked_at
-from tests.pages.scenes import Scenes, heat, scenes
+from tests.pages.scenes import Scenes, heat, pursuit, scenes
 from tests.paths import EXAMPLES
 
 SIZES = ("360x740", "390x844", "1366x768", "1920x1080")
@@ -59,9 +59,11 @@ def look_through(
 def served(stations: Stations) -> Iterator[tuple[Station, Scenes]]:
     """Serve one station after another, each with the scenes that it is for."""
     missions = str(EXAMPLES / "pm10" / "missions.toml")
+    patrols = str(EXAMPLES / "pursue" / "missions.toml")
     for station, play in (
         (stations.fresh("drugs_distribution", "--speed", "2"), scenes),
         (stations.fresh("pm10", "--missions", missions, "--speed", "60"), heat),
+        (stations.fresh("pursue", "--missions", patrols, "--speed", "3"), pursuit),
     ):
         station.start()
         try:

@@ -183,6 +183,30 @@ def heat(page: Page, station: Station) -> Iterator[str]:
     yield "results"
 
 
+def pursuit(page: Page, station: Station) -> Iterator[str]:
+    """Fly patrols to where one has seen somebody, who is followed; and open the form by which a person raises events."""
+    start(page)
+    open_page(page, "Monitor")
+    lists(page, "Events")
+    expect(page.locator(".event-entry .link").first).to_be_visible(timeout=A_FLIGHT)
+    expect(page.locator(".pursuit").first).to_be_visible(timeout=A_FLIGHT)
+    yield "events"
+    page.get_by_text("Raise an event…").click()
+    yield "raise"
+    station.tell("stop", how="land")
+    until(lambda: station.phase in ("stopped", "over"), "all have landed")
+    open_page(page, "History")
+    flights = page.get_by_role("table", name="Flights").locator("tbody").get_by_role("button")
+    flights.first.click()
+    slider = page.get_by_role("slider", name="Time")
+    slider.evaluate(SCRUB.replace("/ 2", "- 5"))
+    expect(page.locator(".replay .tracked").first).to_be_visible()
+    yield "replayed-events"
+    page.get_by_role("tablist", name="Of this flight").get_by_role("tab", name="Report").click()
+    expect(page.get_by_role("article")).to_contain_text("Intruder")
+    yield "report-of-events"
+
+
 def lists(page: Page, name: str) -> None:
     """Open one of the lists beside the Monitor's map."""
     page.get_by_role("tablist", name="Lists beside the map").get_by_role("tab", name=name).click()

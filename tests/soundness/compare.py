@@ -10,9 +10,9 @@ from plutoc.source import Source
 from tests.soundness.app import App
 from tests.soundness.oracle import Judgement, judge
 
-UNSEEN = ("P2001", "P2002", "P2003", "P2004", "P2005", "P2020")
-"""Codes of what no run can show, and the oracle does not judge: where missions begin, and
-attributes written twice."""
+UNSEEN = ("P2001", "P2002", "P2003", "P2004", "P2005", "P2020", "P2024")
+"""Codes of what no run can show, and the oracle does not judge: where missions begin,
+attributes written twice, and what comes of a Stop, which it does not know."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -27,6 +27,7 @@ from ..jobs.controls import (
     Land,
     Read,
     TakeOff,
+    Trigger,
     Write,
 )
 from ..report.report import exit_code, report
@@ -162,6 +163,7 @@ class CommandLog(ForwardingControls):
     ) -> None:
         super().__init__(drones)
         self.break_off = self._break_off
+        self.turn = self._turn
         self._kernel = kernel
         self._speeds, self._climb_limit = speeds, climb
         self.rows: list[tuple[str, str, str, str, str]] = []
@@ -180,13 +182,19 @@ class CommandLog(ForwardingControls):
     def _climb(self, drone: str) -> float:
         return min(self._climb_limit, self._speeds[drone])
 
+    def _turn(self, drone: str, command: GoTo) -> bool:
+        turned = self._controls.turn(drone, command)
+        if turned:
+            self._note(drone, "go on to", command.target, self._speeds[drone])
+        return turned
+
     async def do(self, drone: str, command: Command) -> Any:
         """Note a command, and carry it out."""
         landed = self.telemetry[drone].landed
         match command:
             case TakeOff(height) if landed:
                 self._note(drone, "take off", self._here(drone, height), self._climb(drone))
-            case GoTo(target):
+            case GoTo(target, _):
                 self._note(drone, "go to", target, self._speeds[drone])
             case Land() if not landed:
                 self._note(drone, "land", self._here(drone, 0.0), self._climb(drone))
@@ -196,6 +204,8 @@ class CommandLog(ForwardingControls):
                 given = [f"{name} = {toml_value(one)}" for name, one in parameters.items()]
                 what = [*([] if item is None else [toml_value(item.name)]), *given]
                 self._note(drone, f"{action}, {', '.join(what)}" if what else action)
+            case Trigger(action):
+                self._note(drone, f"{action} on the way", self.telemetry[drone].location)
             case Read(name):
                 self._note(drone, f"read {name}")
             case Write(name, value):

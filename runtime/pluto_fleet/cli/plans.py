@@ -16,6 +16,7 @@ from ..files.plan_check import (
     look_alikes,
     problems,
     uncharged,
+    untracked,
     waits,
 )
 from ..files.reading import parsed, read, text_of
@@ -92,6 +93,10 @@ def load(app: App, options: Options) -> LoadedPlan:
         raise BadInput(shortened([f"{options.missions}: {sentence}" for sentence in found]))
     if not options.supervised:  # its supervisor has said so
         warnings = [*look_alikes(missions, fleet.drones)]
+        real = options.is_real and options.stand_ins is None
+        either = options.command == "check"
+        told = untracked(missions, app, fleet, real=real or either, simulated=not real)
+        warnings += [] if told is None else [told]
         if options.command != "check":
             warnings += impossible(missions, app, fleet, Hours(fleet.began, fleet.zone))
         for sentence in warnings:

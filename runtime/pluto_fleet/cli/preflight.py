@@ -13,6 +13,7 @@ from ..drones.loading import (
     hears,
     load_localization,
     load_navigation,
+    make_tracker,
 )
 from ..drones.real_fleet import real_fleet
 from ..drones.team import make_one
@@ -62,6 +63,8 @@ def check_real(
         told_in_vain = [one.id for one in fleet.drones if not hears(navigation_of(fleet, one))]
         if told_in_vain:
             raise deaf(fleet.localization, told_in_vain)
+    if fleet.tracker is not None:
+        make_tracker(fleet.tracker, fleet.tracker_options)
     _check_options(app, fleet, where)
 
 

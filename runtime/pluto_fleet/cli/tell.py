@@ -136,12 +136,20 @@ def _facts(given: Iterable[str | None]) -> dict[str, object]:
         if not equals:
             raise BadInput(f"{quoted(one)} is no fact of an event: write it like level=0.7")
         if name == "at":
-            facts[name] = [_value(part) for part in text.split(",")]
+            facts[name] = _place(text)
         elif name in OF_AN_EVENT:
             facts[name] = text
         else:
             fields[name] = _value(text)
     return {**facts, "fields": fields}
+
+
+def _place(text: str) -> list[float]:
+    """Return a place that was typed as `3,4`, or `3,4,1.2`; raise `BadInput`."""
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise BadInput(f"at={text} is no place: write it in metres, like at=3,4") from None
 
 
 def _value(text: str) -> object:

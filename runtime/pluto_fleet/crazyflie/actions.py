@@ -153,7 +153,7 @@ async def act(
             await _check_place(session)
             return value
         if action == PHOTO and options.camera is not None:
-            return await _photo(session, options.camera, options.camera_view, folder)
+            return await _photo(session, options.camera, options, folder)
         if options.grip is not None:
             value = options.grip.pick if action == PICK else options.grip.release
             await parameters.write(session, options.grip.parameter, value)
@@ -178,8 +178,16 @@ def _quantity(parameters_: Mapping[str, Plain]) -> str:
     return str(parameters_.get("quantity", "temperature"))
 
 
+def ground(options: CrazyflieOptions, height: float) -> tuple[float, float]:
+    """Return how many metres of ground its camera sees from a height: across and along."""
+    across, along = (
+        round(2.0 * height * tan(radians(angle) / 2.0), 3) for angle in options.camera_view
+    )
+    return across, along
+
+
 async def _photo(
-    session: CrazyflieSession, camera: tuple[str, int], view: tuple[float, float], folder: Path
+    session: CrazyflieSession, camera: tuple[str, int], options: CrazyflieOptions, folder: Path
 ) -> Photo:
     """Take a picture straight down and store it as a file."""
     before = session.now().position
@@ -192,9 +200,9 @@ async def _photo(
     await _check_place(session)
     after = session.now().position
     x, y, z = (round((a + b) / 2, 3) for a, b in zip(before, after, strict=True))
-    across, along = (2.0 * z * tan(radians(angle) / 2.0) for angle in view)
+    across, along = ground(options, z)
     file = await _kept(session.worker, folder, session.drone, taken)
-    return Photo(position=(x, y, z), width=round(across, 3), height=round(along, 3), file=str(file))
+    return Photo(position=(x, y, z), width=across, height=along, file=str(file))
 
 
 async def _kept(worker: Worker, folder: Path, drone: str, taken: Picture) -> Path:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 from ..drones.protocol import LinkLost, NotReady, Rejected
 from . import messages
+from .course import Course
 from .driver import HIGH_LEVEL, LOCALIZATION, SUPERVISOR, packet
 from .session import CrazyflieSession, Worker
 from .state import State
@@ -53,6 +54,7 @@ async def drop_trajectory(session: CrazyflieSession) -> None:
 
 async def takeoff(session: CrazyflieSession, height: float, seconds: float) -> None:
     """Begin a take-off with the present heading; one that is disarmed meanwhile does not."""
+    session.sets_out(None)
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.takeoff(height, seconds, yaw=None)
@@ -98,6 +100,7 @@ async def go_to(
     """
     x, y, z = target
     yaw = session.now().yaw
+    session.sets_out(Course(session.setpoint, target, seconds))
 
     def begin(cf: Cf) -> None:
         cf.high_level_commander.go_to(x, y, z, yaw, seconds)

@@ -189,7 +189,7 @@ async def takeoff(session: CrazyflieSession, height: float, speed: float) -> Non
             if not (await session.fresh()).flies:
                 await commander.disarm(session)
         raise
-    await _hovering(session, lambda state: abs(state.position[2] - height), seconds, "risen")
+    await hovering(session, lambda state: abs(state.position[2] - height), seconds, "risen")
 
 
 async def _begun(session: CrazyflieSession, height: float, seconds: float) -> bool:
@@ -268,10 +268,10 @@ async def _fly_to(session: CrazyflieSession, target: Point, seconds: float, what
     """Send it somewhere, and wait until it hovers there."""
     session.commanded = True
     await commander.go_to(session, target, seconds, NEAR)
-    await _hovering(session, lambda state: state.distance(target), seconds, what)
+    await hovering(session, lambda state: state.distance(target), seconds, what)
 
 
-async def _hovering(
+async def hovering(
     session: CrazyflieSession, off: Callable[[State], float], seconds: float, what: str
 ) -> None:
     """Wait until it is at the end of its trajectory, near and at rest, and knows where that is.

@@ -5,10 +5,12 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from math import inf
 
 from ..drones.protocol import (
     LINK_LOST,
+    ActionNotDone,
     DroneEvent,
     DroneSetup,
     DroneTelemetry,
@@ -18,8 +20,8 @@ from ..drones.protocol import (
     Rejected,
 )
 from ..files.addresses import address_of
-from ..shared.domain.actions import Plain
-from ..shared.domain.model import Item, Point
+from ..shared.domain.actions import MEASURE, PHOTO, Plain
+from ..shared.domain.model import Item, Photo, Point, Sighting
 from ..shared.domain.text import quoted
 from . import (
     actions,
@@ -33,6 +35,7 @@ from . import (
 )
 from .commander import stop_motors
 from .connection import open_session, scan
+from .following import follow
 from .options import options_of
 from .preflight import firmware_facts
 from .session import CrazyflieSession
@@ -196,6 +199,10 @@ class Crazyflie:
         flying.check(self._id, target, speed)
         await flying.go_to(self._linked(), target, speed)
 
+    async def follow(self, target: Point, speed: float, seconds: float) -> None:
+        flying.check(self._id, target, speed)
+        await follow(self._linked(), target, speed, seconds)
+
     async def hold(self) -> None:
         await flying.hold(self._linked())
 
@@ -215,7 +222,27 @@ class Crazyflie:
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
         session, folder = self._linked(), self._setup.folder
-        return await actions.act(session, self._reader(), self._options, folder, action, parameters)
+        value = await actions.act(
+            session, self._reader(), self._options, folder, action, parameters
+        )
+        if not isinstance(value, Photo):
+            return value
+        tracks = self._setup.in_view(value.position, value.width, value.height)
+        return replace(value, tracks=tracks, sees=tuple(sorted(one.kind for one in tracks)))
+
+    async def trigger(self, action: str, parameters: Mapping[str, Plain]) -> object:
+        """Do an action on the way, by what it measures or its camera sees."""
+        if action not in (MEASURE, PHOTO):
+            raise ActionNotDone(f"{self._id} must stop to {action}")
+        return await self.act(action, parameters, None)
+
+    async def sees(self) -> Sequence[Sighting]:
+        """Return what the fleet's tracker sees in the view of its camera, which sees no more by itself."""
+        reason = self.why_not(PHOTO, {})
+        if reason is not None:
+            raise ActionNotDone(reason)
+        place = self._linked().now().position
+        return self._setup.in_view(place, *actions.ground(self._options, place[2]))
 
     async def read(self, name: str) -> float:
         """Return a log variable, a parameter, or else a quantity, by the variable that the fleet file names for it."""

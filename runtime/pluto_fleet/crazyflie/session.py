@@ -25,6 +25,7 @@ from ..drones.protocol import Crashed, LinkLost, Locked, NavigationError
 from ..drones.timeouts import Lag
 from ..shared.domain.errors import ANY_ERROR
 from . import messages
+from .course import Course, Setpoint
 from .driver import HIGH_LEVEL, SUPERVISOR, release_link
 from .state import PositionConfidence, State
 
@@ -148,6 +149,10 @@ class CrazyflieSession:
         """The states of about the last second, the newest at the end."""
         self.took_off_at = -inf
         """When a take-off was commanded."""
+        self._course: Course | None = None
+        """The last trajectory to a place; None: there is none since its take-off."""
+        self._course_at = -inf
+        """When it was commanded."""
         self.commanded = False
         """Whether it flies by a command of this session."""
         self.located = False
@@ -163,6 +168,25 @@ class CrazyflieSession:
         self._cf: Cf | None = None
         self._lag = Lag()
         self._looking = self.loop.call_later(_LOOK, self._look)
+
+    # What it was commanded
+
+    def sets_out(self, course: Course | None) -> None:
+        """Called when it is commanded a trajectory to a place; None: when it takes off."""
+        self._course = course
+        self._course_at = self.loop.time()
+
+    @property
+    def setpoint(self) -> Setpoint:
+        """Where its trajectory has led it by now, which is not quite where it is."""
+        if self._course is None:
+            return Setpoint(self.now().position)
+        return self._course.at(self.loop.time() - self._course_at)
+
+    @property
+    def is_under_way(self) -> bool:
+        """Whether its trajectory is known; else it may have another of before this session."""
+        return self._course is not None
 
     # Callbacks of cflib
 

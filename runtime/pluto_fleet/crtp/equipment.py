@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import struct
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from math import atan, degrees
+from typing import Any
 
+from ..shared.alone.world import HEIGHT as ALONG
+from ..shared.alone.world import WIDTH as ACROSS
 from ..shared.alone.world import World
 from ..shared.domain.actions import BUILT_IN, PHOTO, PICK
 from .drone import Build, SimulatedCrazyflie
@@ -20,6 +25,8 @@ _MAGIC, _RAW = 0xBC, 0
 _CHUNK = 1000
 _PAUSE = 0.1
 """Seconds between two pictures."""
+_TRACKED = 0.1
+"""Seconds between two looks at what moves."""
 _FIRST = BUILT_IN[PHOTO].seconds
 """Seconds until a client gets its first picture."""
 _ROUTE, _FUNCTION = 0x0C, 0x05
@@ -46,6 +53,21 @@ async def camera(port: int = 0) -> asyncio.Server:
     return await asyncio.start_server(_stream, HOST, port)
 
 
+async def tracker(tracks: Callable[[], Mapping[str, Any]]) -> asyncio.Server:
+    """Say to every client again and again where things are that move; close what is returned to end it."""
+
+    async def say(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with suppress(OSError):
+            while not reader.at_eof():
+                for id, track in tracks().items():
+                    writer.write(json.dumps({"id": id, **track}).encode() + b"\n")
+                await writer.drain()
+                await asyncio.sleep(_TRACKED)
+        writer.close()
+
+    return await asyncio.start_server(say, HOST, 0)
+
+
 async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
     number = 0
     await asyncio.sleep(_FIRST)
@@ -66,6 +88,9 @@ def port_of(server: asyncio.Server) -> int:
     return int(server.sockets[0].getsockname()[1])
 
 
+_VIEW = [2 * degrees(atan(share / 2)) for share in (ACROSS, ALONG)]
+"""The angles of a camera that sees what those of other simulated drones see."""
+
 _SENSORS = {"temperature": "bme.temp", "humidity": "bme.humidity", "pressure": "baro.pressure"}
 _NOTHING = "sim.nothing"
 """The log variable for what there is not in its world."""
@@ -79,6 +104,7 @@ def fitted(given: Mapping[str, object], camera: str, world: World) -> dict[str, 
     drone that a simulated one lacks, it has one of its own instead.
     """
     return {
+        "camera_view": _VIEW,
         **given,
         "camera": camera,
         "cells": 1,

@@ -26,13 +26,13 @@ from ..process import locks, respawn
 from ..process.forked import deaf, in_children, not_for_children
 from ..process.ipc import NotRunning, answering, ask, listening
 from ..process.whole_file import write_whole
-from ..shared.alone.world import World
 from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
 from ..shared.domain.fleet_data import WorldData
+from ..shared.events.world import MovingWorld
 from .battery import CHARGE, FLIGHT
 from .drone import Build, SimulatedCrazyflie
-from .equipment import camera, port_of
+from .equipment import camera, port_of, tracker
 from .flight_log import FileLog, Point
 from .server import HOST, Server
 
@@ -65,9 +65,9 @@ class Surroundings:
     data: WorldData = field(default_factory=WorldData)
 
     @property
-    def world(self) -> World:
+    def world(self) -> MovingWorld:
         """The same as simulated drones of a gateway are in."""
-        return World(self.seed, Airspace(), self.data)
+        return MovingWorld(self.seed, Airspace(), self.data)
 
 
 NOTHING = Surroundings()
@@ -127,7 +127,7 @@ def told(folder: Path, do: str, **more: object) -> str:
     """Send a request to the simulated drones of a folder; raise `BadInput` if it is refused.
 
     `join` with `drone`, `home` and `battery`, `fault` with `drone`, `name` and `value`, `state`, `uris`,
-    `camera`, `end`.
+    `camera`, `tracker`, `end`.
     """
     return ask(folder / NOTE, {"do": do, **more}, _PATIENCE)
 
@@ -161,7 +161,8 @@ async def _run(folder: Path) -> None:
     kept, log = _kept(folder), FileLog(folder)
     around = msgspec.json.decode((folder / WORLD).read_bytes(), type=Surroundings)
     builds = [_build(id, number, one) for number, (id, one) in enumerate(kept.items())]
-    server = Server(builds, log, around.world)
+    world = around.world
+    server = Server(builds, log, world)
     for id, drone in server.drones.items():
         _restore(drone, kept[id])
     over = asyncio.Event()
@@ -170,7 +171,7 @@ async def _run(folder: Path) -> None:
     no_more = in_children(deaf)
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     await server.start({id: int(one.get("port", 0)) for id, one in kept.items()})
-    desk = _Desk(server, over)
+    desk = _Desk(server, world, over)
     try:
         async with listening(folder / NOTE, answering(desk.answer)):
             while not over.is_set():
@@ -194,9 +195,13 @@ async def _run(folder: Path) -> None:
 class _Desk:
     """Serves requests of other processes."""
 
-    def __init__(self, server: Server, over: asyncio.Event) -> None:
-        self._server, self._over = server, over
+    def __init__(self, server: Server, world: MovingWorld, over: asyncio.Event) -> None:
+        self._server = server
+        self._world = world
+        self._over = over
+        self._began = time.monotonic()
         self._camera: asyncio.Server | None = None
+        self._tracker: asyncio.Server | None = None
 
     async def answer(self, request: Mapping[str, object]) -> str:
         match request:
@@ -210,6 +215,9 @@ class _Desk:
             case {"do": "camera"}:
                 self._camera = self._camera or await camera()
                 return f"{HOST}:{port_of(self._camera)}"
+            case {"do": "tracker"}:
+                self._tracker = self._tracker or await tracker(self._tracks)
+                return f"{HOST}:{port_of(self._tracker)}"
             case {"do": "join", "drone": str(id), "home": list(home), "battery": list(battery)}:
                 number = len(self._server.endpoints)
                 await self._server.join(_build(id, number, {"home": home, "battery": battery}))
@@ -226,9 +234,13 @@ class _Desk:
                 return f"{id}: {name} is {value}"
         raise BadInput("that cannot be asked of simulated drones")
 
+    def _tracks(self) -> Mapping[str, Any]:
+        return self._world.tracks(time.monotonic() - self._began)
+
     async def close(self) -> None:
-        if self._camera is not None:
-            self._camera.close()
+        for served in (self._camera, self._tracker):
+            if served is not None:
+                served.close()
 
 
 def _build(id: str, number: int, data: Mapping[str, Any]) -> Build:

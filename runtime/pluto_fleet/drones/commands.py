@@ -29,6 +29,7 @@ from ..shared.domain.actions import BUILT_IN, PICK, RELEASE, Plain
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.model import Item, Photo, Point, Sighting
 from ..shared.domain.text import percent, place, shown
+from .following import follow
 from .protocol import Acts, ActsOnTheWay, Readable, Sees
 from .telemetry import RISING
 from .timeouts import shortened
@@ -65,6 +66,7 @@ def _photo(gave: Any) -> Photo:
         width=_number(gave.width),
         height=_number(gave.height),
         sees=tuple(map(str, getattr(gave, "sees", ()))),
+        tracks=tuple(map(_sighting, getattr(gave, "tracks", ()))),
         sharpness=_number(getattr(gave, "sharpness", 1.0)),
         file=None if file is None else str(file),
     )
@@ -75,8 +77,11 @@ async def do(vehicle: Vehicle, command: Command) -> object:
     match command:
         case TakeOff(height):
             await vehicle.does(RISE, take_off, height)
-        case GoTo(target):
-            await vehicle.does("fly", go_to, target)
+        case GoTo():
+            turns = vehicle.commands.brakes
+            if turns:  # it need not stop for that
+                vehicle.commands.release()
+            await vehicle.does("fly", go_to, command, turns)
         case Land():
             await vehicle.does(LAND, land)
         case Hold():
@@ -125,17 +130,50 @@ async def take_off(vehicle: Vehicle, height: float) -> None:
             vehicle.telemetry.rises_until = vehicle.calls.clock() + RISING
 
 
-async def go_to(vehicle: Vehicle, target: Point) -> None:
+async def go_to(vehicle: Vehicle, command: GoTo, turns: bool = False) -> None:
+    """Fly to a point, or elsewhere if it is told so on its way, without a stop.
+
+    `turns`: it is on its way already.
+    """
     vehicle.check()
     check_airborne(vehicle)
-    await fly(vehicle, target)
+    while True:
+        if turns:
+            await vehicle.calls.parted()
+        way = fly_on(vehicle, command) if turns or command.seconds else fly(vehicle, command.target)
+        flies = asyncio.ensure_future(way)
+        turned = vehicle.turned = asyncio.get_running_loop().create_future()
+        try:
+            await asyncio.wait((flies, turned), return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            vehicle.turned = None
+            if not flies.done():
+                flies.cancel()
+                await asyncio.wait((flies,))
+        if not turned.done() or (not flies.cancelled() and flies.exception() is not None):
+            return flies.result()
+        command = turned.result()
+        turns = True
+
+
+async def fly_on(vehicle: Vehicle, command: GoTo) -> None:
+    """Fly on to a point, without a stop if it is on its way."""
+    target, seconds = command
+    limit = max(seconds, _seconds_to(vehicle, target))
+    what = f"arrive at {place(target)}"
+    await vehicle.go(what, limit, follow, vehicle.navigation, target, vehicle.speed, seconds)
 
 
 async def fly(vehicle: Vehicle, target: Point) -> None:
     """Fly straight to a point, also where it takes no commands."""
-    seconds = dist(vehicle.telemetry.location, target) / min(vehicle.speed, SLOWEST_PLANNED)
+    seconds = _seconds_to(vehicle, target)
     what = f"arrive at {place(target)}"
     await vehicle.go(what, seconds, vehicle.navigation.go_to, target, vehicle.speed)
+
+
+def _seconds_to(vehicle: Vehicle, target: Point) -> float:
+    """Return how many seconds a drone needs to a point, for time-outs."""
+    return dist(vehicle.telemetry.location, target) / min(vehicle.speed, SLOWEST_PLANNED)
 
 
 async def land(vehicle: Vehicle) -> None:

@@ -1,4 +1,4 @@
-"""Loading the navigation or localization class that a fleet file names; nothing of it is called.
+"""Loading the navigation, localization or tracker class that a fleet file names; nothing of it is called.
 
 A name is a built-in one (`crazyflie`), an entry point of an installed package, or `module:Class`. Only
 installed modules are found: a fleet file is data, and its folder is no place for code. A module is
@@ -26,16 +26,20 @@ from ..shared.domain.text import quoted
 from .localization import Localization
 from .protocol import (
     Acts,
+    ActsOnTheWay,
     Addressed,
     CaredFor,
     DroneNavigation,
     DroneSetup,
+    Follows,
     Identifiable,
     Locatable,
     Readable,
     Scannable,
+    Sees,
 )
 from .timeouts import shortened
+from .tracking import Tracker
 
 S = TypeVar("S")
 T = TypeVar("T")
@@ -100,7 +104,16 @@ NAVIGATION = PluginKind(
     argument="setup",
     such_as="my_drones.parrot:Parrot",
     methods=DroneNavigation,
-    abilities=(Acts, Readable, Locatable, CaredFor, Identifiable),
+    abilities=(
+        Acts,
+        ActsOnTheWay,
+        Follows,
+        Sees,
+        Readable,
+        Locatable,
+        CaredFor,
+        Identifiable,
+    ),
     of_class=(Scannable, Addressed),
 )
 LOCALIZATION = PluginKind(
@@ -110,6 +123,14 @@ LOCALIZATION = PluginKind(
     argument="options",
     such_as="my_cameras:Ceiling",
     methods=Localization,
+)
+TRACKER = PluginKind(
+    word="tracker",
+    ours={"lines": ".lines:Lines"},
+    group="plutoc.trackers",
+    argument="options",
+    such_as="my_cameras:Walkers",
+    methods=Tracker,
 )
 
 
@@ -121,6 +142,11 @@ def load_navigation(name: str) -> Callable[[DroneSetup], DroneNavigation]:
 def load_localization(name: str) -> Callable[[Mapping[str, object]], Localization]:
     """Return the localization class that a fleet file names; not for `own`, which has none."""
     return cast("Callable[[Mapping[str, object]], Localization]", _loaded(LOCALIZATION, name))
+
+
+def load_tracker(name: str) -> Callable[[Mapping[str, object]], Tracker]:
+    """Return the tracker class that a fleet file names; raise `BadInput` if that fails."""
+    return cast("Callable[[Mapping[str, object]], Tracker]", _loaded(TRACKER, name))
 
 
 def hears(name: str) -> bool:
@@ -161,6 +187,11 @@ def canonical_uri(name: str, drone: str, uri: str | None) -> str | None:
 def make_localization(name: str, options: Mapping[str, object]) -> Localization:
     """Return the localization of a fleet; raise `BadInput` if there cannot be one."""
     return _made(LOCALIZATION, name, load_localization(name), options, "")
+
+
+def make_tracker(name: str, options: Mapping[str, object]) -> Tracker:
+    """Return the tracker of a fleet; raise `BadInput` if there cannot be one."""
+    return _made(TRACKER, name, load_tracker(name), options, "")
 
 
 def _made(kind: PluginKind, name: str, of: Callable[[S], T], argument: S, whose: str) -> T:

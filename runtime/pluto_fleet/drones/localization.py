@@ -1,9 +1,8 @@
 """Positions that are measured from outside, and fed to the drones.
 
 A drone that estimates its own position (by a Lighthouse deck, Loco anchors, a flow deck, GPS) needs
-nothing of this: that is the localization `own`. Any other is a user's class, named in the fleet file. A
-source may stop, fail, name unknown drones or yield nonsense, and a drone may be slow to receive: none of
-that delays the others, or ends the feed.
+nothing of this: that is the localization `own`. Any other is a user's class, named in the fleet file. It
+may name unknown drones, and a drone may be slow to receive: that does not delay the others.
 """
 
 from __future__ import annotations
@@ -17,6 +16,7 @@ from typing import Protocol
 from ..shared.domain.model import Point
 from ..shared.domain.text import quoted
 from .protocol import Locatable
+from .source import MISTAKES, Source
 
 
 class Localization(Protocol):
@@ -36,12 +36,6 @@ class Localization(Protocol):
 
 SILENCE = 1.0
 """Seconds without a position after which a drone has lost its position."""
-PAUSE = 1.0
-"""Seconds until a source that has ended is called again."""
-_MISTAKES: tuple[type[Exception], ...] = (Exception,)
-"""Exceptions of a user's class, which are logged and stop nothing else."""
-_MOST_SENTENCES = 20
-"""How many unknown drones are logged: a source may invent ever new ones."""
 
 
 class LocalizationFeed:
@@ -57,18 +51,21 @@ class LocalizationFeed:
     ) -> None:
         self.name = name
         """Its name in the fleet file."""
-        self._source, self._drones, self._log, self._clock = source, dict(drones), log, clock
+        self._drones = dict(drones)
+        self._log = log
+        self._clock = clock
+        self._source = Source(
+            f"the localization {name}", "positions", source.positions, self._hear, log
+        )
+        self._say = self._source.say
         self._heard = dict.fromkeys(drones, clock())
         """When each drone has received its latest position."""
         self._latest: dict[str, Point] = {}
         """The latest position still to be sent to each drone; older ones are dropped."""
         self._telling: dict[str, asyncio.Task[None]] = {}
-        self._said: set[str] = set()
-        self._listening: asyncio.Task[None] | None = None
 
     def start(self) -> None:
-        if self._listening is None:
-            self._listening = asyncio.create_task(self._listen(), name=f"positions of {self.name}")
+        self._source.start()
 
     def feed(self, drone: str, navigation: Locatable) -> None:
         """Feed a drone that has joined, too."""
@@ -83,43 +80,23 @@ class LocalizationFeed:
 
     async def close(self) -> None:
         """Stop the feed, and wait until it has ended."""
+        await self._source.close()
         tasks = [*self._telling.values()]
-        if self._listening is not None:
-            tasks.append(self._listening)
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-
-    async def _listen(self) -> None:
-        while True:
-            positions = None
-            try:
-                positions = self._source.positions()
-                async for one in positions:
-                    self._hear(one)
-                    await asyncio.sleep(0)  # a source that never waits would block the loop
-                why = "it ended"
-            except _MISTAKES as error:
-                why = f"{type(error).__name__}: {error}"
-            finally:
-                close = getattr(positions, "aclose", None)
-                if close is not None:
-                    await close()
-            self._say(f"the localization {self.name} gives no positions any more ({why})")
-            await asyncio.sleep(PAUSE)
 
     def _hear(self, one: object) -> None:
         match one:
             case (str(drone), (float() | int() as x, float() | int() as y, float() | int() as z)):
                 position = float(x), float(y), float(z)
             case _:
-                self._say(f"the localization {self.name} gave what is no drone and position")
+                self._say(f"{self._source.name} gave what is no drone and position")
                 return
         if drone not in self._drones:
-            name = quoted(drone)
-            self._say(f"the localization {self.name} sees {name}, which is not in the fleet")
+            self._say(f"{self._source.name} sees {quoted(drone)}, which is not in the fleet")
         elif not all(isfinite(value) for value in position):
-            self._say(f"the localization {self.name} gave {drone} a position that is no number")
+            self._say(f"{self._source.name} gave {drone} a position that is no number")
         else:
             self._latest[drone] = position
             if drone not in self._telling:
@@ -131,13 +108,7 @@ class LocalizationFeed:
             while (position := self._latest.pop(drone, None)) is not None:
                 await self._drones[drone].locate(position)
                 self._heard[drone] = self._clock()
-        except _MISTAKES as error:
+        except MISTAKES as error:
             self._say(f"{drone} could not be told where it is: {type(error).__name__}: {error}")
         finally:
             del self._telling[drone]
-
-    def _say(self, sentence: str) -> None:
-        """Log something once: a faulty source is faulty many times a second."""
-        if sentence not in self._said and len(self._said) < _MOST_SENTENCES:
-            self._said.add(sentence)
-            self._log(sentence)

@@ -17,7 +17,7 @@ The rules for all commands:
   is `Rejected`.
 - One command at a time. The runtime may *cancel* it, as asyncio does: let the `CancelledError` out
   at once and wait for nothing on the way. The drone may go on for that moment; `hold` is called
-  next. Telemetry goes on meanwhile, and so it does during every command.
+  next, or, on its way to what moves, `go_to` with where that will be. Telemetry goes on meanwhile, and so it does during every command.
 - *Nothing may block the event loop* for more than 50 ms: all drones are flown by it. A library
   that blocks is called in a thread of the navigation's own, a daemon, with limits; what that thread
   receives comes back by `loop.call_soon_threadsafe`.
@@ -29,7 +29,7 @@ not import these, but only give its exceptions this attribute. Their text is a r
 
 from __future__ import annotations
 
-from collections.abc import AsyncIterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Protocol, runtime_checkable
@@ -162,6 +162,15 @@ class DroneEvent:
     """A sentence for a person, without the drone's name: "it lies on its back"."""
 
 
+InView = Callable[[Point, float, float], tuple[Sighting, ...]]
+"""Returns what moves in a rectangle of the map: around a place, so many metres along x and along y."""
+
+
+def nothing_in_view(place: Point, width: float, height: float) -> tuple[Sighting, ...]:
+    """Return nothing, as for a fleet without a tracker."""
+    return ()
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DroneSetup:
     """One drone of the fleet file, for the navigation that is to fly it."""
@@ -182,6 +191,8 @@ class DroneSetup:
     """Seconds for which it may tell nothing in the air before its link counts as lost."""
     plane: LocalPlane | None = None
     """Where the map lies on the Earth; None: the fleet file does not say."""
+    in_view: InView = nothing_in_view
+    """What the fleet's tracker sees where a camera looks that cannot tell by itself what moves."""
 
 
 class DroneNavigation(Protocol):
@@ -281,6 +292,22 @@ class ActsOnTheWay(Protocol):
         """Do an action at once, without a stop, and return its result as `act` does.
 
         Called during other commands. Raises `ActionNotDone`, also for an action that needs a stop.
+        """
+        ...
+
+
+@runtime_checkable
+class Follows(Protocol):
+    """A drone that flies on to where something that moves will be, in a way of its own.
+
+    Any other is sent there by `go_to`, while it is on its way by the one before, which was cancelled.
+    """
+
+    async def follow(self, target: Point, speed: float, seconds: float) -> None:
+        """Fly on to a point without a stop, never faster than this, and hover there unless called anew.
+
+        To be there in so many seconds, or as soon as the speed allows; 0: at once. Called again and again,
+        before it has arrived: the call before is cancelled then.
         """
         ...
 

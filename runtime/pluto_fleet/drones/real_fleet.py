@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from ..files.fleet import OWN, navigation_of, options_of
 from ..geodesy import LocalPlane
 from ..jobs.reports import SILENCE
-from ..shared.domain.actions import BUILT_IN, Plain
+from ..shared.domain.actions import BUILT_IN, PHOTO, Plain
 from ..shared.domain.model import Mission
+from ..shared.events.declared import FOLLOWING
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
@@ -45,6 +46,9 @@ class RealFleet:
     localization: str = OWN
     """Their localization: `own`, a name, or `module:Class`."""
     localization_options: Mapping[str, object] = field(default_factory=dict)
+    tracker: str | None = None
+    """What says where things are that move: a name, or `module:Class`."""
+    tracker_options: Mapping[str, object] = field(default_factory=dict)
     wanted: tuple[RequiredAction, ...] = ()
     silence: float = SILENCE
     """Seconds for which a drone in the air may tell nothing before its flight fails."""
@@ -77,6 +81,8 @@ def real_fleet(
         ),
         localization=fleet.localization,
         localization_options=fleet.localization_options,
+        tracker=fleet.tracker,
+        tracker_options=fleet.tracker_options,
         wanted=_wanted([*_planned(missions), *_recorded(records)]),
         silence=fleet.silence,
         plane=fleet.plane,
@@ -87,6 +93,12 @@ def _planned(missions: Iterable[Mission[Any]]) -> Iterator[RequiredAction]:
     for mission in missions:
         for trip in mission.trips:
             yield RequiredAction(action=trip.action, parameters=dict(trip.parameters))
+            if trip.action == FOLLOWING:
+                yield RequiredAction(action=PHOTO, parameters={})
+            if along := getattr(trip, "along", None):
+                yield RequiredAction(
+                    action=along["action"], parameters=dict(along.get("parameters") or {})
+                )
 
 
 def _recorded(records: Iterable[Mapping[str, Any]]) -> Iterator[RequiredAction]:

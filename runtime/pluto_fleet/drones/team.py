@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NoReturn
 
 from ..files.fleet import OWN
-from ..jobs.controls import Command, FleetDrone
+from ..jobs.controls import Command, FleetDrone, GoTo
 from ..jobs.reports import DroneReport
 from ..jobs.telemetry import Subscription, Telemetry
 from ..shared.domain.actions import BUILT_IN, Plain
@@ -22,11 +22,19 @@ from ..shared.domain.model import Point
 from ..shared.domain.text import quoted
 from . import commands
 from .connection import Connection, close, recover, wait_until_home
-from .loading import deaf, make_localization, make_navigation
+from .loading import deaf, make_localization, make_navigation, make_tracker
 from .localization import LocalizationFeed
-from .protocol import DroneNavigation, DroneSetup, Locatable, Readable
+from .protocol import (
+    DroneNavigation,
+    DroneSetup,
+    InView,
+    Locatable,
+    Readable,
+    nothing_in_view,
+)
 from .real_fleet import RealDrone, RealFleet
 from .safety import EACH, SafetyMonitor, follow_events
+from .tracking import TrackFeed
 from .vehicle import Cargo, Vehicle
 
 if TYPE_CHECKING:
@@ -49,11 +57,14 @@ class Team:
         say: Callable[[str], object],
         real: RealFleet = RealFleet(),  # noqa: B008 - it is frozen
         feeding: LocalizationFeed | None = None,
+        tracking: TrackFeed | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._kernel = kernel
         self._real = real
         self._cargo, self._feed = Cargo(folder, say), feeding
+        self.tracking = tracking
+        """What says where things are that move; None: nothing does."""
         self._say, self._clock, self._folder = say, clock, folder
         self.vehicles: dict[str, Vehicle] = {}
         """Each drone as it is flown, by its id."""
@@ -91,7 +102,9 @@ class Team:
                 " load it would hold up those in the air; end this flight, and begin one with it"
             )
         files = self._folder / FILES
-        navigation = make_one(how, drone.home, drone.category.speed, files, self._real)
+        speed = drone.category.speed
+        view = _view_of(self.tracking)
+        navigation = make_one(how, drone.home, speed, files, self._real, view)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise deaf(self._feed.name, [drone.id])
@@ -102,6 +115,8 @@ class Team:
         """Start to connect to all drones, and to monitor them; waits for none."""
         if self._feed is not None:
             self._feed.start()
+        if self.tracking is not None:
+            self.tracking.start()
         self._monitoring = Subscription(
             self.telemetry, self._look, every=EACH, view=lambda _, known: known.silence
         )
@@ -140,6 +155,8 @@ class Team:
         await asyncio.gather(*tasks, return_exceptions=True)
         if self._feed is not None:
             await self._feed.close()
+        if self.tracking is not None:
+            await self.tracking.close()
 
     # Commands of the gateway's kernel
 
@@ -155,6 +172,9 @@ class Team:
 
     async def do(self, drone: str, command: Command) -> object:
         return await self._kernel.call_hook(commands.do, self.vehicles[drone], command)
+
+    def turn(self, drone: str, command: GoTo) -> bool:
+        return self.vehicles[drone].turn(command)
 
     def break_off(self, drone: str) -> None:
         self.vehicles[drone].break_off()
@@ -226,6 +246,7 @@ def make_one(
     speed: float,
     folder: Path,
     fleet: RealFleet = RealFleet(),  # noqa: B008 - it is frozen
+    in_view: InView = nothing_in_view,
 ) -> DroneNavigation:
     """Create one drone's navigation, with a maximum speed, in its fleet; nothing is connected yet.
 
@@ -240,6 +261,7 @@ def make_one(
         folder=folder,
         silence=fleet.silence,
         plane=fleet.plane,
+        in_view=in_view,
     )
     made = make_navigation(how.navigation, setup)
     if how.parameters and not isinstance(made, Readable):
@@ -262,8 +284,10 @@ def make_team(
     files = folder / FILES
     files.mkdir(mode=0o700, parents=True, exist_ok=True)
     how = {drone.id: drone for drone in real.drones}
+    tracking = _tracking(real, airspace, say)
+    view = _view_of(tracking)
     navigations = {
-        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real)
+        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real, view)
         for drone in drones
     }
     return Team(
@@ -275,6 +299,7 @@ def make_team(
         say=say,
         real=real,
         feeding=_feeding(real, navigations, say),
+        tracking=tracking,
     )
 
 
@@ -289,3 +314,18 @@ def _feeding(
         raise deaf(real.localization, [id for id in navigations if id not in fed])
     source = make_localization(real.localization, real.localization_options)
     return LocalizationFeed(real.localization, source, fed, say)
+
+
+def _tracking(
+    real: RealFleet, airspace: Airspace, say: Callable[[str], object]
+) -> TrackFeed | None:
+    """Return the feed of the fleet's tracker; None: it has none."""
+    if real.tracker is None:
+        return None
+    tracker = make_tracker(real.tracker, real.tracker_options)
+    return TrackFeed(real.tracker, tracker, airspace, say)
+
+
+def _view_of(tracking: TrackFeed | None) -> InView:
+    """Return what looks into what a tracker sees."""
+    return nothing_in_view if tracking is None else tracking.in_view

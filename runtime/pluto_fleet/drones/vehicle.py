@@ -13,7 +13,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ..jobs.controls import FleetDrone
+from ..jobs.controls import FleetDrone, GoTo
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.motion import CLIMB_SPEED
@@ -72,6 +72,11 @@ class CommandQueue:
         """Abort the command in progress, if any: it raises this."""
         if self._over is not None and not self._over.done():
             self._over.set_exception(error)
+
+    @property
+    def brakes(self) -> bool:
+        """Whether it was told to hover, and does not yet."""
+        return self._brake is not None and not self._brake.done()
 
     def release(self) -> None:
         """Stop waiting until it hovers."""
@@ -185,6 +190,8 @@ class Vehicle:
             drone.home, drone.category.endurance, lambda: self.navigation.telemetry, self.calls
         )
         self.commands = CommandQueue(self.hover)
+        self.turned: asyncio.Future[GoTo] | None = None
+        """Set when it is sent elsewhere on its way to a point; None: it is on no such way."""
         self.linked = False
         self.on_lost: Callable[[], object] = lambda: None
         """Called when its link is lost."""
@@ -325,6 +332,14 @@ class Vehicle:
                     raise
                 unset.append(str(error))
         self.unset = tuple(unset)
+
+    def turn(self, command: GoTo) -> bool:
+        """Send it elsewhere if it is on its way to a point; return whether it is."""
+        turned = self.turned
+        if turned is None or turned.done() or not self.linked or self.down is not None:
+            return False
+        turned.set_result(command)
+        return True
 
     def break_off(self) -> None:
         """Abort its command, and hover; one that must land continues."""

@@ -59,6 +59,7 @@ _REAL: Keys = {
     "silence": QUIET,
     "navigation": values.name,
     "localization": values.name,
+    "tracker": values.name,
 }
 """How the keys of `[fleet]` are read that only real flights need."""
 
@@ -248,6 +249,9 @@ class FleetFile(FleetData):
     localization: str = OWN
     """The localization of real drones: a name, or `module:Class`."""
     localization_options: Options = field(default_factory=dict)
+    tracker: str | None = None
+    """What tells real drones what moves: a name, or `module:Class`."""
+    tracker_options: Options = field(default_factory=dict)
 
     @property
     def plane(self) -> LocalPlane | None:
@@ -281,6 +285,9 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     if "localization" in whole.data and given.get("localization", OWN) == OWN:
         said = "is for a source of positions that [fleet] names with localization = …"
         whole.problem(f"[localization] {said}; here each drone finds its own", "localization")
+    if "tracker" in whole.data and "tracker" not in given:
+        said = "is for what says where things move, which [fleet] names with tracker = …"
+        whole.problem(f"[tracker] {said}", "tracker")
     used = [*dict.fromkeys([flown_by, *(one.navigation for one in drones if one.navigation)])]
     fleet = FleetFile(
         **given,
@@ -289,6 +296,7 @@ def fleet_of(document: Document, app: App) -> FleetFile:
         motion=read_motion(whole),
         options=navigation_options(whole, used),
         localization_options=options_in(whole.table("localization")),
+        tracker_options=options_in(whole.table("tracker")),
         drones=drones,
         world=read_world(whole, app.parts),
     )

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from datetime import date, time
 from graphlib import CycleError, TopologicalSorter
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +17,10 @@ from ..shared.domain.model import Mission
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import quoted
 from ..shared.domain.values import LARGEST, Quantity, Read, Table
-from .areas import trips_of_areas
+from .areas import is_side_by_side, trips_of_areas
 from .landmarks import NO_LANDMARKS, Landmarks
 from .lists import RowTable, each_row
-from .reading import Document, near, read, top
+from .reading import Document, PlanTable, near, read, top
 
 MOST_OF_LISTS = 1_000
 """After so many problems no further row of a list is read."""
@@ -55,21 +56,38 @@ def read_missions(
         from .drawn_missions import take_drawing  # most plans are none
 
         take_drawing(document, app)
-    tables = [*each_row(top(document, MISSIONS))]
     missions = list[Any]()
+    tables = list[PlanTable]()
     names = dict[str, Table]()
-    for index, table in enumerate(tables):
+    for table in [*each_row(top(document, MISSIONS))]:
         if isinstance(table, RowTable) and len(document.problems) > MOST_OF_LISTS:
             break  # the same is wrong in row after row
-        given = read_mission(table, index, app, airspace, names)
-        given["promises"] = read_promises(table)
-        if "area" in table.data:
-            given["trips"] += trips_of_areas(table, given["trips"], app, airspace)
-        missions.append(app.mission(**given))
+        for given in _of_table(table, len(missions), app, airspace, names):
+            missions.append(app.mission(**given))
+            tables.append(table)
     for place, said in [] if document.problems else misplaced(missions, known):
         tables[place].problem(said, "after")
     document.given = [None if isinstance(one, RowTable) else one.data for one in tables]
     return missions
+
+
+def _of_table(
+    table: PlanTable, index: int, app: App, airspace: Airspace, names: dict[str, Table]
+) -> Iterable[dict[str, Any]]:
+    """Return what the missions of a table are made of: one, or one for each lane of an area."""
+    given = read_mission(table, index, app, airspace, names)
+    given["promises"] = read_promises(table)
+    if "area" not in table.data:
+        return [given]
+    lanes = trips_of_areas(table, given["trips"], app, airspace)
+    if not is_side_by_side(table):
+        return [{**given, "trips": [*given["trips"], *chain.from_iterable(lanes)]}]
+    found = list[dict[str, Any]]()
+    for number, lane in enumerate(lanes):
+        name = f"{given['name']} {number + 1}"
+        table.differs("name", name, "mission", names)
+        found.append({**given, "name": name, "index": index + number, "trips": lane})
+    return found
 
 
 _FROM_START = Quantity(Type.TIME, 0.0, LARGEST)

@@ -17,6 +17,7 @@ from ..shared.domain.model import AfterTrip, Category, Mission, Point, Trip
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.text import counted, duration, quoted
 from ..shared.domain.values import shown
+from ..shared.events.declared import FOLLOWING
 from ..shared.fleet.reach import Miss, chain_of, flight_seconds, miss_of, stops_of
 from ..shared.flow.promises import kept_from
 from ..shared.time.hours import DAY, Hours
@@ -173,6 +174,30 @@ def _endless(missions: Sequence[Mission[Any]], app: App) -> dict[str, str]:
     """Return by which field missions repeat until they are stopped."""
     fields = [one.name for one in app.fields if one.type is FieldType.ROUNDS]
     return {one.name: key for one in missions for key in fields if getattr(one, key) is True}
+
+
+def untracked(
+    missions: Sequence[Mission[Any]], app: App, fleet: FleetFile, *, real: bool, simulated: bool
+) -> str | None:
+    """Return a sentence if these follow what moves, and nothing says where that is.
+
+    `real`, `simulated`: which drones may fly them.
+    """
+    seen = (real and fleet.tracker is not None) or (
+        simulated and fleet.world is not None and fleet.world.movers
+    )
+    follows = any(FOLLOWING in (category.actions or ()) for category in app.categories) or any(
+        trip.action == FOLLOWING or getattr(trip, "track", None) is not None
+        for mission in missions
+        for trip in mission.trips
+    )
+    if seen or not follows:
+        return None
+    ways = [
+        *(["name a tracker, by tracker = … in [fleet]"] if real else []),
+        *(["add [[world.mover]] to a simulated world"] if simulated else []),
+    ]
+    return f"drones follow what moves, and nothing says where that is: {', or '.join(ways)}"
 
 
 def look_alikes(

@@ -51,6 +51,8 @@ class MadeOfArea:
 
     who: str
     trips: int
+    places: int
+    """At which its action is done; more than trips, if that is done on the way."""
     metres: float
     """The way from the first place to the last."""
     forbidden: float
@@ -59,7 +61,10 @@ class MadeOfArea:
     @property
     def sentence(self) -> str:
         """All of this for people."""
-        way = f"{counted(self.trips, 'trip')}, {number(round(self.metres, 1))} m from the first to the last"
+        trips = counted(self.trips, "trip")
+        if self.places > self.trips:
+            trips += f" with {self.places} places on the way"
+        way = f"{trips}, {number(round(self.metres, 1))} m from the first to the last"
         out = f"; {percent(self.forbidden)} of it may not be flown over"
         return f"{self.who}: {way}" + (out if self.forbidden >= 0.005 else "")
 

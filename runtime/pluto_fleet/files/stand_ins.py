@@ -100,6 +100,7 @@ def as_stand_ins(fleet: FleetFile, stand_ins: StandIns) -> FleetFile:
         drones=tuple(drones),
         navigation=navigation,
         localization=OWN,
+        tracker=None,
         landmarks=landmarks,
     )
 

@@ -1,13 +1,13 @@
 """The places from which an area is covered, and the order in which they are flown to.
 
-The area, less what may not be flown over, is cut into cells no larger than `spacing`. Each cell gets one place, from
-which all of the area that is in it lies within the square of side `spacing` around the place; where a no-fly area
-leaves no such place, it gets more.
+The area, less what may not be flown over, is cut into cells no larger than what is covered from one place. Each cell
+gets one place, from which all of the area that is in it is covered; where a no-fly area leaves no such place, it gets
+more.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
 from math import ceil, dist, floor
@@ -22,6 +22,11 @@ from ..shared.domain.text import place
 
 MOST = 2_000
 """The most places of one area."""
+
+Sides = tuple[float, float]
+"""Of the rectangle around a place that is covered from there, along x and along y, in metres."""
+Covered = Callable[[bool], Sides]
+"""What is covered from a place, if the lanes lead along x, and if they do not."""
 
 _TINY = 1e-9
 """Square metres, and metres, that come of rounding."""
@@ -40,10 +45,15 @@ class TooManyPlaces(ValueError):
 class Sweep:
     """How an area is flown."""
 
-    places: Sequence[Corner]
-    """In the order in which they are flown to; empty: none of the area may be flown over."""
+    lanes: Sequence[Sequence[Corner]]
+    """The places of each lane, in the order in which they are flown to; empty: none of the area may be flown over."""
     forbidden: float
     """The share of the area that may not be flown over."""
+
+    @property
+    def places(self) -> Sequence[Corner]:
+        """All places, in the order in which they are flown to."""
+        return [*chain.from_iterable(self.lanes)]
 
 
 def problem_of(corners: Sequence[Corner]) -> str | None:
@@ -58,20 +68,30 @@ def problem_of(corners: Sequence[Corner]) -> str | None:
 
 
 def sweep(
-    corners: Sequence[Corner], spacing: float, airspace: Airspace, before: Corner | None
+    corners: Sequence[Corner],
+    covered: Covered,
+    airspace: Airspace,
+    before: Corner | None,
+    *,
+    over_edges: bool = False,
 ) -> Sweep:
     """Return the places for an area, swept back and forth along its longer side.
 
-    `before`: where the drones come from, if that is known. Raises `TooManyPlaces`.
+    `before`: where the drones come from, if that is known. With `over_edges` a place may lie a little outside the area,
+    so that a lane is straight. Raises `TooManyPlaces`.
     """
     whole = Polygon(corners)
     allowed = _permitted(whole, airspace)
     forbidden = 1.0 - sum(part.area for part in allowed) / whole.area
     if not allowed:
         return Sweep((), 1.0)
-    if any(_least(part, spacing) > MOST for part in allowed):
+    shape = shapely.union_all(allowed)
+    x, y, most_x, most_y = shape.bounds
+    is_wide = most_x - x >= most_y - y
+    sides = covered(is_wide)
+    if any(_least(part, sides) > MOST for part in allowed):
         raise TooManyPlaces
-    grid = _Grid(shapely.union_all(allowed), spacing)
+    grid = _Grid(shape, is_wide, sides, airspace if over_edges else None)
     lanes: list[list[Corner]] = []
     count = 0
     for lane in grid.lanes():
@@ -99,23 +119,29 @@ def _parts(shape: Any) -> list[Any]:
     ]
 
 
-def _least(part: Any, spacing: float) -> float:
+def _least(part: Any, sides: Sides) -> float:
     """Return how many places a connected part takes at least."""
     x, y, most_x, most_y = part.bounds
-    least: float = max(part.area / spacing**2, (most_x - x) / spacing, (most_y - y) / spacing)
+    wide, deep = sides
+    least: float = max(part.area / (wide * deep), (most_x - x) / wide, (most_y - y) / deep)
     return least
 
 
 class _Grid:
     """The cells of an area: lanes along its longer side, each cut into cells of one size."""
 
-    def __init__(self, allowed: Any, spacing: float) -> None:
-        self._allowed, self._spacing = allowed, spacing
+    def __init__(
+        self, allowed: Any, is_wide: bool, sides: Sides, over_edges: Airspace | None
+    ) -> None:
+        """`over_edges`: of the map on which places may lie outside the area; None: they may not."""
+        self._allowed = allowed
+        self._is_wide = is_wide
+        self._wide, self._deep = sides
+        self._over_edges = over_edges
         shapely.prepare(allowed)
         self._x, self._y, most_x, most_y = allowed.bounds
-        self._is_wide = most_x - self._x >= most_y - self._y
-        self._cell_x = _even(most_x - self._x, spacing)
-        self._cell_y = _even(most_y - self._y, spacing)
+        self._cell_x = _even(most_x - self._x, self._wide)
+        self._cell_y = _even(most_y - self._y, self._deep)
 
     def lanes(self) -> Iterator[list[Corner]]:
         """Yield the places of each lane, in order along it."""
@@ -150,7 +176,7 @@ class _Grid:
         """Yield the places of one cell: one, wherever that is enough."""
         x, y = self._x + column * self._cell_x, self._y + row * self._cell_y
         cell = box(x, y, x + self._cell_x, y + self._cell_y)
-        if self._allowed.covers(cell):  # most are, and this is by far faster
+        if self._allowed.covers(cell) or self._is_over_edge(cell):  # most are, and this is fast
             yield round(cell.centroid.x, _DIGITS) + 0.0, round(cell.centroid.y, _DIGITS) + 0.0
             return
         rest = shapely.union_all(_parts(part.intersection(cell)))
@@ -165,20 +191,28 @@ class _Grid:
                 spot = self._nearest(inside, quarter)
                 yield spot
 
+    def _is_over_edge(self, cell: Any) -> bool:
+        """Return whether the place of a cell may be its middle, wherever the area's edge is."""
+        if self._over_edges is None:
+            return False
+        x = cell.centroid.x
+        y = cell.centroid.y
+        return self._over_edges.problem((x, y, self._over_edges.cruise_height)) is None
+
     def _nearest(self, shape: Any, cell: Any) -> Corner:
         """Return the place of a shape nearest to the middle of its cell, if there is one, from which all of it is seen."""
-        half, (x, y, most_x, most_y) = self._spacing / 2, shape.bounds
+        x, y, most_x, most_y = shape.bounds
+        across = self._wide / 2 + _TINY
+        up = self._deep / 2 + _TINY
         middle = cell.centroid
-        from_there = box(
-            most_x - half - _TINY, most_y - half - _TINY, x + half + _TINY, y + half + _TINY
-        )
+        from_there = box(most_x - across, most_y - up, x + across, y + up)
         best = shape.intersection(from_there)
         found, _ = nearest_points(shape if best.is_empty else best, middle)
         return round(found.x, _DIGITS) + 0.0, round(found.y, _DIGITS) + 0.0
 
     def _seen(self, spot: Corner) -> Any:
-        (x, y), half = spot, self._spacing / 2
-        return box(x - half, y - half, x + half, y + half)
+        x, y = spot
+        return box(x - self._wide / 2, y - self._deep / 2, x + self._wide / 2, y + self._deep / 2)
 
 
 def _even(side: float, spacing: float) -> float:
@@ -194,19 +228,17 @@ def _quarters(cell: Any) -> Iterator[Any]:
             yield box(across[0], up[0], across[1], up[1])
 
 
-def _shortest(lanes: Sequence[Sequence[Corner]], before: Corner | None) -> Sequence[Corner]:
+def _shortest(
+    lanes: Sequence[Sequence[Corner]], before: Corner | None
+) -> Sequence[Sequence[Corner]]:
     """Return the shortest of the four ways back and forth, each from another corner."""
     ways = [
-        [
-            *chain.from_iterable(
-                lane[:: -1 if (n + turned) % 2 else 1] for n, lane in enumerate(order)
-            )
-        ]
+        [lane[:: -1 if (n + turned) % 2 else 1] for n, lane in enumerate(order)]
         for order in (lanes, lanes[::-1])
         for turned in (0, 1)
     ]
     come = [] if before is None else [before]
-    return min(ways, key=lambda way: round(_length([*come, *way]), 3))
+    return min(ways, key=lambda way: round(_length([*come, *chain.from_iterable(way)]), 3))
 
 
 def _length(way: Sequence[Corner]) -> float:

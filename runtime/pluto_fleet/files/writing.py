@@ -21,6 +21,8 @@ from ..shared.domain.model import Mission, Trip
 from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.motion import Motion, motion_of
 from ..shared.domain.values import MOTION, KeyPath
+from ..shared.events.declared import Along
+from ..shared.events.world import Mover
 from .fleet import CRAZYFLIE, OWN, DroneEntry, FleetFile
 from .landmarks import Landmarks, Picture
 from .toml import headers, places, toml_text, toml_value
@@ -49,12 +51,14 @@ def fleet_text(fleet: FleetFile) -> str:
         "charges_at_home": None if fleet.charges_at_home else False,
         "navigation": None if fleet.navigation == CRAZYFLIE else fleet.navigation,
         "localization": None if fleet.localization == OWN else fleet.localization,
+        "tracker": fleet.tracker,
     }
     file: dict[str, Any] = {
         "map": of_map,
         "fleet": _given(behaviour),
         "motion": motion_data(fleet.motion) or None,
         "localization": fleet.localization_options or None,
+        "tracker": fleet.tracker_options or None,
         "navigation": fleet.options or None,
         "drone": [_drone(drone) for drone in fleet.drones],
         "world": None if fleet.world is None else _world(fleet.world),
@@ -95,7 +99,14 @@ def _world(world: WorldData) -> dict[str, Any]:
         "background": {**world.background},
         "source": [asdict(source) | {"at": [*source.at]} for source in world.sources],
         "feature": [asdict(feature) | {"at": [*feature.at]} for feature in world.features],
+        "mover": [_mover(mover) for mover in world.movers],
+        "event": [*world.events],
     }
+
+
+def _mover(mover: Mover) -> dict[str, Any]:
+    given = asdict(mover)
+    return {**given, "path": [[*corner] for corner in mover.path], "from": given.pop("starts")}
 
 
 def _floats(numbers: Sequence[float]) -> list[float]:
@@ -149,9 +160,23 @@ def _fields(app: App, entity: Entity, of: Mission[Any] | Trip) -> dict[str, Any]
         if given is not None and field.type is FieldType.TIME_OF_DAY:
             minutes = round(given / 60)
             fields[field.name] = f"{minutes // 60:02}:{minutes % 60:02}"
+        elif given is not None and field.type is FieldType.ALONG:
+            fields[field.name] = _along(given)
         elif given is not None:
             fields[field.name] = given
     return fields
+
+
+def _along(along: Along) -> dict[str, Any]:
+    """Return what is done on the way as a file says it."""
+    table: dict[str, Any] = {"action": along["action"]}
+    if "metres" in along:
+        table["every"] = f"{along['metres']:.12g} m"
+    elif "seconds" in along:
+        table["every"] = f"{along['seconds']:.12g} s"
+    if along.get("parameters"):
+        table["parameters"] = {**along["parameters"]}
+    return table
 
 
 _MAP: KeyPath = ("map",)

@@ -126,4 +126,8 @@ class GatewayAccess:
             )
             for drone in real.drones
         )
-        return replace(real, drones=tuple(drones))
+        real = replace(real, drones=tuple(drones))
+        if not data.movers:
+            return real
+        address = await asyncio.to_thread(told, self._folder, "tracker")
+        return replace(real, tracker="lines", tracker_options={"address": address})

@@ -48,9 +48,14 @@ class FlightSetup:
     """The drones that are simulated down to their protocol, if they are."""
 
     @property
+    def in_simulation(self) -> bool:
+        """Whether no drone is real."""
+        return self.sim or self.stand_ins is not None
+
+    @property
     def charges(self) -> bool:
         """Whether a battery that is low may become full: what is real has its say itself."""
-        return self.fleet.charges_at_home or not (self.sim or self.stand_ins)
+        return self.fleet.charges_at_home or not self.in_simulation
 
     @property
     def how_to_go_on(self) -> str:

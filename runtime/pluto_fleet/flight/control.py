@@ -191,7 +191,7 @@ class Control(Suspending):
         if "id" in given and is_known(run.records, str(given["id"])):
             return has_happened(str(given["id"]))
         if self._stops is not None:
-            return self._keep(kept_one(run.app, run.records, event, facts))
+            return self._keep(kept_one(run.app, run.fleet, run.records, event, facts))
         run.command("raise", event=event, **given)
         return f"event {quoted(event)} has happened"
 

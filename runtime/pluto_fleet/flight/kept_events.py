@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 from contextlib import closing
+from functools import partial
 from time import time
 from typing import TYPE_CHECKING, Any
 
-from ..journal.header import check
+from ..journal.header import check, fleet_in
 from ..journal.store import Entry, Store
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import duration, quoted
-from ..shared.domain.values import point
+from ..shared.domain.values import point, point_on
 from ..shared.events.declared import EventsDeclared, read_occurrence
 
 if TYPE_CHECKING:
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from ..app import App
+    from ..files.fleet import FleetFile
     from ..journal.standing import Record, Standing
     from .recorded_brain import RecordedBrain
 
@@ -42,15 +44,20 @@ def events_of(app: App) -> EventsDeclared:
     raise BadInput(f"{app.name} has no events")
 
 
-def kept_one(app: App, standing: Standing, event: str, facts: Mapping[str, object]) -> Record:
-    """Return what is kept of an event until Resume; raise `BadInput` if it cannot happen.
-
-    Where it was is held against the map at Resume alone.
-    """
+def kept_one(
+    app: App,
+    fleet: FleetFile,
+    standing: Standing,
+    event: str,
+    facts: Mapping[str, object],
+) -> Record:
+    """Return what is kept of an event until Resume; raise `BadInput` if it cannot happen."""
+    space = fleet.airspace
+    place = partial(point_on, space, space.cruise_height, point)
     types = {one.name: one for one in events_of(app).types}
     now = time()
     given = given_of(facts)
-    read_occurrence(types, event, given, point)
+    read_occurrence(types, event, given, place)
     given.setdefault("id", f"{event}/{now:.3f}")
     if standing.missions and all(record["ended"] for record in standing.missions.values()):
         raise BadInput("the flight is over: nothing will come of an event")
@@ -89,7 +96,7 @@ def record_event(app: App, journal: Path, event: str, facts: Mapping[str, object
     with closing(Store.open(journal)) as store:
         check(journal, store.header, app)
         standing = store.standing()
-        one = kept_one(app, standing, event, facts)
+        one = kept_one(app, fleet_in(app, journal, store.header), standing, event, facts)
         if is_known(standing, one["given"]["id"]):
             return has_happened(one["given"]["id"])
         rows = [("app", ("kept",), {"is": [*standing.kept, one]})]

@@ -125,6 +125,7 @@ class LiveFlight:
         hooks.ended, hooks.stir = life.hook_ended, life.driver.pump
         life.patient = self._observer.patient
         life.carried_home = flight.sim
+        life.in_simulation = flight.in_simulation
         life.control.stopped.watch(lambda _: self._end.set(End.STOPPED))
         stops.stop_now = self._stop
         async with hear_commands(commands_note(flight.journal), self.answer):

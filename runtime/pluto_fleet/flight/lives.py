@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..files.missions import missions_of
 from ..files.reading import parsed
-from ..files.stand_ins import fleet_from, stand_ins_in
+from ..files.stand_ins import stand_ins_in
 from ..gateway.process import NOTE
 from ..gateway.starting import speed_in
 from ..journal import errors
-from ..journal.header import Header, check_whole
+from ..journal.header import Header, check_whole, fleet_in
 from ..journal.place import gateway_folder
 from ..journal.store import Store
 from ..shared.alone.world import Faults
@@ -101,11 +101,6 @@ def reopen(app: App, journal: Path) -> Resumable:
     return Resumable(
         app=app, store=store, header=header, fleet=fleet, records=records, planned=planned
     )
-
-
-def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
-    """Return the fleet of a journal; raise `BadInput` if it does not fit the app any more."""
-    return fleet_from(app, f"{journal} (its fleet)", header["fleet"], stand_ins_in(header))
 
 
 async def run_flight(

@@ -12,9 +12,11 @@ from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import BESIDE, FLEW
 from ..jobs.reports import result_data
+from ..journal.facts import TRACKED
 from ..journal.recorder import Recorder, Sink
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.domain.status import Status
+from ..shared.events.declared import CompanyDeclared
 from ..shared.flow.record import fleet_data, update
 from ..shared.time.hours import Hours
 from ..shared.time.kernel import FLEET, Kernel
@@ -22,6 +24,7 @@ from .driver import Driver
 from .mission_status import aside, in_order
 from .outcome import drones_of
 from .reconcile import Outcome, id_of, outcome_of, trip_of
+from .tracked import TrackedObjects
 
 if TYPE_CHECKING:
     from ..app import App
@@ -66,6 +69,8 @@ class RecordedBrain:
         self.hours = Hours(data["began"], data["zone"])
         self.brain = app.new_brain(data, space=fleet.airspace, hooks=hooks)
         self.recorder = Recorder(kernel, sink, records, self.brain.rows)
+        self.tracked = TrackedObjects()
+        """What moves beside the drones."""
         self.told_to: dict[str, str] = {}
         """What each drone was ordered last: `fly`, `land`, `home` or `recover`."""
         self.to_land: set[str] = set()
@@ -81,6 +86,10 @@ class RecordedBrain:
         self._seen: dict[str, tuple[object, ...]] = {}
         """The telemetry that the brain was told last, by drone."""
         self._heard = 0
+        self._waited_for = ["action.begun", "event.raised"]
+        """All that a brain waits for until it is durable."""
+        if any(isinstance(part, CompanyDeclared) for part in app.parts):
+            self._waited_for.append("trip.launched")
         """How many events the brain has said."""
         self._held: dict[str, dict[str, Any]] = {}
         """The flights that wait for the journal, by drone."""
@@ -163,8 +172,17 @@ class RecordedBrain:
         """Called with what the gateway tells."""
         if "flown" in message:
             self.flown(message["flown"])
-        else:
-            self.driver.tell(message)
+            return
+        if "tracks" in message:
+            self._track(message["tracks"])
+        self.driver.tell(message)
+
+    def _track(self, reports: Mapping[str, Any]) -> None:
+        """Record where what moves is: nothing follows from it but what the brain says."""
+        now = self.kernel.now
+        if news := self.tracked.take(reports, round(now, 3)):
+            # to the same digits as all else, or time would go back to the next event
+            self.recorder.measure({"t": round(now, 6), "event": TRACKED, "tracks": news})
 
     def flown(self, command: Flown) -> None:
         """Record how a command went that a drone has flown: nothing follows from it."""
@@ -182,7 +200,7 @@ class RecordedBrain:
     def _hear(self, event: Event) -> None:
         self._heard += 1
         self._take(event)
-        if event["event"] in ("action.begun", "event.raised"):  # all that a brain waits for
+        if event["event"] in self._waited_for:
             self.recorder.when_durable(partial(self._tell_durable, self._heard))
 
     def hook_ended(self, number: int) -> None:

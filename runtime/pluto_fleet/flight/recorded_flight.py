@@ -38,6 +38,8 @@ class RecordedFlight(RecordedBrain):
         self._epoch = epoch
         self._added: dict[str, int] = {}
         """The places in the plan of missions that came later: the records have them after their instant."""
+        self.in_simulation = False
+        """Whether what happens in the world of the fleet's file happens here, too."""
         self.carried_home = True
         """Whether drones that need a person are waited for when all missions have ended."""
         self._over: Future[float] = Future()
@@ -93,6 +95,7 @@ class RecordedFlight(RecordedBrain):
         recovery.go_on()
         self._begin(missions)
         self.is_set_out = True
+        self._rehearse()
         return await self._over
 
     async def _went_on(self) -> float:
@@ -104,8 +107,15 @@ class RecordedFlight(RecordedBrain):
         recovery.settle()
         recovery.go_on()
         self.is_set_out = True
+        self._rehearse()
         self.look_for_the_end()
         return await self._over
+
+    def _rehearse(self) -> None:
+        """Have happen what happens in the simulated world; what has happened already does not again."""
+        world = self.fleet.world
+        if self.in_simulation and world is not None:
+            self.driver.tell({"happens": world.events})
 
     def _note_begin(self) -> None:
         if self.clock:

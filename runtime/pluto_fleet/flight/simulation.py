@@ -93,6 +93,8 @@ class Simulation:
             if self._stands:
                 take_up(self.brain, self._stands, now)
             self.brain.begin(given, now)
+            if self._fleet.world is not None:
+                self.brain.tell({"happens": self._fleet.world.events}, now)
 
         self._driver.call(begin)
         return self._driver.done

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -49,6 +49,23 @@ def _ignore(_: str) -> None:
     """Does nothing: no caller follows arrivals."""
 
 
+@dataclass(slots=True, eq=False)
+class Route:
+    """Where a drone flies, which may be told otherwise on its way."""
+
+    stops: Sequence[Point]
+    seconds: float = 0.0
+    """How long it may take its time for the last leg, at least."""
+    legs: list[Point] = field(default_factory=list)
+    """Where the legs end that it flies now."""
+    is_new: bool = False
+    """Whether the stops are others than those that the legs lead to."""
+
+    def leg(self, legs: Sequence[Point]) -> GoTo:
+        """Return the command to fly the first of these legs."""
+        return GoTo(legs[0], self.seconds if len(legs) == 1 else 0.0)
+
+
 class Executor:
     """Flies jobs, and obeys single commands, with the drones' own controls."""
 
@@ -77,8 +94,8 @@ class Executor:
             self._measuring = Measuring(kernel, controls.telemetry, self._drones, flown)
         self._jobs: dict[str, Task[None]] = {}
         """The jobs in progress, by the drones' ids."""
-        self._turned: dict[str, Callable[[Order], object]] = {}
-        """By the drones' ids, what sends a job that is on its way to other stops."""
+        self._routes: dict[str, Route] = {}
+        """By the drones' ids, where those fly that may be sent elsewhere on their way."""
         self.arrived: Callable[[str], object] = _ignore
         """Called with a flight at the end of its last leg, if its order says that this shall be told."""
         self._rescues: dict[str, Task[bool]] = {}
@@ -109,13 +126,11 @@ class Executor:
         self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
     ) -> None:
         drone = order["drone"]
-        self._turned[drone] = partial(self._turn, begins=begins, report=report)
         try:
             result = await self._flown(order, begins)
         except FlightFailed as error:
             result = motors_cut(drone) if drone in self._cut else error
         del self._jobs[drone]
-        self._turned.pop(drone, None)
         report(result)
 
     @property
@@ -123,24 +138,54 @@ class Executor:
         """Whether any drone has a job."""
         return bool(self._jobs)
 
-    def redirect(self, order: Order) -> None:
-        """Send a job to other stops; one whose action has begun goes on with that."""
-        turn = self._turned.get(order["drone"])
-        if turn is not None:
-            turn(order)
+    async def go(self, drone: str, stops: Sequence[Point], seconds: float = 0.0) -> None:
+        """Fly to these stops from wherever it is, and hover, without a job of its own.
 
-    def _turn(
-        self, order: Order, begins: Callable[[], object], report: Callable[[object], object]
-    ) -> None:
-        drone = order["drone"]
-        self._jobs.pop(drone).cancel()
-        self._controls.break_off(drone)
-        self.fly(order, begins, report)
-
-    async def go(self, drone: str, stops: Sequence[Point]) -> None:
-        """Fly to these stops from wherever it is, and hover, without a job of its own."""
+        `seconds`: how long it may take its time for that, at least.
+        """
         self._refuse_if_cut(drone)
-        await self.travels(drone, partial(self._to, drone, stops), partial(self.begins, drone))
+        await self._flies_to(drone, Route(stops, seconds), partial(self.begins, drone))
+
+    def turn(self, drone: str, stops: Sequence[Point], seconds: float = 0.0) -> bool:
+        """Send a drone that is on its way to other stops, without a stop.
+
+        If others are in the way, it flies on to where it was to go, and from there. False: it is not on
+        its way, or has arrived; an action that has begun goes on.
+        """
+        route = self._routes.get(drone)
+        if route is None:
+            return False
+        route.stops = stops
+        route.seconds = seconds
+        route.is_new = True
+        traffic = self._traffic
+        if traffic is not None and traffic.wants_another(drone):
+            return True
+        if not route.legs:
+            return True  # it takes off, or has arrived at this instant, and looks then
+        section = self._to(drone, route)
+        legs = section.points[1:]
+        route.is_new = not (
+            (traffic is None or traffic.turned(section))
+            and self._controls.turn(drone, route.leg(legs))
+        )
+        if not route.is_new:
+            route.legs[:] = legs
+            if self._measuring is not None:
+                self._measuring.turned.add(drone)
+        return True
+
+    async def _flies_to(
+        self, drone: str, route: Route, begins: Callable[[], None], *, beside: bool = False
+    ) -> Section:
+        """Fly to the stops of a route, or to others that it is told on its way."""
+        self._routes[drone] = route
+        try:
+            plan = partial(self._to, drone, route)
+            return await self.travels(drone, plan, begins, beside=beside)
+        finally:
+            if self._routes.get(drone) is route:
+                del self._routes[drone]
 
     async def _flown(self, order: Order, begins: Callable[[], object]) -> object:
         controls = self._controls
@@ -160,12 +205,10 @@ class Executor:
             seconds = flight_seconds(category, airspace, here, stops, order["seconds"])
             controls.begins(drone, flight, seconds)
 
-        plan = partial(self._to, drone, stops)
-        way = await self.travels(drone, plan, leaves, beside=order["beside"])
+        way = await self._flies_to(drone, Route(stops), leaves, beside=order["beside"])
         if way.target is not None and self._beside is not None:
             here = controls.telemetry[drone].location
             self._beside(is_beside(drone, flight, way.target, here))
-        self._turned.pop(drone, None)
         if order.get("company"):
             self.arrived(flight)
         if action is None:
@@ -321,7 +364,8 @@ class Executor:
         if traffic is None:
             section = plan()  # as quickly as can be
             begins()
-            await self._follow(section)
+            while not await self._follow(section):
+                section = plan()
             return section
         begun = False
         try:
@@ -330,6 +374,8 @@ class Executor:
                 way = traffic.clear(section, ways, beside)
                 if way is None:
                     way = await traffic.cleared(section, since, ways, beside)
+                if way is None:
+                    continue
                 if way.stands or not begun:
                     begins()
                     begun = True
@@ -343,19 +389,20 @@ class Executor:
             raise
 
     async def _arrives(self, way: Section, traffic: Traffic) -> bool:
-        """Follow a route; return False if traffic has stopped the drone, and it must take another."""
+        """Follow a route; return False if traffic has stopped the drone, or it is to go elsewhere."""
         traffic.halted.pop(way.drone, None)
         try:
-            await self._follow(way)
+            is_there = await self._follow(way)
         except FlightFailed as error:
             if error.failure is not Failure.REFUSED or way.drone not in traffic.halted:
                 raise
             traffic.stopped(way.drone, fails=False)
             return False
         traffic.rests(way.drone)
-        return True
+        return is_there
 
-    async def _follow(self, section: Section) -> None:
+    async def _follow(self, section: Section) -> bool:
+        """Fly a section; return False if the drone is to go elsewhere by now."""
         traffic = self._traffic
         drone = section.drone
         points = section.points[1:-1] if section.lands else section.points[1:]
@@ -365,17 +412,27 @@ class Executor:
             points = points[1:]
             if traffic is not None:
                 traffic.passed(drone)
-        for point in points:
-            await self._does(drone, GoTo(point))
+        route = self._routes.get(drone) or Route(())
+        if route.is_new:
+            return False
+        legs = route.legs
+        legs[:] = points
+        while legs:
+            await self._does(drone, route.leg(legs))
+            del legs[0]
             if traffic is not None:
                 traffic.passed(drone)
+            if route.is_new:
+                return False
         if section.lands:
             await self._does(drone, Land())
+        return True
 
-    def _to(self, drone: str, stops: Sequence[Point]) -> Section:
+    def _to(self, drone: str, route: Route) -> Section:
         """To all stops, and hover at the last."""
         points, stands = self._start(drone, self._airspace.cruise_height)
-        for stop in stops:
+        route.is_new = False
+        for stop in route.stops:
             points += way_from(self._airspace, drone, points[-1], stop)
         return Section(drone, tuple(points), stands, False)
 

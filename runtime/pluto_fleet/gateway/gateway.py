@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from ..jobs.link import Message, Order
     from ..jobs.telemetry import Telemetry
     from ..shared.domain.airspace import Airspace
+    from ..shared.domain.model import Point
     from .jobs import Report
     from .ledger import Ledger
 
@@ -121,6 +122,8 @@ class Line(Link):
         do = order["do"]
         drone = order.get("drone", "")
         gateway = self.gateway
+        if do == "go" and self._goes_on(order):
+            return
         if do in _ONE_AT_A_TIME:
             self._replace_what_waits(drone)
             if drone in self._busy or gateway.jobs.is_flown_by(drone):
@@ -134,6 +137,19 @@ class Line(Link):
         task = gateway.kernel.spawn(answered(gateway, order), key, f"{drone} is told to {do}")
         self.under_way[order["id"]] = task
         task.over = partial(self._ended, order)
+
+    def _goes_on(self, order: Order) -> bool:
+        """Send a drone elsewhere that goes somewhere: it answers this order, and not the one before."""
+        drone = order["drone"]
+        before = self._busy.get(drone)
+        if before is None or before["do"] != "go":
+            return False
+        if not self.gateway.executor.turn(drone, *_way_of(order)):
+            return False
+        self._busy[drone] = order
+        self.under_way[order["id"]] = task = self.under_way.pop(before["id"])
+        task.over = partial(self._ended, order)
+        return True
 
     def _replace_what_waits(self, drone: str) -> None:
         """Call off that a drone hovers, or goes somewhere, for an order that comes in its place."""
@@ -462,6 +478,11 @@ class Gateway:
             self.kernel.crash(task.error)
 
 
+def _way_of(order: Order) -> tuple[list[Point], float]:
+    """Return where an order leads, and how long it may take its time for that, at least."""
+    return [*map(point_of, order["stops"])], order["seconds"]
+
+
 async def _read(gateway: Gateway, order: Order) -> object:
     return value_data(await gateway.controls.do(order["drone"], Read(order["name"])))
 
@@ -517,15 +538,13 @@ _AT_ONCE: Mapping[str, Callable[[Line, Order], object]] = {
     "cancel": Line.cancel,
     "heartbeat": lambda line, order: None,
     "break_off": lambda line, order: line.gateway.break_off(order["drone"]),
-    "redirect": lambda line, order: line.gateway.executor.redirect(order),
+    "redirect": lambda line, order: line.gateway.executor.turn(order["drone"], *_way_of(order)[:1]),
     "mended": lambda line, order: line.gateway.executor.mended(order["drone"]),
     "forget": lambda line, order: line.gateway.jobs.forget(order["flight"]),
 }
 _ANSWERED: Mapping[str, Answered] = {
     "hold": lambda gateway, order: gateway.executor.hold(order["drone"]),
-    "go": lambda gateway, order: gateway.executor.go(
-        order["drone"], [*map(point_of, order["stops"])]
-    ),
+    "go": lambda gateway, order: gateway.executor.go(order["drone"], *_way_of(order)),
     "act": _trigger,
     "sees": _see,
     "home": lambda gateway, order: gateway.executor.home(order["drone"]),

@@ -35,6 +35,8 @@ class Measuring:
         self._hear = hear
         self.moving: set[str] = set()
         """The drones that carry out a command now."""
+        self.turned: set[str] = set()
+        """Those that were sent elsewhere on their way: their legs were not flown as they began."""
 
     async def measured(
         self, drone: str, command: Command, carried_out: Coroutine[Any, Any, T]
@@ -49,7 +51,7 @@ class Measuring:
                 what = TAKE_OFF
                 end = (*start[:2], height)
                 more = {"flight_time": category.flight_time, "charge_time": category.charge_time}
-            case GoTo(target) if not telemetry.landed:
+            case GoTo(target, _) if not telemetry.landed:
                 what = LEG
                 end = target
             case Land() if not telemetry.landed:
@@ -63,6 +65,8 @@ class Measuring:
                 return await carried_out
 
         def tell(ended: str) -> None:
+            if ended == BROKEN_OFF:
+                more["at"] = [round(one, 3) for one in telemetry.location]
             self._hear(
                 {
                     "drone": drone,
@@ -89,5 +93,7 @@ class Measuring:
             raise
         finally:
             self.moving.discard(drone)
-        tell(DONE)
+            is_as_told = drone not in self.turned
+            self.turned.discard(drone)
+        tell(DONE if is_as_told else BROKEN_OFF)
         return result

@@ -192,7 +192,8 @@ async def run(folder: Path, settings: Settings) -> None:
             team.join(drone, how)
 
         try:
-            await _command(folder, settings, kernel, team, seen, take_in_real)
+            tracks = None if team.tracking is None else team.tracking.news
+            await _command(folder, settings, kernel, team, seen, take_in_real, tracker=tracks)
         finally:
             await team.close()
             seen.keep()

@@ -75,7 +75,7 @@ _FACTS: dict[object, tuple[str, ...]] = {
         "seconds",
         "beside",
     ),
-    "go": ("id", "drone", "stops"),
+    "go": ("id", "drone", "stops", "seconds"),
     "act": ("id", "drone", "action", "parameters"),
     "sees": ("id", "drone"),
     "attach": ("id", "flight"),

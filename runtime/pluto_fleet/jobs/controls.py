@@ -50,6 +50,8 @@ class GoTo(NamedTuple):
     """Fly straight to a point."""
 
     target: Point
+    seconds: float = 0.0
+    """Seconds that it may take its time for, at least; 0: as fast as it flies."""
 
 
 class Land(NamedTuple):
@@ -126,6 +128,12 @@ class Controls(Protocol):
         Raises `FlightFailed` when the drone cannot finish. Cancelled, it leaves the drone hovering.
         """
 
+    def turn(self, drone: str, command: GoTo) -> bool:
+        """Send a drone elsewhere that is on its way to a point, without a stop; False: it is not.
+
+        The command under way is done, then, when it has arrived there.
+        """
+
     def break_off(self, drone: str) -> None:
         """Stop what a drone does, and hover; a command under way raises `FlightFailed`."""
 
@@ -153,6 +161,7 @@ class ForwardingControls:
         self.telemetry = controls.telemetry
         self.why_not = controls.why_not
         self.begins = controls.begins
+        self.turn = controls.turn
         self.break_off = controls.break_off
         self.mended = controls.mended
         self.reach = controls.reach

@@ -190,12 +190,13 @@ def put_rows(database: sqlite3.Connection, rows: Iterable[Row]) -> None:
     """Put rows in place of those with the same keys; within a transaction."""
     by_table: dict[str, list[tuple[object, ...]]] = {}
     for table, key, row in rows:
-        by_table.setdefault(table, []).append((*key, _written(row)))
+        by_table.setdefault(table, []).append((*key, written(row)))
     for table, found in by_table.items():
         database.executemany(PUT[table], found)
 
 
-def _written(row: Mapping[str, Any]) -> str:
+def written(row: Mapping[str, Any]) -> str:
+    """Return what stands in a row of a table, for `row_of` to read."""
     try:
         return encode(row).decode()
     except (OverflowError, TypeError, ValueError):  # more than 64 bits, or half of a character

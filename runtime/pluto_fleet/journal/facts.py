@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Annotated, Any, Literal, NotRequired, TypedDict
 
-from msgspec import Meta, MsgspecError
+from msgspec import Meta, MsgspecError, convert
 from msgspec.json import Decoder
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
@@ -213,7 +213,8 @@ class OccurrenceFacts(TypedDict):
 class HappeningRow(TypedDict):
     """An event that was raised, and what has come of it."""
 
-    event: OccurrenceFacts
+    event: dict[str, Any]
+    """What is known of it: OccurrenceFacts, and its own fields."""
     open: list[str]
     made: NotRequired[list[str]]
     why: NotRequired[str]
@@ -226,6 +227,14 @@ class KeptRow(TypedDict):
     given: dict[str, Any]
     since: float
     keep: float
+
+
+class TrackFacts(TypedDict):
+    """Where something was that moves; `kind` the first time, and how many seconds `ago` where that is not now."""
+
+    at: Point
+    kind: NotRequired[str]
+    ago: NotRequired[float]
 
 
 class ClockRow(TypedDict):
@@ -247,6 +256,8 @@ SHOWN = "shown"
 """The event of what pages are shown differently than before (`station/shown.py`)."""
 SAID = "said"
 """The event of a line of the console that nothing else tells."""
+TRACKED = "tracked"
+"""The event of what moves beside the drones: where it was reported."""
 DRAINED = "drone.drained"
 """The event of a drone that has come home with less than its reserve."""
 
@@ -317,17 +328,30 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "trip.launched": _FLIGHT,
     ACTS_BESIDE: {**_TRIP, "drone": str, "at": Point},
     "action.begun": {**_TRIP, "drone": str},
-    "action.result": {**_FLIGHT, "result": Any},
+    "action.result": {
+        **_FLIGHT,
+        "result": Any,
+        "at?": Point | None,
+        "action?": str,
+        "parameters?": dict[str, Any],
+    },
     "trip.relieving": {**_TRIP, "drone": str},
     "trip.handed_over": {**_FLIGHT, "of?": str | None, "away?": float, "reach?": float},
-    "event.raised": {"id": str, "kind": str, "raised": float, "fields?": dict[str, Any]},
-    "event.over": {"id": str, "made?": str, "why?": str},
+    "event.raised": {
+        "id": str,
+        "kind": str,
+        "raised": float,
+        **dict.fromkeys(("track?", "mission?", "trip?", "drone?"), str),
+        "at?": Point,
+        "fields?": dict[str, Any],
+    },
+    "event.over": {"id": str, "made?": str, "why?": str, "fault?": bool},
     "event.kept": {"id": str, "kind": str, "keep": float},
     "event.dropped": {"id": str, "kind": str, "why": str},
     "trip.completed": {**_FLIGHT, "result": Any, "did": TripFacts, "found_out?": bool},
     "trip.failed": {**_TRIP, "drone": str, "reason": str},
     "trip.reset": {**_TRIP, "attempt": int, "fields": dict[str, Any]},
-    "trip.interrupted": {**_TRIP, "reason?": str},
+    "trip.interrupted": {**_TRIP, "reason?": str, "by?": str},
     "trip.skipped": _TRIP,
     "trip.prioritised": {**_TRIP, "priority": float},
     **dict.fromkeys(
@@ -342,6 +366,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     "drone.brought_back": {**_DRONE, "lost?": bool},
     "drone.joined": {"drone": str, "entry": dict[str, Any]},
     "drone.mishap": {"drone": str, "kind": str},
+    TRACKED: {"tracks": dict[str, TrackFacts]},
     FLEW: {
         "drone": str,
         "battery?": tuple[float, float] | float | None,
@@ -514,6 +539,8 @@ def _is_sound(table: str, row: Mapping[str, Any]) -> bool:
             return row.get("status", "WAITING") in _TRIPS
         case "result":
             return _is_value(row["value"])
+        case "happening":
+            convert(row["event"], OccurrenceFacts)  # raises what is caught
         case "app":
             return "is" in row
     return True

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
+from ..files.fleet import FleetFile
+from ..files.stand_ins import fleet_from, stand_ins_in
 from ..shared.alone.world import FAULTS
 from . import errors
 
@@ -83,6 +85,11 @@ _NEEDED = {"missions", "fleet", "sim", "seed", "faults", "app_hash"}
 
 MOST_DRONES = 1_000
 """The most simulated drones that a header may ask for."""
+
+
+def fleet_in(app: App, journal: Path, header: Header) -> FleetFile:
+    """Return the fleet of a journal; raise `BadInput` if it does not fit the app any more."""
+    return fleet_from(app, f"{journal} (its fleet)", header["fleet"], stand_ins_in(header))
 
 
 def fingerprint(app: App) -> str:

@@ -40,6 +40,8 @@ class Reaction:
     """The missions with a deadline."""
     kept: int = 0
     """Those of them that were completed by then."""
+    faults: int = 0
+    """How often a creator had a fault, or made what cannot be flown."""
 
     def add(self, other: Reaction) -> None:
         """Add those of another run."""
@@ -48,6 +50,7 @@ class Reaction:
         self.seconds += other.seconds
         self.promised += other.promised
         self.kept += other.kept
+        self.faults += other.faults
 
 
 @dataclass(slots=True)
@@ -86,6 +89,8 @@ class Reactions:
         if self.events:
             rows = [_row(name, one) for name, one in self.events.items()]
             yield from table(_HEADER, rows, right=(1, 2, 3, 4, 5))
+        if faults := sum(one.faults for one in self.events.values()):
+            yield f"{counted(faults, 'fault')} of creators, whose events made no mission: the lines above say why"
         if self.away:
             count = len(self.away)
             yield (
@@ -112,6 +117,7 @@ def _data(one: Reaction) -> dict[str, Any]:
         "seconds": spread(one.seconds),
         "promised": one.promised,
         "kept": one.kept,
+        "faults": one.faults,
     }
 
 
@@ -131,6 +137,8 @@ def reactions_of(trace: Iterable[Event]) -> Reactions:
             case {"event": "event.over", "id": id, "made": mission} if id in raised:
                 made[mission] = raised[id]
                 made[mission][0].missions += 1
+            case {"event": "event.over", "id": id, "fault": True} if id in raised:
+                raised[id][0].faults += 1
             case {"event": "mission.promised", "mission": mission, "deadline": _}:
                 promised.add(mission)
             case {"event": "mission.late", "mission": mission}:

@@ -200,19 +200,20 @@ _BAD = (Status.FAILED, Status.CANCELLED)
 
 
 def exit_code(outcome: SimulationResult) -> int:
-    """Return 0, 1 if a mission failed or the simulation was given up, or 4 if one waits for a person.
+    """Return 0, 1 if a mission failed, a creator had a fault or it was given up, or 4 if one waits for a person.
 
     A mission that `--until` cut short has not failed.
     """
-    code = code_of([mission.status for mission in outcome.missions])
+    code = code_of([mission.status for mission in outcome.missions], outcome.events)
     return 1 if outcome.given_up and not code else code
 
 
-def code_of(statuses: Sequence[Status]) -> int:
-    """Return the exit code for missions with these statuses."""
+def code_of(statuses: Sequence[Status], events: Iterable[Event]) -> int:
+    """Return the exit code for missions with these statuses, among these events."""
     if any(status in _NEEDS_A_PERSON for status in statuses):
         return 4
-    return 1 if any(status in _BAD for status in statuses) else 0
+    failed = any(status in _BAD for status in statuses)
+    return 1 if failed or any(event.get("fault") for event in events) else 0
 
 
 _HARMLESS = re.compile(r"[\w ,.:;/()+-]+")
@@ -232,7 +233,7 @@ def report_of(
     late = sum(row.late for row in rows)
     lines += [*_came_of(told), *broken_reserves(told)]
     lines.append(in_one_line(statuses, ended or records.time, flights, failed, late=late))
-    return code_of(statuses), lines
+    return code_of(statuses, told), lines
 
 
 def waiting_lines(app: App, journal: Path, records: Standing) -> Iterator[str]:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..jobs.flown import ACTS_BESIDE, FLEW
-from ..shared.domain.text import duration, number, percent, place, printable
+from ..shared.domain.text import duration, number, percent, place, printable, shown
 
 if TYPE_CHECKING:
     from ..shared.domain.trace import Event
@@ -48,9 +48,7 @@ def _launched(event: Fact) -> str:
 
 def _beside(event: Fact) -> str:
     where = f"{place(event['at'])} at a height of {number(event['at'][2])} m"
-    return (
-        f"trip {event['trip']} is done at {where}: another drone is at its place ({event['drone']})"
-    )
+    return f"trip {event['trip']} is done by {event['drone']} at {where}: another drone is at its place"
 
 
 def _extended(event: Fact) -> str:
@@ -103,7 +101,13 @@ def _raised(event: Fact) -> str:
     at = event.get("at")
     where = f" at {place(at)}" if at else ""
     what = f", track {event['track']}" if event.get("track") else ""
-    return f"event {event['kind']} happens{where}{what} ({event['id']})"
+    fields = "".join(f", {name} {shown(one)}" for name, one in event.get("fields", {}).items())
+    return f"event {event['kind']} happens{where}{what}{fields} ({event['id']})"
+
+
+def _interrupted(event: Fact) -> str:
+    by = f" by event {event['by']}" if event.get("by") else ""
+    return f"trip {event['trip']} interrupted{by}; it will be flown again"
 
 
 def _over(event: Fact) -> str:
@@ -132,7 +136,7 @@ _SENTENCES: Mapping[str, Say] = {
     "mission.uncertain": "waits for a person: {reason}",
     "mission.held": "is held until a person decides: {reason}",
     "mission.decided": "a person has decided: {answer}",
-    "trip.interrupted": "trip {trip} interrupted; it will be flown again",
+    "trip.interrupted": _interrupted,
     "trip.skipped": "trip {trip} skipped",
     "trip.relieving": "{drone} sets out to relieve the drone of trip {trip}",
     "trip.handed_over": "{drone} takes over trip {trip} from {of}",

@@ -26,5 +26,6 @@ def spread(values: Iterable[float]) -> dict[str, float] | None:
 def percentile(ordered: Sequence[float], share: float) -> float:
     """Return a percentile, interpolated between two neighbours."""
     place = share * (len(ordered) - 1)
-    below, above = ordered[floor(place)], ordered[ceil(place)]
+    below = ordered[floor(place)]
+    above = ordered[ceil(place)]
     return min(below + (above - below) * (place - floor(place)), above)

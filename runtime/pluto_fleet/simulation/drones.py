@@ -258,6 +258,8 @@ class SimulatedNavigation:
         """The drones' telemetry, always current."""
         for drone in drones:
             self.join(drone)
+        self._turned: dict[str, Point] = {}
+        """By the drones' ids, where else those fly that were sent elsewhere on their way."""
         self._forgotten: dict[str | None, Future[None]] = {}
         """By jobs, what to set when their actions were done and forgotten."""
 
@@ -353,9 +355,23 @@ class SimulatedNavigation:
             x, y, _ = body.place
             await self._until(body, body.follow([(x, y, height)]), "to take off")
 
-    async def _go_to(self, drone: str, target: Point) -> None:
+    async def _go_to(self, drone: str, target: Point, _: float) -> None:
         body = self._in_the_air(drone)
-        await self._until(body, body.follow([body.place, target]), f"to fly to {place(target)}")
+        self._turned.pop(drone, None)
+        while True:
+            when = body.follow([body.place, target])
+            await self._until(body, when, f"{TO_FLY}{place(target)}")
+            if drone not in self._turned:
+                return
+            target = self._turned.pop(drone)
+
+    def turn(self, drone: str, command: GoTo) -> bool:
+        body = self.bodies[drone]
+        if body.over is None or not body.command.startswith(TO_FLY):
+            return False
+        self._turned[drone] = command.target
+        body.over.set(None)
+        return True
 
     async def _act(
         self,
@@ -500,6 +516,8 @@ class SimulatedNavigation:
         return body
 
 
+TO_FLY = "to fly to "
+"""How the command to fly to a point begins."""
 _MISHAPS = {"lost": Failure.LINK, "crash": Failure.CRASH, "battery": Failure.BATTERY}
 
 

@@ -6,7 +6,16 @@ from collections.abc import Callable, Coroutine
 from functools import partial
 from typing import Any, TypeVar
 
-from ..jobs.controls import Command, Controls, Cut, ForwardingControls, Read, Write
+from ..jobs.controls import (
+    Command,
+    Controls,
+    Cut,
+    ForwardingControls,
+    Read,
+    See,
+    Trigger,
+    Write,
+)
 from ..jobs.reports import DroneReport
 from ..shared.domain.errors import Failure, FlightFailed
 from ..shared.time.kernel import FLEET, EventKind, Future, Kernel
@@ -45,7 +54,7 @@ class Radio(ForwardingControls):
         match command:
             case Cut():
                 return await done()
-            case Read() | Write():
+            case Read() | Write() | See() | Trigger():
                 return await self._asked(done())
             case _:
                 return await self._sent(drone, done)

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..files.fleet import with_joined
-from ..files.stand_ins import CRTP, stand_ins_in
+from ..files.stand_ins import CRTP, StandIns, stand_ins_in
 from ..flight.config import how_to_go_on
-from ..flight.lives import Resumable, fleet_in, reopen
+from ..flight.lives import Resumable, reopen
 from ..flight.offline import record_loss, record_return, returned
 from ..gateway.sightings import SEEN, Sighting, at_home, sightings_in
 from ..journal import lock, place
-from ..journal.header import Header, check_whole
+from ..journal.header import Header, check_whole, fleet_in
 from ..journal.place import gateway_folder
 from ..journal.reader import Reader
 from ..journal.standing import Standing, inherited
@@ -155,15 +155,20 @@ def unfinished_flight(app: App, config: StationConfig, going_on: bool = False) -
     return taken
 
 
-def _kind_of(config: StationConfig) -> tuple[bool, str | None]:
-    """Return whether drones are simulated, and as which drones down to their protocol."""
-    return config.sim, config.stand_ins.kind if config.stand_ins else None
+def _kind_of(config: StationConfig) -> str:
+    """Return what its drones are: real, simulated, or simulated down to a protocol."""
+    return _kind(config.sim, config.stand_ins)
 
 
-def _kind_in(header: Header) -> tuple[bool, str | None]:
+def _kind_in(header: Header) -> str:
     """Return the same of a flight."""
-    stand_ins = stand_ins_in(header)
-    return bool(header.get("sim")), stand_ins.kind if stand_ins else None
+    return _kind(bool(header.get("sim")), stand_ins_in(header))
+
+
+def _kind(sim: bool, stand_ins: StandIns | None) -> str:
+    if stand_ins is not None:
+        return stand_ins.kind
+    return "simulated" if sim else "real"
 
 
 def shown_fleet(fleet: FleetFile) -> object:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Container, Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -12,6 +12,7 @@ from ..shared.domain.actions import PICK, RELEASE
 from ..shared.domain.fields import Entity, FieldType
 from ..shared.domain.own_fields import OwnField
 from ..shared.domain.quantities import QUANTITIES, Type, units_of
+from ..shared.events.declared import AlongField, EventsDeclared
 from .map.drawn import WITHOUT_A_FLEET_FILE
 from .results.meaning import SIMULATED_UNITS, Meanings
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from ..app import App
     from ..files.fleet import FleetFile
     from ..files.stand_ins import StandIns
-    from ..shared.domain.actions import Action
+    from ..shared.domain.actions import Action, Parameter
     from ..shared.domain.fields import Field
     from ..shared.domain.model import Category
     from .map.drawn import DrawnMap
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
         ActionData,
         AppData,
         CategoryData,
+        EventData,
         FieldData,
         GraphData,
         ParameterData,
@@ -81,11 +83,12 @@ def described(app: App, config: StationConfig, drawn: DrawnMap, server: str) -> 
         "sim": config.sim or config.stand_ins is not None,
         "speed": config.speed or 1.0,
         "fields": {
-            "mission": [_field(field) for field in app.fields if field.on is Entity.MISSION],
-            "trip": [_field(field) for field in app.fields if field.on is Entity.TRIP],
+            "mission": [_field(one, app.actions) for one in app.fields if one.on is Entity.MISSION],
+            "trip": [_field(one, app.actions) for one in app.fields if one.on is Entity.TRIP],
         },
         "evaluators": list(app.evaluators),
         "layers": layers(app, config.sim),
+        "events": _events(app),
         "actions": [_action(action) for action in app.actions.values() if _can(app, action)],
         "categories": [_category(category) for category in app.categories],
         "drones": [
@@ -111,7 +114,7 @@ def layers(app: App, sim: bool) -> list[Layer]:
     return Meanings(app.results, able, SIMULATED_UNITS if sim else {}).layers
 
 
-def _field(field: Field) -> FieldData:
+def _field(field: Field, built_in: Container[str]) -> FieldData:
     kind = field.type
     data: FieldData = {
         "name": field.name,
@@ -119,8 +122,14 @@ def _field(field: Field) -> FieldData:
         "label": field.label,
         "default": field.default,
     }
-    if isinstance(field, OwnField) and isinstance(kind, Type):
-        data["own"], data["needed"], data["units"] = True, bool(field.hint), _units(kind)
+    if isinstance(kind, Type):
+        data["units"] = _units(kind)
+    if isinstance(field, OwnField):
+        data["own"] = True
+        data["needed"] = bool(field.hint)
+    if isinstance(field, AlongField):
+        data["actions"] = list(field.actions)
+        data["spaced"] = [name for name in field.actions if name in built_in]
     return data
 
 
@@ -129,20 +138,33 @@ def _can(app: App, action: Action) -> bool:
 
 
 def _action(action: Action) -> ActionData:
-    parameters: list[ParameterData] = [
+    return {
+        "name": action.name,
+        "item": action.name in (PICK, RELEASE),
+        "parameters": _parameters(action.parameters),
+    }
+
+
+def _parameters(given: Iterable[Parameter]) -> list[ParameterData]:
+    return [
         {
             "name": one.name,
             "type": one.type.value,
             "units": _units(one.type),
             "default": one.default,
         }
-        for one in action.parameters
+        for one in given
     ]
-    return {
-        "name": action.name,
-        "item": action.name in (PICK, RELEASE),
-        "parameters": parameters,
-    }
+
+
+def _events(app: App) -> list[EventData]:
+    declared = [part for part in app.parts if isinstance(part, EventsDeclared)]
+    creates = {creator.event for part in declared for creator in part.creators}
+    return [
+        {"name": one.name, "fields": _parameters(one.fields), "creates": one.name in creates}
+        for part in declared
+        for one in part.types
+    ]
 
 
 def _units(kind: Type) -> list[str]:

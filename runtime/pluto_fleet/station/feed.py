@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from ..journal.facts import DRAINED, SAID
 from ..report.sentences import line_of, sentence_of
+from .happened import EventRows
 from .results.meaning import Meanings
 from .results.rows import NameOf, ResultRows, nowhere
 
@@ -107,6 +108,8 @@ class Feed:
         self._rows = ResultRows(flight, app.actions, meanings, name_of)
         self.log: Tail[LogLine] = Tail()
         self.results: Tail[Result] = Tail()
+        self.events = EventRows()
+        """What has happened."""
         self.findings: deque[Result] = deque(maxlen=ALERTED)
         """The newest results in which something was found."""
         self.drained: deque[tuple[int, Event]] = deque(maxlen=ALERTED)
@@ -126,6 +129,7 @@ class Feed:
         if said is not None:
             self._lines.append(line_of(event) or "")
             self._line(event["t"], event.get("mission"), said, kind_of(event))
+        self.events.take(event)
         if event["event"] == DRAINED:
             self._reserves += 1
             self.drained.append((self._reserves, event))
@@ -146,10 +150,10 @@ class Feed:
         self._fresh.append(json.dumps(row))
 
     def look(self, version: int) -> bool:
-        """Tell pages with this version of what results say more; return whether any does."""
+        """Tell pages with this version of results that say more, and of events; return whether there are any."""
         fresh, self._fresh = self._fresh, []
         self._amended.extend((version, text) for text in fresh)
-        return bool(fresh)
+        return self.events.look(version) or bool(fresh)
 
     def amended_since(self, version: int) -> Iterator[str]:
         """Yield the results that say more since a version."""

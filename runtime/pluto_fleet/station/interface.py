@@ -59,8 +59,11 @@ PastFlight = Annotated[
     Flight, Meta(description="The id of a flight of the past; left out: that of now.")
 ]
 Seconds = Annotated[float, Meta(ge=0, le=1e9, description="Seconds of the flight.")]
+Keep = Annotated[float, Meta(ge=0, le=1e9, description="Seconds by the clock on the wall.")]
 Length = str | Whole | float
 """Metres, or a text with a unit."""
+Share = str | Whole | float
+"""From 0 to 1, or a text with a percentage."""
 Priority = Annotated[int, Meta(ge=-1_000_000_000, le=1_000_000_000)]
 
 _watch = partial(operation, "GET", role="watch", reads=True)
@@ -236,11 +239,18 @@ class Interface:
         self,
         *,
         polygon: list[Point],
-        spacing: Length,
+        spacing: Length | None = None,
+        overlap: Share | None = None,
         height: Length | None = None,
         before: Point | None = None,
+        action: str | None = None,
+        on_the_way: bool = False,
     ) -> Swept:
-        """The targets with which an area is covered, in their order, by drones that come from `before`."""
+        """The trips with which an area is covered, in their order, by drones that come from `before`.
+
+        With a `spacing`, or the `overlap` that photos are to have. `on_the_way`: lines, on which the action is done
+        without a stop.
+        """
 
     # Commands
 
@@ -319,7 +329,7 @@ class Interface:
         trip: str | None = None,
         drone: str | None = None,
         fields: dict[str, Any] | None = None,
-        keep: Seconds | None = None,
+        keep: Keep | None = None,
         id: str | None = None,
     ) -> str:
         """Raise an event of the app, with the fields that it declares; with one `id` it happens once.

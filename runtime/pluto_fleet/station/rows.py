@@ -13,9 +13,19 @@ from ..shared.domain.text import cut_off
 
 if TYPE_CHECKING:
     from ..app import App
+    from ..flight.tracked import Tracked
     from ..gateway.sightings import Sighting
     from ..journal.standing import Record
-    from .wire import DroneRow, MissionRow, Question, SaidKey, Scalar, TripRow, Words
+    from .wire import (
+        DroneRow,
+        MissionRow,
+        Question,
+        SaidKey,
+        Scalar,
+        TrackRow,
+        TripRow,
+        Words,
+    )
 
 
 def words(key: SaidKey, text: str, **facts: Scalar | list[str]) -> Words:
@@ -186,6 +196,20 @@ def drone_row(
     return row
 
 
+def track_row(id: str, one: Tracked) -> TrackRow:
+    """Return the row of what is tracked."""
+    x, y, z = one.at
+    return {
+        "id": id,
+        "kind": one.kind,
+        "x": x,
+        "y": y,
+        "z": z,
+        "seen": one.seen,
+        "trail": [[where[0], where[1]] for _, where in one.way],
+    }
+
+
 def drone_at(
     id: str, status: str, seen: Sighting | None, trips: int, retired: bool, why: str
 ) -> DroneRow:
@@ -199,14 +223,18 @@ def drone_at(
 
 def _trip(data: Record, status: str, usual: object = None) -> TripRow:
     x, y, _ = data["target"]
-    return {
+    fields = data.get("fields", {})
+    row: TripRow = {
         "name": data["name"],
         "status": data.get("status", status),
         "x": round(x, 3),
         "y": round(y, 3),
-        "priority": data.get("fields", {}).get(PRIORITY, usual),
+        "priority": fields.get(PRIORITY, usual),
         "action": data["action"],
     }
+    if isinstance(track := fields.get("track"), str):
+        row["track"] = track
+    return row
 
 
 def _recorded_trip(data: Record, status: str) -> TripRow:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import traceback
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from contextlib import closing, suppress
@@ -102,6 +103,10 @@ class FlightSession:
         self.feed = Feed(flight.app, units, self.id, name_of)
         self.missions: VersionedRows[MissionRow] = VersionedRows()
         self.drones: VersionedRows[DroneRow] = VersionedRows()
+        self.tracks = 0, "[]"
+        """The version of the last change of what is tracked, and all of it as JSON."""
+        self._seen_at: dict[str, float] = {}
+        """When each of that was reported last."""
         self.stops = Stops()
         self.one: LiveFlight | None = None
         self.records: Standing | None = known
@@ -239,7 +244,7 @@ class FlightSession:
         """Update the rows with this version; return whether anything has changed."""
         self._look_into_the_journal()
         changed = [self._see_missions(number), self._see_drones(number), self.feed.look(number)]
-        return any(changed)
+        return any(changed) | self._see_tracks(number)
 
     def _look_into_the_journal(self) -> None:
         """Read the journal again if it has changed, as a command may have brought a drone back."""
@@ -271,6 +276,16 @@ class FlightSession:
         for row in self._idle.rows(self.records) if life is None else self._sight.drones(life):
             changed |= put(row["id"], row, number)
         return changed
+
+    def _see_tracks(self, number: int) -> bool:
+        life = self.life
+        tracked = {} if life is None else dict(life.tracked.now(self.now))
+        seen_at = {id: one.seen for id, one in tracked.items()}
+        if seen_at == self._seen_at:
+            return False
+        self._seen_at = seen_at
+        self.tracks = number, json.dumps([rows.track_row(*one) for one in tracked.items()])
+        return True
 
     def note(self, now: float, state: State, alerts: Iterable[Alert]) -> None:
         """Have the journal say what is shown."""

@@ -9,6 +9,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..files.fleet import with_joined
@@ -80,7 +81,7 @@ class Station:
         self.map = DrawnMap(config.fleet.airspace, config.map_path)
         self.map.changed = self._describe
         self.plan.landmarks = self.map.landmarks
-        self.ways = DrawnWays(config.fleet.airspace)
+        self.ways = DrawnWays(app, config.fleet.airspace)
         self.library = PlanLibrary(config.own_folder / "plans", plan.saved)
         self.changes = FlightChanges(app, plan, self._commandable)
         self.fleet = config.fleet
@@ -152,9 +153,15 @@ class Station:
         answer = asyncio.ensure_future(self._do(name, id, given, by))
         self._answers[id] = answer
         answer.add_done_callback(_heard)
+        if name == "raise-event":  # its id is the event's, which may happen when it can
+            answer.add_done_callback(partial(self._forget_refusal, id))
         while len(self._answers) > ANSWERS_KEPT and next(iter(self._answers.values())).done():
             self._answers.popitem(last=False)
         return await asyncio.shield(answer)  # it is completed even if the page disconnects
+
+    def _forget_refusal(self, id: str, answer: asyncio.Future[str]) -> None:
+        if not answer.cancelled() and answer.exception() is not None:
+            self._answers.pop(id, None)
 
     async def _do(self, name: str, id: str, given: Mapping[str, Any], by: str) -> str:
         match name:

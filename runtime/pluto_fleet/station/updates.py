@@ -173,7 +173,10 @@ class Updates:
             "results": _listed(session.feed.results.since(results) if session else ()),
             "amended": _listed(session.feed.amended_since(seen) if session else ()),
             "alerts": _listed(self._station.attention.rows.since(seen)),
+            "events": _listed(session.feed.events.since(seen) if session else ()),
         }
+        if session is not None and session.tracks[0] > seen:
+            parts["tracks"] = session.tracks[1]
         return "{" + ", ".join(f'"{name}": {text}' for name, text in parts.items()) + "}"
 
 

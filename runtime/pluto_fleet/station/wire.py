@@ -109,7 +109,10 @@ class State(TypedDict):
 
 
 class TripRow(TypedDict):
-    """A trip as the Monitor shows it."""
+    """A trip as the Monitor shows it.
+
+    Where it follows what moves, its place is where its drone will meet that.
+    """
 
     name: str
     status: str
@@ -117,6 +120,8 @@ class TripRow(TypedDict):
     y: float
     priority: int | float | None
     action: str
+    track: NotRequired[str]
+    """The id of the track that it follows."""
 
 
 class Question(TypedDict):
@@ -169,6 +174,53 @@ class DroneRow(TypedDict):
     why: str
     ready_in: NotRequired[float | None]
     """Seconds until its battery is high enough to fly, while it charges."""
+
+
+class TrackRow(TypedDict):
+    """Something that moves, and is tracked."""
+
+    id: str
+    kind: str
+    x: float
+    y: float
+    z: float
+    seen: float
+    """When it was reported last, in seconds of the flight; where it is since then is not known."""
+    trail: list[Point]
+    """Where it was in the minute before that, the oldest first."""
+
+
+class TrackWay(TypedDict):
+    """Where something was that was tracked."""
+
+    id: str
+    kind: str
+    way: list[Point]
+    """Of each report the second of the flight, x, y and z."""
+
+
+class EventRow(TypedDict):
+    """Something that has happened, and what has come of it."""
+
+    id: str
+    name: str
+    time: float
+    at: Point | None
+    track: str | None
+    mission: str | None
+    """That whose hook or drone has raised it."""
+    trip: str | None
+    drone: str | None
+    fields: dict[str, Scalar | None]
+    """Those that the app declares."""
+    made: list[str]
+    """The missions that were made of it."""
+    broke_off: list[str]
+    """The missions whose flights it has broken off."""
+    why: str
+    """Why no mission was made of it; empty: one was, no creator was asked, or none has answered yet."""
+    over: float | None
+    """When that was decided, in seconds of the flight."""
 
 
 class LogLine(TypedDict):
@@ -296,6 +348,10 @@ class LiveMessage(TypedDict):
     amended: list[Result]
     """Results of before of which more is known now."""
     alerts: list[Alert]
+    events: list[EventRow]
+    """Of those that were raised, or of which something has come; of many the newest."""
+    tracks: NotRequired[list[TrackRow]]
+    """All that is tracked, if that has changed."""
     people: NotRequired[list[Person]]
     """All others, if that has changed."""
 
@@ -379,6 +435,9 @@ class Replay(TypedDict):
     """All lines of the flight; only with the first part."""
     results: list[Result]
     alerts: list[Alert]
+    events: list[EventRow]
+    """What has happened, as it is at the end; only with the first part, like the next."""
+    tracks: list[TrackWay]
     batteries: dict[str, list[Point]]
     """Of each drone pairs of time and level; only with the first part."""
 
@@ -617,12 +676,27 @@ class SavedPlans(TypedDict):
     trash: list[TrashedPlan]
 
 
-class Swept(TypedDict):
-    """How an area is flown over: the targets of its trips, in their order."""
+class SweptTrip(TypedDict):
+    """A trip of those that fly over an area."""
 
-    targets: list[Point]
+    target: Point
+    source: Point | None
+    """Where its line begins; null: it is no line, but one place."""
+    every: float | None
+    """After how many metres of a line the action is done, each time."""
+
+
+class Swept(TypedDict):
+    """How an area is flown over."""
+
+    trips: list[SweptTrip]
+    """In their order."""
+    places: int
+    """At which the action is done."""
     metres: float
-    """The way from the first to the last."""
+    """The way from the first place to the last."""
+    seconds: float | None
+    """How long one drone takes for that, with what it does there; null: none can do the action."""
     forbidden: float
     """The share of the area that may not be flown over."""
 

@@ -12,7 +12,7 @@ class FieldData(TypedDict):
 
     name: str
     type: str
-    """`time`, `int`, `rounds`, `time of day`, `evaluator`, or the type of a field of the app's own."""
+    """`time`, `int`, `rounds`, `time of day`, `evaluator`, `along`, or a type of the language."""
     label: str
     default: Scalar | None
     own: NotRequired[bool]
@@ -20,6 +20,10 @@ class FieldData(TypedDict):
     needed: NotRequired[bool]
     """Whether it must be filled in."""
     units: NotRequired[list[str]]
+    actions: NotRequired[list[str]]
+    """Of `along`: what can be done on the way."""
+    spaced: NotRequired[list[str]]
+    """Those of them that are done again and again, `every` so far or so long."""
 
 
 class FieldsData(TypedDict):
@@ -45,6 +49,15 @@ class ActionData(TypedDict):
     item: bool
     """Whether it takes an item or puts one down."""
     parameters: list[ParameterData]
+
+
+class EventData(TypedDict):
+    """An event that the app declares."""
+
+    name: str
+    fields: list[ParameterData]
+    creates: bool
+    """Whether a creator is asked to make a mission of it."""
 
 
 class CategoryData(TypedDict):
@@ -131,6 +144,8 @@ class AppData(TypedDict):
     actions: list[ActionData]
     categories: list[CategoryData]
     drones: list[FleetDrone]
+    events: list[EventData]
+    """Those that it declares, which can be raised."""
     layers: list[Layer]
     """How results are shown on the map."""
     map: MapShape

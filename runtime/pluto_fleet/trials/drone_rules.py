@@ -67,7 +67,8 @@ class ServesOneMission:
         self._away[event["drone"]] = None
 
     def _allocate(self, event: Event) -> None:
-        drone, mission = event["drone"], event["mission"]
+        drone = event["drone"]
+        mission = event["mission"]
         holder = self._holder.get(drone)
         if drone in self._away:
             self._say(f"{at(event)}: {drone} was given to {mission} before it was free again")
@@ -79,7 +80,8 @@ class ServesOneMission:
         self._holder[drone] = mission
 
     def _launch(self, event: Event) -> None:
-        drone, mission = event["drone"], event["mission"]
+        drone = event["drone"]
+        mission = event["mission"]
         if self._holder.get(drone) != mission:
             self._say(f"{at(event)}: {drone} flew for {mission}, which did not have it")
 
@@ -138,7 +140,8 @@ class ItemsStayAboard:
             self.hears = {}
 
     def _serve(self, event: Event) -> None:
-        drone, mission = event["drone"], event["mission"]
+        drone = event["drone"]
+        mission = event["mission"]
         has = self._carrier.get(mission)
         if has is not None and has[0] != drone:
             self._say(f"{at(event)}: {mission} has its item aboard {has[0]}, yet takes {drone}")
@@ -147,7 +150,8 @@ class ItemsStayAboard:
                 self._say(f"{at(event)}: {drone} has the item of {other}, yet serves {mission}")
 
     def _complete(self, event: Event) -> None:
-        mission, trip = event["mission"], str(event["trip"])
+        mission = event["mission"]
+        trip = str(event["trip"])
         releases = self._items.get(str(mission), {}).get(trip)
         if releases is not None:
             self._carrier[mission] = event["drone"], releases

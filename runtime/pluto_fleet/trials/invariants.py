@@ -20,6 +20,7 @@ from .rules import (
     AttemptsCountUp,
     CompletedDidEverything,
     EndsOnce,
+    EventsHappenOnce,
     Hears,
     LimitsAreKept,
     NothingAfterTheEnd,
@@ -39,6 +40,7 @@ RULES: tuple[Callable[[Say], Rule], ...] = (
     PromisesAreKept,
     LimitsAreKept,
     CompletedDidEverything,
+    EventsHappenOnce,
     ServesOneMission,
     StaysDown,
 )

@@ -84,6 +84,7 @@ class TrialLife:
         self.life = RecordedFlight(
             run.app, case.fleet, self.kernel, self.wire, self, records, epoch=run.lives, hooks=hooks
         )
+        self.life.in_simulation = True
         hooks.ended = self.life.hook_ended
         self.life.control.stopped.watch(self.stopped)
         self.task = self.life.go_on(planned)

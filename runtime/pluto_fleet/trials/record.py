@@ -12,6 +12,8 @@ from typing import Any
 from ..app import App
 from ..flight.offline import decided
 from ..flight.reconcile import id_of
+from ..journal.database import written
+from ..journal.facts import row_of
 from ..journal.standing import Record, Standing
 from ..journal.store import Entry
 from ..shared.alone.simulate import Bound, Enough
@@ -244,7 +246,7 @@ class TrialRecord:
     def commit(self, entry: Entry, events: list[Event]) -> None:
         """Add a durable entry."""
         for table, key, row in entry.rows:
-            self._rows[table, key] = json.dumps(row)
+            self._rows[table, key] = written(row)
         for event in events:
             self._time = float(str(event["t"]))
             self.events.append(event)
@@ -300,7 +302,7 @@ class TrialRecord:
 
     def standing(self) -> Standing:
         """Return where everything stands, by the durable rows."""
-        rows = [(table, key, json.loads(text)) for (table, key), text in self._rows.items()]
+        rows = [(table, key, row_of(table, key, text)) for (table, key), text in self._rows.items()]
         return Standing(rows, self._time)
 
     def closed(self, lives: int) -> TrialResult:

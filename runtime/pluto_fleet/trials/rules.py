@@ -230,7 +230,8 @@ class TripsDoNotOverlap:
         if launched is None:
             self._say(f"{at(event)}: {event['trip']} of {mission} ended and was not in flight")
         elif launched != flight(event):
-            this, other = named(flight(event)), named(launched)
+            this = named(flight(event))
+            other = named(launched)
             self._say(f"{at(event)}: {this} of {mission} ended, not {other}")
 
     def _interrupt(self, event: Event) -> None:
@@ -288,6 +289,44 @@ class AttemptsCountUp:
         trip = self._newest.get(event["mission"])
         if trip in self._last:
             self._last[trip] -= 1
+
+
+class EventsHappenOnce:
+    """With one id an event happens once; each mission that is made of one is made once, and begins."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._raised: dict[object, None] = {}
+        self._made: dict[object, None] = {}
+        self._begun: dict[object, None] = {}
+        self.hears = {
+            "event.raised": self._raise,
+            "event.over": self._end,
+            "mission": self._begin,
+            OVER: self._over,
+        }
+
+    def _raise(self, event: Event) -> None:
+        if event["id"] in self._raised:
+            self._say(f"{at(event)}: event {event['id']} happens once more")
+        self._raised[event["id"]] = None
+
+    def _end(self, event: Event) -> None:
+        mission = event.get("made")
+        if event["id"] not in self._raised:
+            self._say(f"{at(event)}: event {event['id']} has not happened, and is over")
+        if mission in self._made:
+            self._say(f"{at(event)}: mission {mission} is made once more, of event {event['id']}")
+        if mission is not None:
+            self._made[mission] = None
+
+    def _begin(self, event: Event) -> None:
+        self._begun[event["mission"]] = None
+
+    def _over(self, _: Event) -> None:
+        for mission in self._made:
+            if mission not in self._begun:
+                self._say(f"mission {mission} was made of an event, and has not begun")
 
 
 class LimitsAreKept:

@@ -46,7 +46,8 @@ class DelaysAreWaited:
         }
 
     def _wait(self, event: Event) -> None:
-        mission, trip = event["mission"], event["trip"]
+        mission = event["mission"]
+        trip = event["trip"]
         attempt = self._tries.get((mission, trip), 1)
         place = mission, event.get("block"), trip, self._round.get(mission, 0), attempt
         until = event["until"]
@@ -140,7 +141,9 @@ class _Delay:
     __slots__ = ("begins", "over", "paused", "place", "rest", "until")
 
     def __init__(self, place: DelayPlace, over: float, until: float) -> None:
-        self.place, self.over, self.until = place, over, until
+        self.place = place
+        self.over = over
+        self.until = until
         self.begins = until if until > over else 0.0
         """A time of day, which a Stop does not change."""
         self.rest: float | None = None

@@ -34,7 +34,9 @@ class UnreliableTime(VirtualTime):
         super().__init__()
         self.now = now
         self.dead = False
-        self._weather, self._chance, self._fired = weather, chance, fired
+        self._weather = weather
+        self._chance = chance
+        self._fired = fired
 
     def spawn(self, coroutine: Coroutine[Any, Any, T], key: Key, name: str) -> Task[T]:
         """Start a coroutine; not in a dead brain."""
@@ -63,8 +65,11 @@ class UnreliableHooks:
         fired: Counter[str],
         done: Callable[[Callable[..., object], tuple[object, ...]], object],
     ) -> None:
-        self._kernel, self._weather, self._chance = kernel, weather, chance
-        self._fired, self._done = fired, done
+        self._kernel = kernel
+        self._weather = weather
+        self._chance = chance
+        self._fired = fired
+        self._done = done
         self.ended: Callable[[int], object] = _nothing
         """Called with the number of a hook that has blocked for long enough."""
         self._calls: dict[int, Callable[[], object]] = {}

@@ -34,9 +34,11 @@ if TYPE_CHECKING:
 LIBRARY = {"deadline": "", "window": "", "after": "", "each": "", "area": "[areas]"}
 """Keys of a mission that only the library reads, and what it needs for them."""
 MISSIONS = ("mission",)
-FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "world")
+FLEET = ("map", "fleet", "motion", "drone", "navigation", "localization", "tracker", "world")
 """What stands in the two files."""
-REAL: Keys = dict.fromkeys(("apart", "silence", "navigation", "localization"))  # of [fleet]
+REAL: Keys = dict.fromkeys(
+    ("apart", "silence", "navigation", "localization", "tracker")
+)  # of [fleet]
 T = TypeVar("T", bound=Table)
 HOME_SIZE = 0.1  # the diameter of a drone on the ground, in metres
 
@@ -237,7 +239,7 @@ def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
     if "world" not in top.data:
         return None
     table = top.table("world")
-    table.read({}, dict.fromkeys(("background", "feature", "source", "mover")))
+    table.read({}, dict.fromkeys(("background", "feature", "source", "mover", "event")))
     levels = table.table("background")
     seen: Keys = {"kind": values.name, "at": values.corner}
     radius: Keys = {"radius": values.RADIUS}
@@ -248,5 +250,6 @@ def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
         features=tuple(Feature(**one) for one in features),
         sources=tuple(Source(**one) for one in sources),
         movers=tuple(one for part in parts for one in part.movers(table)),
+        events=tuple(one for part in parts for one in part.happens(table)),
         background=levels.read({}, dict.fromkeys(levels.data, values.real)),
     )

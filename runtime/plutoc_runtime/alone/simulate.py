@@ -123,8 +123,9 @@ class Alone:
         self.brain = brain
         self._app = app
         self._hear = hear
-        kinds = [part.drones for part in app.parts if part.drones is not None]
-        kind: type[IdealDrones] = kinds[0] if kinds else IdealDrones
+        self._happens = () if fleet.world is None else fleet.world.events
+        kinds = (part.drones() for part in app.parts)
+        kind = next(filter(None, kinds), IdealDrones)
         self.drones = kind(app, fleet, faults, seed, self)
 
     def begin(self, missions: Sequence[Mission[Any]]) -> None:
@@ -132,6 +133,7 @@ class Alone:
         self._tell({})
         begun = [{"name": one.name, **mission_data(self._app, one)} for one in missions]
         self.brain.begin(begun, self.now)
+        self.brain.tell({"happens": self._happens}, self.now)
         self._listen()
 
     def run(self, until: float | None) -> bool:

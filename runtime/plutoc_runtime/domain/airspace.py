@@ -70,7 +70,8 @@ class Airspace:
         """Return the point inside the map's bounds that is nearest: a measured place may be just outside."""
         x, y, z = point
         width, depth = self.size
-        return min(max(x, 0.0), width), min(max(y, 0.0), depth), min(max(z, 0.0), self.ceiling)
+        nearest = min(max(x, 0.0), width), min(max(y, 0.0), depth), min(max(z, 0.0), self.ceiling)
+        return nearest if dist(point, nearest) > EPSILON else point
 
     def route(self, start: Point, end: Point) -> Way | None:
         """Return the shortest permitted route, with the end and without the start, or None.

@@ -48,6 +48,8 @@ class WorldData:
     """Beside `BACKGROUND`, or instead of its numbers."""
     movers: tuple[Any, ...] = ()
     """What moves there, in an app that can tell."""
+    events: tuple[Mapping[str, Any], ...] = ()
+    """What happens there, in an app with events."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from ..flow.mission import Core
 
 
-def keep(core: Core, mission: Mission[Any], trip: Trip, value: object) -> None:
-    """Store a result of a trip that goes on."""
+def keep(core: Core, mission: Mission[Any], trip: Trip, value: object, **did: object) -> None:
+    """Store a result of a trip that goes on; `did` is the `action` that has brought it, if that is known."""
     place = None if trip.drone is None else trip.drone.location
     now = core.kernel.now
     result = Result(mission, trip, mission.round, trip.attempt, value, now, place)
     put(mission, last_result=core.results.add(result))
-    facts = {"result": value_data(value)} if core.changes.kept else {}
+    facts = {"result": value_data(value), "at": place, **did} if core.changes.kept else {}
     core.transitions.note_flight("action.result", mission, trip, value=shown(value), **facts)
 
 

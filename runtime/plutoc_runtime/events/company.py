@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Coroutine, Mapping, Sequence
+from collections.abc import Awaitable, Coroutine, Mapping, Sequence
 from functools import partial
 from math import dist
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from ..domain.errors import ActionFailed, Cancelled, FlightFailed
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import put
-from ..domain.model import Sighting
+from ..domain.model import NO_RESULT, Sighting
 from ..domain.text import LONGEST_REASON, bounded, duration, quoted, text_of
 from ..fleet.reach import needed
 from ..flow.asking import kept_by, take_over
@@ -24,7 +24,7 @@ from .part import Part
 from .tracks import Tracks
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Point, Trip
+    from ..domain.model import Drone, Mission, Point, Trip
     from ..flow.engine import Engine
     from ..flow.flight import Flight
     from ..flow.mission import MissionState
@@ -79,7 +79,8 @@ class Company(Part):
         self._core.accompany = self.accompany
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
-        self._accompanied: dict[Flight, None] = {}
+        self.relieving: dict[Flight, Drone] = {}
+        """The drones that are about to take flights over."""
         self._live: dict[Flight, FlyingDrone] = {}
         """The drones of the actions along the ways."""
 
@@ -92,16 +93,18 @@ class Company(Part):
         """Begin again what went on beside the flights that go on."""
         for state in self._engine.states.values():
             flight = state.in_flight
-            if flight is None or state.task is None or flight in self._accompanied:
-                continue
-            self._begin(state, flight)
+            if flight is not None and state.task is not None and not flight.company:
+                self._begin(state, flight, None)
 
     def accompany(self, state: MissionState, flight: Flight) -> dict[str, Any]:
         """Begin what goes on beside a flight that is just launched, and return the order to fly."""
         track = track_of(flight.trip)
         if track is not None:
             self._aim(flight, track)
-        return {**flight.order, "company": True} if self._begin(state, flight) else flight.order
+        on_record = self._core.on_record
+        recorded = None if on_record is None else on_record()
+        is_accompanied = self._begin(state, flight, recorded)
+        return {**flight.order, "company": True} if is_accompanied else flight.order
 
     def _aim(self, flight: Flight, id: str) -> None:
         """Aim a trip at where its drone will meet what it follows."""
@@ -111,8 +114,11 @@ class Company(Part):
             height = self._core.airspace.cruise_height
             put(flight.trip, target=tracks.meeting(track, flight.flier, height))
 
-    def _begin(self, state: MissionState, flight: Flight) -> bool:
-        """Begin what goes on beside a flight; return whether anything does."""
+    def _begin(self, state: MissionState, flight: Flight, recorded: Awaitable[None] | None) -> bool:
+        """Begin what goes on beside a flight; return whether anything does.
+
+        An action along the way begins once its launch is `recorded`; None: it is already.
+        """
         trip = flight.trip
         works: dict[str, Coroutine[Any, Any, Failed | None]] = {}
         if given := along_of(trip):
@@ -121,23 +127,26 @@ class Company(Part):
             works[f"{name} along"] = (
                 self._repeat(state, flight, given)
                 if own is None
-                else self._call(state, flight, own, given)
+                else self._call(state, flight, own, given, recorded)
             )
         if track := track_of(trip):
             works[f"pursuit of {track}"] = self._pursue(state, flight)
         if not works:
             return False
-        self._accompanied[flight] = None
-        flight.watch(lambda _: self._accompanied.pop(flight, None))
         self._arrivals[flight.id] = arrival = Future[None]()
         flight.watch(arrival.set)
-        arrival.watch(lambda _: self._arrivals.pop(flight.id, None))
         for name, work in works.items():
             task = state.spawn(work, f"{state.mission.name}: {name}")
             task.over = partial(_end, state, flight)
+            task.watch(lambda _: self._leave(flight))
             flight.company += (task,)
             arrival.watch(partial(_cancel, task))
         return True
+
+    def _leave(self, flight: Flight) -> None:
+        """Expect no arrival of a flight any more that nothing goes on beside."""
+        if all(task.is_set for task in flight.company):
+            self._arrivals.pop(flight.id, None)
 
     def hand_over(self, flight: Flight, before: str, drone: Drone) -> None:
         """Let what goes on beside a flight go on with another drone; `before` was the flight's id."""
@@ -149,10 +158,20 @@ class Company(Part):
     # Along the way
 
     async def _call(
-        self, state: MissionState, flight: Flight, action: AlongAction, given: Along
+        self,
+        state: MissionState,
+        flight: Flight,
+        action: AlongAction,
+        given: Along,
+        recorded: Awaitable[None] | None,
     ) -> Failed | None:
         """Call the hook of an action along the way; what it raises fails the trip."""
         core = self._core
+        if recorded is not None:
+            await recorded
+        # so time passes from one launch to the next, whatever it raises
+        await core.kernel.sleep(MOMENT, key=state.key)
+        await self._until_it_flies(state, flight)
         drone = flight.flier
         trip = flight.trip
         parameters = given.get("parameters") or {}
@@ -180,42 +199,80 @@ class Company(Part):
             return Failed(str(fault), mends=False)
         else:
             if value is not None:
-                keep(core, state.mission, trip, keepable(value))
+                keep(core, state.mission, trip, keepable(value), action=action.name)
             return None
         finally:
             live.release()
             del self._live[flight]
             take_over(state, hook)
 
+    async def _until_it_flies(self, state: MissionState, flight: Flight) -> None:
+        """Wait until the drone of a flight has taken off."""
+        kernel = self._core.kernel
+        while flight.flier.telemetry.landed:
+            await kernel.sleep(MOMENT, key=state.key)
+
     async def _repeat(self, state: MissionState, flight: Flight, given: Along) -> Failed | None:
         """Do a built-in action again and again on the way, without a stop, by its spacing."""
         core = self._core
-        kernel = core.kernel
         trip = flight.trip
-        while flight.flier.telemetry.landed:
-            await kernel.sleep(MOMENT, key=state.key)
-        if trip.source is not None:
-            while dist(flight.flier.location, trip.source) > AT:
-                await kernel.sleep(
-                    _soon(flight.flier, dist(flight.flier.location, trip.source)), key=state.key
-                )
+        action = given["action"]
+        parameters = given.get("parameters") or {}
+        seconds = given.get("seconds")
+        metres = given.get("metres", 0.0)
+        over = 0.0
+        here = self._last_place(state.mission, trip)
+        if here is None:
+            await self._begun(state, flight)
+        elif seconds is None:  # it has gone on while the app was not there
+            over = await self._further(state, flight, here, metres)
         while True:
+            here = flight.flier.location
+            if trip.action == action and dist(here[:2], trip.target[:2]) < metres / 2:
+                return None  # its own action is at that place
             try:
                 value = await core.orders.ask(
-                    "act",
-                    flight.drone,
-                    action=given["action"],
-                    parameters=given.get("parameters") or {},
+                    "act", flight.drone, action=action, parameters=parameters
                 )
             except FlightFailed:
                 return None  # the end of its flight says why
-            keep(core, state.mission, trip, value)
-            if "seconds" in given:
-                await kernel.sleep(given["seconds"], key=state.key)
-                continue
-            here = flight.flier.location
-            while (left := given["metres"] - dist(here, flight.flier.location)) > AT:
-                await kernel.sleep(_soon(flight.flier, left), key=state.key)
+            keep(core, state.mission, trip, value, action=action, parameters=parameters)
+            if seconds is None:
+                over = await self._further(state, flight, here, metres - over)
+            else:
+                await core.kernel.sleep(seconds, key=state.key)
+
+    def _last_place(self, mission: Mission[Any], trip: Trip) -> Point | None:
+        """Return where the last result of a trip was kept since its drone left for it; None: there is none."""
+        if mission.last_result == NO_RESULT or trip.start_time is None:
+            return None
+        result = self._core.results.results[mission.last_result]
+        return result.place if result.trip is trip and result.time >= trip.start_time else None
+
+    async def _begun(self, state: MissionState, flight: Flight) -> None:
+        """Wait until a drone has taken off and, if its trip has a source, is there."""
+        kernel = self._core.kernel
+        await self._until_it_flies(state, flight)
+        source = flight.trip.source
+        if source is None:
+            return
+        # others in its way may have it fly higher, or lower, down to the cruise height
+        least = min(source[2], self._core.airspace.cruise_height) - AT
+        while True:
+            x, y, z = flight.flier.location
+            left = dist((x, y), source[:2])
+            if left <= AT and z >= least:
+                return
+            await kernel.sleep(_soon(flight.flier, left), key=state.key)
+
+    async def _further(
+        self, state: MissionState, flight: Flight, here: Point, metres: float
+    ) -> float:
+        """Wait until a drone is so far from a place; return by how many metres it is further."""
+        near = flight.flier.category.speed * MOMENT / 2
+        while (left := metres - dist(here, flight.flier.location)) > near:
+            await self._core.kernel.sleep(_soon(flight.flier, left), key=state.key)
+        return -left if -left < metres / 2 else 0.0  # what is later is not made up for
 
     # A target that moves
 
@@ -224,12 +281,15 @@ class Company(Part):
         core = self._core
         trip: Any = flight.trip  # of an app whose trips may follow what moves
         tracks: Tracks = core.parts[Tracks]
+        began = core.kernel.now
         while True:
-            track = await tracks.next(trip.track, trip.lost_after)
+            track = await tracks.next(trip.track, trip.lost_after, began)
             if track is None:
                 since = duration(trip.lost_after)
                 return Failed(f"track {quoted(trip.track)} has had no news for {since}")
-            point = tracks.meeting(track, flight.flier, core.airspace.cruise_height)
+            height = core.airspace.cruise_height
+            flies = flight.flier.location[2] > height - AT
+            point = tracks.meeting(track, flight.flier, height, on_its_way=flies)
             if dist(point, trip.target) <= trip.reach:
                 continue
             if (why := self._out_of_reach(flight.flier, point)) is not None:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from ..hooks import context as without_events
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
     from ..domain.model import Mission, Point
     from ..flow.flight import Flight
@@ -21,8 +21,8 @@ class Raises(Protocol):
     def living(self) -> tuple[Mission[Any], ...]:
         """The missions that have not ended, in their order."""
 
-    def happen(self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception]) -> str:
-        """Note an occurrence, and let come of it what comes."""
+    def emit(self, name: str, given: Mapping[str, Any]) -> None:
+        """Note an occurrence that a hook raises, and let come of it what comes."""
 
     def cancel(self, mission: Mission[Any], why: str) -> None:
         """End a mission as CANCELLED."""
@@ -68,7 +68,7 @@ class Context(without_events.Context):
         """
         request = {"id": id, "at": at, "track": track, "fields": fields, **self._origin()}
         given = {name: value for name, value in request.items() if value is not None}
-        self._kernel.post(self._events.happen, event, given, ValueError)
+        self._kernel.post(self._events.emit, event, given)
 
     def cancel(self, mission: Mission[Any], why: str) -> None:
         """End a mission as CANCELLED, wherever it is; for creators alone. One that has ended stays as it is."""

@@ -21,6 +21,7 @@ from .part import PartOf
 from .world import Mover, read_movers
 
 if TYPE_CHECKING:
+    from ..alone.drones import IdealDrones
     from ..domain.app import App
     from ..domain.model import Point
 
@@ -128,6 +129,23 @@ class EventsDeclared(PartOf):
     creators: tuple[Creator, ...] = ()
     """In the order in which they are asked."""
 
+    def happens(self, world: Table) -> tuple[Mapping[str, Any], ...]:
+        """Return the `[[world.event]]` of a fleet file: what happens in the simulated world, and when."""
+        types = {one.name: one for one in self.types}
+        found = []
+        keys = (*FACTS, "at", "fields")
+        for number, table in enumerate(world.tables("event"), 1):
+            when = table.read({"name": values.name, "after": values.TIME}, dict.fromkeys(keys))
+            facts = {key: table.data[key] for key in keys if key in table.data}
+            if not (name := when.get("name")):
+                continue
+            try:
+                read_occurrence(types, name, facts, values.point)
+            except BadInput as error:
+                table.problem(str(error).removeprefix(f"event {name}: "))
+            found.append({"id": f"world/{number}", **facts, **when})
+        return tuple(found)
+
     def about(self) -> dict[str, Any]:
         """Return them as plain data: all that a library knows of them."""
         events = [
@@ -143,6 +161,12 @@ class EventsDeclared(PartOf):
 
 class TracksDeclared(PartOf):
     """What an app follows that moves."""
+
+    def drones(self) -> type[IdealDrones]:
+        """Return simulated drones that see it."""
+        from .alone import EventDrones  # of who simulates alone
+
+        return EventDrones
 
     def movers(self, world: Table) -> tuple[Mover, ...]:
         """Return what moves in the simulated world."""
@@ -256,12 +280,13 @@ class CompanyDeclared(PartOf):
         target = trip.get("target")
         if not isinstance(target, dict) or "track" not in target:
             return trip
-        of_target = {name: one for name, one in target.items() if name in _OF_TARGET}
-        unknown = {name: one for name, one in target.items() if name not in _OF_TARGET}
+        of_target = {name: one for name, one in target.items() if name in OF_TARGET}
+        unknown = {name: one for name, one in target.items() if name not in OF_TARGET}
         return {**trip, **of_target, "target": unknown or [0.0, 0.0]}
 
 
-_OF_TARGET = ("track", "reach", "lost_after")
+OF_TARGET = ("track", "reach", "lost_after")
+"""What a target says that moves, which are fields of its trip."""
 
 
 def _read_along(actions: Mapping[str, Action], value: object) -> Along:

@@ -66,21 +66,24 @@ class Interruption:
         repeatable = flight.action.hook is not None or flight.action.repeat == "safe"
         if core.on_record is None or repeatable:
             run.state.break_off(flight)
-            self._take_back(flight)
+            # it will be flown again by this id, also if its action had begun
+            core.orders.give({"do": "forget", "drone": flight.drone, "flight": flight.id})
+            self._take_back(flight, event)
             return
         flight.called_off = f"event {event.id} has interrupted it"
-        core.orders.settle(flight.drone, flight.id, partial(self._settled, flight))
+        core.orders.settle(flight.drone, flight.id, partial(self._settled, flight, event))
 
-    def _settled(self, flight: Flight, result: object) -> None:
+    def _settled(self, flight: Flight, event: Event, result: object) -> None:
         """Take over what came of the flight."""
         if isinstance(result, FlightFailed):
-            self._take_back(flight)
+            self._take_back(flight, event)
         else:
             self._run.state.reported(flight, result)
 
-    def _take_back(self, flight: Flight) -> None:
+    def _take_back(self, flight: Flight, event: Event) -> None:
         state = self._run.state
-        state.interrupt(flight)
+        state.interrupt(flight, by=event.id)
+        state.flight = flight  # for branches that have yet to come to their monitor
         if state.carrier is None:
             self._reserves.reserve(state.mission.name, flight.flier)
         else:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..alone.drones import IdealDrones
@@ -18,11 +18,16 @@ if TYPE_CHECKING:
 class PartOf:
     """What an app has beside missions and drones."""
 
-    drones: ClassVar[type[IdealDrones] | None] = None
-    """The simulated drones that obey it, where others do not."""
+    def drones(self) -> type[IdealDrones] | None:
+        """Return the simulated drones that obey it, where others do not."""
+        return None
 
     def movers(self, world: Table) -> tuple[Any, ...]:
         """Return what the `[world]` of a fleet file has for it."""
+        return ()
+
+    def happens(self, world: Table) -> tuple[Mapping[str, Any], ...]:
+        """Return what happens in the simulated world, as its `[world]` says."""
         return ()
 
     def __call__(self, engine: Any) -> Any:

@@ -11,17 +11,14 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput, HookFault
-from ..domain.fields import Entity, wrong_field
 from ..domain.guard import NOT_ITS_OWN
-from ..domain.keeper import keeper_of, put, reading, trips_of
+from ..domain.keeper import put, reading
 from ..domain.status import DroneStatus, Status
-from ..domain.text import LONGEST_REASON, bounded, class_of
-from ..domain.values import is_name, point, point_on
-from ..fleet.reach import miss_of
+from ..domain.text import LONGEST_REASON, bounded, duration, quoted
+from ..domain.values import point, point_on
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
 from ..hooks.plain_data import keepable
-from ..hooks.soundness import unsound
 from ..time.kernel import FLEET, EventKind, Future
 from .changes import keep
 from .context import Context, Outside
@@ -38,13 +35,15 @@ from .declared import (
     read_occurrence,
 )
 from .interruption import Interruption
+from .made import wrong_mission
 from .part import Part
 
 if TYPE_CHECKING:
-    from ..domain.model import Drone, Mission, Point, Trip
+    from ..domain.model import Drone, Mission, Point
     from ..domain.trace import Row
     from ..flow.engine import Engine
     from ..flow.flight import Flight
+    from ..flow.mission import MissionState
     from ..flow.run import Run
     from .interruption import Whose
 
@@ -52,11 +51,12 @@ if TYPE_CHECKING:
 class Happening:
     """One occurrence, and what has come of it."""
 
-    __slots__ = ("event", "made", "open", "why")
+    __slots__ = ("answered", "event", "made", "open", "why")
 
     def __init__(self, event: Event, blocks: Sequence[str]) -> None:
         self.event = event
         self.open = [*blocks]  # those whose creators have not answered yet
+        self.answered = Future[None]()  # set when all have
         self.made: list[str] = []  # the missions that came of it
         self.why = ""  # why none did, of the last creator that made none
 
@@ -85,11 +85,15 @@ class Events(Part):
             engine.entries.append(creator.block)
         self.happenings: dict[str, Happening] = {}
         """By their ids."""
+        self._unasked: list[Happening] = []
+        """Those of an earlier run."""
         self._changed: dict[str, None] = {}
         self.reserved: dict[str, Drone] = {}
         """The drones that hover for their missions, by the names of these, since an event broke a flight off."""
         self._interrupted: dict[str, dict[Flight, list[Interruption]]] = {}
         """By the names of events, the flights that they break off."""
+        self._counted_since = 0.0
+        self._counted = 0  # the events that hooks have raised since then
         self.commands = {"raise": self._raise}
         self._core.trace.listen(self._hear)
         self._core.transitions.noted = True
@@ -97,6 +101,36 @@ class Events(Part):
         self._core.queue.entered = self.release
 
     # What happens
+
+    def tell(self, message: Mapping[str, Any]) -> None:
+        """Have happen what happens in a simulated world: each once `after` so many seconds."""
+        for one in message.get("happens", ()):
+            if one["id"] not in self.happenings:
+                self._engine.expect()
+                when = max(self._core.kernel.now, one["after"])
+                self._core.kernel.at(when, EventKind.CLOCK, FLEET, partial(self._in_world, one))
+
+    def _in_world(self, one: Mapping[str, Any]) -> None:
+        given = {name: fact for name, fact in one.items() if name not in ("name", "after")}
+        try:
+            self.happen(one["name"], given)
+        except BadInput as error:
+            self._core.log(str(error))
+        self._engine.expect_no_more()
+
+    def emit(self, name: str, given: Mapping[str, Any]) -> None:
+        """Note an occurrence that a hook raises; raise `ValueError` if it cannot be."""
+        now = self._core.kernel.now
+        if now - self._counted_since >= WITHIN:
+            self._counted_since = now
+            self._counted = 0
+        self._counted += 1
+        if self._counted > MOST:
+            raise ValueError(
+                f"hooks have raised {MOST:,} events within {duration(WITHIN)}: what an event leads to "
+                "raises events again, without an end"
+            )
+        self.happen(name, given, ValueError)
 
     def happen(
         self, name: str, given: Mapping[str, Any], wrong: Callable[[str], Exception] = BadInput
@@ -117,15 +151,32 @@ class Events(Part):
         self._note("event.raised", **_as_noted(event, kind))
         on_record = self._core.on_record
         recorded = None if on_record is None else on_record()  # not what is noted after it
-        for flight, interruptions in tuple(self._interrupted.get(name, {}).items()):
+        if happening.open:
+            self._ask_creators(happening, recorded)
+            work = self._interrupt_later(happening)
+            self._core.kernel.spawn(work, FLEET, f"event {id} interrupts")
+        else:
+            self._interrupt(event)
+        return str(id)
+
+    def _interrupt(self, event: Event) -> None:
+        """Break off the flights that an event concerns."""
+        for flight, interruptions in tuple(self._interrupted.get(event.name, {}).items()):
             for each in interruptions:
                 if each.concerns(event):
                     each.soon(flight, event)
-        self._ask_creators(happening, recorded)
-        return str(id)
+
+    async def _interrupt_later(self, happening: Happening) -> None:
+        """Break them off once the missions that the event makes wait for drones: these may be theirs."""
+        kernel = self._core.kernel
+        until = kernel.now + PATIENCE
+        await kernel.within(happening.answered, until, EventKind.READY, FLEET)
+        self._interrupt(happening.event)
 
     def _raise(self, request: Mapping[str, Any]) -> None:
         """Raise an event as a person, or another program, wants."""
+        if request.get("event") in (LATE, LOST):
+            raise BadInput(f"{request['event']} is raised by the app itself")
         given = {name: value for name, value in request.items() if name not in ("command", "event")}
         self.happen(str(request.get("event")), given)
 
@@ -140,6 +191,9 @@ class Events(Part):
             return round(x, 3), round(y, 3), round(z, 3)  # no camera sees more exactly
 
         facts = read_occurrence(self._types, name, given, on_the_map, wrong)
+        for what, known in (("mission", self._engine.states), ("drone", self._core.orders.drones)):
+            if what in facts and facts[what] not in known:
+                raise wrong(f"event {name}: there is no {what} {quoted(facts[what])}")
         facts.setdefault("id", f"{name}-{len(self.happenings) + 1}")
         return facts
 
@@ -148,12 +202,19 @@ class Events(Part):
         match noted:
             case {"event": "mission.late", "mission": mission, "t": when}:
                 self._soon(LATE, id=f"late/{mission}/{when}", mission=mission)
-            case {"event": "mission.ended", "mission": mission} if mission in self.reserved:
-                self.release(self._engine.states[mission].mission)
+            case {"event": "mission.ended", "mission": mission}:
+                self._end(self._engine.states[mission])
             case {"event": "drone.lost", "drone": drone, "at": at, "t": when}:
                 flown = self._flown_by(drone)
                 origin = {} if flown is None else {"mission": flown}
                 self._soon(LOST, id=f"lost/{drone}/{when}", drone=drone, at=at, **origin)
+
+    def _end(self, state: MissionState) -> None:
+        """Forget a mission that has ended: not every flight is set by then."""
+        self.release(state.mission)
+        if state.flight is not None:
+            for flights in self._interrupted.values():
+                flights.pop(state.flight, None)
 
     def _soon(self, name: str, **given: Any) -> None:
         """Raise a built-in event once what has just been noted is complete."""
@@ -248,22 +309,25 @@ class Events(Part):
         event = happening.event
         if recorded is not None:
             await recorded
+        none: dict[str, Any] = {"why": f"{creator.block} made no mission of it"}
         try:
             mission = await self._mission_of(creator, event)
         except HookFault as fault:
             if fault.detail:
                 core.log(fault.detail)
-            happening.why = str(fault)
+            none = {"why": str(fault), "fault": True}
             mission = None
         happening.open.remove(creator.block)
         self._changed[event.id] = None
         if mission is None:
-            happening.why = happening.why or f"{creator.block} made no mission of it"
-            self._note("event.over", id=event.id, why=happening.why)
+            happening.why = none["why"]
+            self._note("event.over", id=event.id, **none)
         else:
             happening.made.append(mission.name)
             self._note("event.over", id=event.id, made=mission.name)
             self._engine.begin([mission], at=creator.block)
+        if not happening.open:
+            happening.answered.set(None)
         self._engine.expect_no_more()
 
     async def _mission_of(self, creator: Creator, event: Event) -> Mission[Any] | None:
@@ -280,41 +344,10 @@ class Events(Part):
             raise fault_of(hook, error) from error
         if made is None:
             return None
-        if (wrong := self._wrong_mission(made)) is not None:
+        if (wrong := wrong_mission(core, made)) is not None:
             raise HookFault(f"creator {hook_name(hook)} made a mission that cannot be: {wrong}")
         put(made, index=self._next_index(), name=self._free_name(made.name))
         return made  # type: ignore[no-any-return]  # its class was checked
-
-    def _wrong_mission(self, made: Any) -> str | None:
-        """Return what is wrong with a mission that a creator has made, or None."""
-        core = self._core
-        if type(made) is not core.app.mission:
-            return f"it must be a Mission of this app or None, not {class_of(made)}"
-        if keeper_of(made) is not None:
-            return f"mission {made.name} is in the app already: make a new one"
-        if not is_name(made.name):
-            return "its name must be a text that can be shown"
-        trips = trips_of(made)
-        if not trips:
-            return f"mission {made.name} has no trips"
-        if len({id(trip) for trip in trips}) != len(trips):
-            return f"mission {made.name} has a trip twice"
-        wrong = [unsound(core.app, core.airspace, trip) for trip in trips]
-        fields = wrong_field(core.app.fields, Entity.MISSION, made, core.app.evaluators)
-        return next(filter(None, [*wrong, fields]), None) or self._beyond_all(trips)
-
-    def _beyond_all(self, trips: Sequence[Trip]) -> str | None:
-        """Return why no drone of the fleet could ever fly these trips, or None."""
-        core = self._core
-        for trip in trips:
-            misses = [
-                miss_of(core.app, core.airspace, drone.category, drone.home, (trip,))
-                for drone in core.fleet.drones
-            ]
-            if None not in misses:
-                reasons = dict.fromkeys(miss.reason for miss in misses if miss)
-                return f"trip {trip.name}: {'; '.join(reasons)}"
-        return None
 
     def _next_index(self) -> int:
         states = self._engine.states.values()
@@ -369,11 +402,13 @@ class Events(Part):
             self.happenings[id] = happening = Happening(event_of(kind, facts), blocks)
             happening.made = [*row.get("made", ())]
             happening.why = row.get("why", "")
+            self._unasked.append(happening)
 
     def go_on(self) -> None:
-        """Ask the creators of what has happened, and were not asked before the end of an earlier run."""
-        for happening in self.happenings.values():
+        """Ask the creators that had not answered at the end of an earlier run."""
+        for happening in self._unasked:
             self._ask_creators(happening, None)
+        self._unasked.clear()  # missions go on one by one, too
 
 
 def _row(happening: Happening) -> dict[str, Any]:
@@ -393,5 +428,10 @@ def _as_noted(event: Event, kind: EventType) -> dict[str, Any]:
     return {**noted, "fields": fields} if fields else noted
 
 
+MOST = 1_000
+WITHIN = 10.0
+"""So many events, within so many seconds, are those of hooks that raise each other's for ever."""
+PATIENCE = 1.0
+"""Seconds for which a flight that an event interrupts goes on, at most, until its creators have answered."""
 BUILT_IN = (EventType(name=LATE), EventType(name=LOST))
 _OF_ALL = (*FACTS, "name", "time", "at")

@@ -12,7 +12,7 @@ from ..flow.own_action import way_home
 from ..time.kernel import EventKind, Future
 from .changes import hand_over, relieve
 from .company import Company, track_of
-from .follow import FollowAction
+from .follow import ASIDE, FollowAction
 from .tracks import Tracks
 
 if TYPE_CHECKING:
@@ -25,12 +25,10 @@ URGENT = 1 << 20
 """The priority of who is to take over: a drone that must go home does not wait."""
 REACH = 0.5
 """Metres within which one drone takes over from another, where a trip says nothing of it."""
-KEPT_OFF = 2.0
-"""Seconds without coming nearer after which a drone is kept off by the one that it relieves."""
+AT_LAST = 0.01
+"""The share of a battery from which on, if there is no more to spare, a drone that is kept off takes over from where it is."""
 KEPT_OFF_WITHIN = 3.0
-"""How many times the reach that may be."""
-NEARER = 0.05
-"""Metres that count as nearer."""
+"""How many times the reach that may be away."""
 LOOK = 0.25
 """Seconds from one look at a battery, or at where a drone is that is to be relieved, to the next."""
 
@@ -68,22 +66,25 @@ async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
         except FlightFailed as error:
             core.fleet.recover(drone, str(error))
             taken_over = True
-            await core.kernel.sleep(LOOK, key=state.key)
         finally:
             if not taken_over:  # the flight is over, or the mission
                 core.fleet.dismiss(drone)
+        # who takes over may be low as well: time passes until it is relieved
+        await core.kernel.sleep(LOOK, key=state.key)
 
 
 async def _until_low(state: MissionState, flight: Flight, margin: float) -> None:
     """Wait until the battery holds only so much more than the way home and its reserve take."""
-    core = state.core
-    while True:
-        drone = flight.flier
-        way = way_home(core, drone)
-        left = drone.battery_level - drone.category.reserve - way
-        if way < inf and left <= margin:
-            return
-        await core.kernel.sleep(LOOK, EventKind.CLOCK, state.key)
+    kernel = state.core.kernel
+    while _spare(state, flight) > margin:
+        await kernel.sleep(LOOK, EventKind.CLOCK, state.key)
+
+
+def _spare(state: MissionState, flight: Flight) -> float:
+    """Return the share of a battery that the way home and the reserve leave; infinite: there is no way home now."""
+    drone = flight.flier
+    way = way_home(state.core, drone)
+    return drone.battery_level - drone.category.reserve - way if way < inf else inf
 
 
 async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
@@ -94,15 +95,16 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     going: Future[object] | None = None
     number = 0
     goal = drone.location
+    company: Company = core.parts[Company]
+    company.relieving[flight] = drone
     try:
-        nearness = Nearness(state, flight, drone)
-        while not flight.is_set and not nearness.suffices():
+        while not flight.is_set and not _is_near_enough(state, flight, drone):
             place = _beside(state, flight, drone)
             if going is None or going.is_set or dist(place, goal) > reach_of(flight.trip) / 2:
                 core.orders.forget(number)
                 going = Future()
                 goal = place
-                order = {"do": "go", "drone": drone.id, "stops": [place]}
+                order = {"do": "go", "drone": drone.id, "stops": [place], "seconds": 0.0}
                 number = core.orders.give(order, going.set)
             await core.kernel.within(going, core.kernel.now + LOOK, EventKind.TIMER, state.key)
             if going.is_set and isinstance(failed := going.result(), FlightFailed):
@@ -110,6 +112,7 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
             if going.is_set:  # it is where the other was
                 await core.kernel.sleep(LOOK, key=state.key)
     finally:
+        del company.relieving[flight]
         core.orders.call_off(number, drone.id)
     if flight.is_set or state.flight is not flight:
         return False
@@ -117,26 +120,12 @@ async def _take_over(state: MissionState, flight: Flight, drone: Drone) -> bool:
     return True
 
 
-class Nearness:
-    """How near a drone has come to where it is to take over."""
-
-    def __init__(self, state: MissionState, flight: Flight, drone: Drone) -> None:
-        self._state = state
-        self._flight = flight
-        self._drone = drone
-        self._least = inf
-        self._since = state.core.kernel.now  # when it came nearer the last time
-
-    def suffices(self) -> bool:
-        """Return whether it is within reach, or as near as the other drone lets it come."""
-        now = self._state.core.kernel.now
-        reach = reach_of(self._flight.trip)
-        metres = dist(self._drone.location, _where(self._state, self._flight))
-        if metres < self._least - NEARER:
-            self._least = metres
-            self._since = now
-        is_kept_off = now - self._since >= KEPT_OFF and metres <= KEPT_OFF_WITHIN * reach
-        return metres <= reach or is_kept_off
+def _is_near_enough(state: MissionState, flight: Flight, drone: Drone) -> bool:
+    """Return whether a drone is within reach; if others keep it off until there is little left, near it."""
+    reach = reach_of(flight.trip)
+    metres = dist(drone.location, _where(state, flight))
+    is_late = _spare(state, flight) <= AT_LAST
+    return metres <= (KEPT_OFF_WITHIN * reach if is_late else reach)
 
 
 def reach_of(trip: Trip) -> float:
@@ -162,7 +151,8 @@ def _beside(state: MissionState, flight: Flight, drone: Drone) -> Point:
     track = tracks.known.get(track_of(flight.trip) or "")
     if track is None:
         return flight.flier.location
-    return tracks.meeting(track, drone, core.airspace.cruise_height)
+    met = tracks.meeting(track, drone, core.airspace.cruise_height)
+    return tracks.aside(met, drone.location, ASIDE * reach_of(flight.trip))
 
 
 def _hand_over(state: MissionState, flight: Flight, drone: Drone) -> None:

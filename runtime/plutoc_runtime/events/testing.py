@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Generic, NamedTuple
 
 from ..alone import testing as without_events
 from ..alone.testing import Given, M, T
 from ..domain.model import Mission, Point, Sighting
-from .declared import Event
+from ..domain.values import point
+from .declared import FACTS, Event, EventType, read_occurrence
 from .raising import BUILT_IN, EventsOf
 
 
@@ -21,8 +23,9 @@ class Emitted(NamedTuple):
 class KitContext(without_events.KitContext):
     """A hook's context, with what a test gives to it and reads back."""
 
-    def __init__(self, *given: Any) -> None:
+    def __init__(self, types: Mapping[str, EventType], *given: Any) -> None:
         super().__init__(*given)
+        self._types = types
         self.emitted: list[Emitted] = []
         """The events that the hook has raised."""
         self.stored: list[object] = []
@@ -38,7 +41,8 @@ class KitContext(without_events.KitContext):
         self._sights.append(Sighting(track, kind, at))
 
     def emit(self, event: str, **facts: Any) -> None:
-        """Raise an event."""
+        """Raise an event; one that the app does not declare, or with wrong fields, is a `ValueError`, as in a flight."""
+        _read(self._types, event, facts)
         self.emitted.append(Emitted(event, facts))
 
     def store(self, value: object) -> None:
@@ -74,15 +78,27 @@ class AppKit(without_events.AppKit[M, T, Given], Generic[M, T, Given]):
 
     def context(self) -> KitContext:
         """Return a context, for the hooks that it is handed to."""
-        return KitContext(self.clock, self._store, self._none)
+        return KitContext(self._types(), self.clock, self._store, self._none)
 
     def event(self, name: str, *, at: Point | None = None, **facts: Any) -> Event:
-        """Return an occurrence of an event, for a creator."""
-        types = {
-            kind.name: kind
-            for part in self._app.parts
-            if isinstance(part, EventsOf)
-            for kind in (*part.types, *BUILT_IN)
-        }
-        given = {"id": f"{name}-1", "time": self.clock.now, **facts}
-        return types[name].type(name=name, at=at, **given)
+        """Return an occurrence of an event, for a creator; raise `ValueError` if there is no such."""
+        types = self._types()
+        time = facts.pop("time", self.clock.now)
+        read = _read(types, name, facts if at is None else {**facts, "at": at})
+        return types[name].type(**{"id": f"{name}-1", "name": name, "time": time, **read})
+
+    def _types(self) -> dict[str, EventType]:
+        events = [part for part in self._app.parts if isinstance(part, EventsOf)]
+        return {kind.name: kind for part in events for kind in (*part.types, *BUILT_IN)}
+
+
+def _read(types: Mapping[str, EventType], name: str, facts: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what is said of an occurrence, read as in a flight, on a map without an end."""
+    of_all = {key: one for key, one in facts.items() if key in (*FACTS, "at") and one is not None}
+    fields = {key: one for key, one in facts.items() if key not in (*FACTS, "at")}
+    return read_occurrence(types, name, {**of_all, "fields": fields}, _place, ValueError)
+
+
+def _place(value: object) -> Point:
+    x, y, z = [*point(value), 0.0][:3]
+    return x, y, z

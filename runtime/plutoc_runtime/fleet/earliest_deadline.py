@@ -86,6 +86,7 @@ def _urgency(one: Request, drones: Sequence[Drone], now: float) -> tuple[int, fl
 def _least(one: Request, drones: Sequence[Drone]) -> float:
     """Return about how many seconds a mission takes at least, from now on."""
     metres = sum(dist(a.target, b.source or b.target) for a, b in pairwise(one.trips))
+    metres += sum(dist(trip.source, trip.target) for trip in one.trips if trip.source)
     seconds = (
         len(one.trips) * upright(drone.category, one)
         + metres * pace(drone.category, one)

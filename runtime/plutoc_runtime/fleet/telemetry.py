@@ -87,14 +87,21 @@ class Charge:
 
 
 class KnownState:
-    """The state of one drone, as it was told last: the drone's `Telemetry`."""
+    """The state of one drone, as it was told last: the drone's `Telemetry`. Hooks see it, and change nothing of it."""
+
+    __slots__ = ("_charge", "_clock", "_landed", "_legs", "_motion")
 
     def __init__(self, clock: Clock, home: Point, motion: Motion) -> None:
-        self.motion = motion
+        self._motion = motion
         self._landed = True
         self._clock = clock
         self._legs = [resting(home, 0.0)]
         self._charge = Charge(0.0, 0.0)
+
+    @property
+    def motion(self) -> Motion:
+        """How it moves."""
+        return self._motion
 
     @property
     def location(self) -> Point:
@@ -118,7 +125,7 @@ class KnownState:
         """Take over a message about it; what the message does not say stays as it was."""
         now = self._clock.now
         if legs := told.get("legs"):
-            smooth = self.motion.smooth
+            smooth = self._motion.smooth
             self._legs = [
                 Leg((ax, ay, az), (bx, by, bz), leaves, arrives, smooth)
                 for (ax, ay, az), (bx, by, bz), leaves, arrives in legs
@@ -128,7 +135,7 @@ class KnownState:
             self._legs = [resting((x, y, z), now)]
         match told.get("battery"):
             case [level, since, rate]:
-                self._charge = Charge(level, since, rate, self.motion.taper)
+                self._charge = Charge(level, since, rate, self._motion.taper)
             case float(level) | int(level):
                 self._charge = Charge(level, now)
         self._landed = told.get("landed", self._landed)

@@ -16,7 +16,6 @@ from ..time.kernel import mission_key
 from .flight import Flight, Limits
 
 if TYPE_CHECKING:
-
     from ..domain.airspace import Airspace
     from ..domain.app import App
     from ..domain.model import Drone, Item, Mission, ResultStore, Trip
@@ -85,7 +84,8 @@ class MissionState:
     """The drone that carries the mission's item, and stays with the mission."""
     carries: Item | None = None  # the item aboard `carrier`, from `pick_item` to `release_item`
     last_action_end: float | None = None  # when its previous action in this round was done
-    calls: int = 0  # how often its hooks were called since its last launch
+    calls: int = 0  # how often its hooks were called since its last launch, or at that instant
+    launched_at: float = -1.0  # when it was launched last
     delay: tuple[Delay, float, float] | None = None
     """The delay that it waits for, when that is over, and when its round begins by the clock, or 0."""
     waited: set[Delay] | None = None  # every delay that is over
@@ -171,7 +171,9 @@ class MissionState:
         action = core.app.actions[trip.action]
         self.flight = flight = Flight(mission, trip, drone, action, core.kernel.now, retry)
         self.allocated = None
-        self.calls = 0
+        if flight.launched_at > self.launched_at:  # else they go round without any time
+            self.calls = 0
+        self.launched_at = flight.launched_at
         core.transitions.launch(mission, trip, drone)
         order = flight.order if core.accompany is None else core.accompany(self, flight)
         core.orders.fly(drone.id, partial(self.reported, flight), order)
@@ -239,11 +241,11 @@ class MissionState:
     def _and_its_item(self, reason: str) -> str:
         return reason if self.carries is None else f"{reason}, with {self.carries.name} aboard"
 
-    def interrupt(self, flight: Flight) -> None:
+    def interrupt(self, flight: Flight, **why: str) -> None:
         """Take back a flight that was broken off before its action was done."""
         self.interrupted = True
         self.flight = self.question = self.answer = None
-        self.core.transitions.interrupt(self.mission, flight.trip)
+        self.core.transitions.interrupt(self.mission, flight.trip, **why)
 
     def keep_item(self, flight: Flight | None) -> Drone | None:
         """Reserve the drone that has its item aboard, or may after a flight that was broken off; return it."""

@@ -276,12 +276,12 @@ class Transitions:
         put(mission, status=FAILED, reason=reason)
         self.note_flight("trip.failed", mission, trip, reason=reason)
 
-    def interrupt(self, mission: Mission[Any], trip: Trip) -> None:
+    def interrupt(self, mission: Mission[Any], trip: Trip, **why: str) -> None:
         """Take back a flight whose action was not done: it counts as no attempt."""
         put(trip, status=TripStatus.WAITING, drone=None, start_time=None, end_time=None)
         put(mission, status=STANDBY, reason="", attempts=mission.attempts - 1)
         self._changes.moved_on(mission)
-        self.note_trip("trip.interrupted", mission, trip)
+        self.note_trip("trip.interrupted", mission, trip, **why)
 
     def put_back(self, mission: Mission[Any]) -> None:
         """Reset the failed trip for a retry; one that has not flown since keeps its attempt."""

@@ -203,7 +203,7 @@ class _Writer:
         known = plain_of(value)
         if type(known) is float and not isfinite(known):
             return {"$number": repr(known)}
-        plain = _plain(value)
+        plain = shown(value) if issubclass(kind, dict) else _plain(value)
         if type(plain) is not str:
             return plain
         text = self._text(plain)

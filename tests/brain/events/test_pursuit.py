@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import dist
 from typing import Any
 
@@ -16,7 +17,7 @@ from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import ActionFailed
 from pluto_fleet.shared.domain.fields import Entity, FieldType
 from pluto_fleet.shared.domain.fleet_data import DroneData, FleetData, WorldData
-from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.events.company import CompanyOf
 from pluto_fleet.shared.events.declared import (
@@ -38,6 +39,7 @@ from plutoc_blocks.mission_creator.step import create_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
 from plutoc_blocks.trip_monitor.relief import watch_relieved
 from plutoc_blocks.trip_monitor.step import watch_trip
+from tests.brain.hand import charged, settled
 from tests.kit import apps
 
 
@@ -85,20 +87,24 @@ async def relieved(run: Run[Any]) -> Status:
     return await watch_relieved(run, status, relief=0.15)
 
 
-def flown(
-    trips: Sequence[Trip],
-    *movers: Mover,
-    look: Any = None,
-    drones: int = 1,
-    chase: Any = None,
-    flow: Any = flow,
-    category: Category = apps.SCOUT,
-) -> Outcome:
-    """Fly trips, each of a mission, in a world with these movers."""
+async def untiring(run: Run[Any]) -> Status:
+    """create → allocate → launch → watch, and again after each failure."""
+    status = create_mission(run, run.status)
+    while True:
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
+        status = await watch_trip(run, launch_trip(run, status))
+        if status is Status.COMPLETED:
+            return status
+
+
+def pursuing(
+    look: Any = None, chase: Any = None, flow: Any = flow, category: Category = apps.SCOUT
+) -> Any:
+    """Return an app that follows what moves, and looks along the way."""
     creator = Creator(event="intruder", block="pursue", hook=chase)
     creators = () if chase is None else (creator,)
     app: Any = apps.app(flow, categories=(category,)).given
-    app = replace(
+    return replace(
         app,
         trip=Trip,
         fields=(*app.fields, *TRIP_FIELDS, ALONG),
@@ -108,7 +114,22 @@ def flown(
             TracksOf(),
             CompanyOf((AlongAction(name="look", hook=look),)),
         ),
+        resumes=("allocate",),
     )
+
+
+def flown(
+    trips: Sequence[Trip],
+    *movers: Mover,
+    look: Any = None,
+    drones: int = 1,
+    chase: Any = None,
+    flow: Any = flow,
+    category: Category = apps.SCOUT,
+    until: float | None = None,
+) -> Outcome:
+    """Fly trips, each of a mission, in a world with these movers."""
+    app = pursuing(look, chase, flow, category)
     fleet = FleetData(
         airspace=Airspace(),
         drones=[
@@ -120,7 +141,7 @@ def flown(
     missions: list[Any] = []
     for number, trip in enumerate(trips):
         missions.append(apps.mission(f"m{number}", trip, index=number))
-    return simulate(app, missions, fleet, seed=1, faults=Faults(), until=None, on_event=None)
+    return simulate(app, missions, fleet, seed=1, faults=Faults(), until=until, on_event=None)
 
 
 def photos(outcome: Outcome) -> list[Mapping[str, Any]]:
@@ -165,6 +186,15 @@ def test_a_track_without_news_fails_the_trip() -> None:
     mission = outcome.standing["missions"]["m0"]
     assert mission["status"] == "FAILED"
     assert mission["reason"] == 'track "t1" has had no news for 2 s'
+
+
+def test_each_flight_after_a_track_without_news_takes_its_time() -> None:
+    """Else one that is retried without a bound would never let time go on."""
+    mover = walker((9.0, 9.0), (9.5, 9.0), speed=0.5)
+    outcome = flown([following()], mover, flow=untiring, until=30.0)
+    launches = [event["t"] for event in outcome.events if event["event"] == "trip.launched"]
+    assert 5 < len(launches) < 16
+    assert all(after - before >= 2.0 for before, after in pairwise(launches))
 
 
 def test_follow_stays_within_reach_and_takes_pictures() -> None:
@@ -225,6 +255,40 @@ def test_an_action_along_the_way_sees_what_moves_and_ends_with_the_leg() -> None
     assert ended and done - ended[0] == pytest.approx(1.0)  # the photo at the end takes a second
 
 
+def test_an_action_along_the_way_begins_once_its_drone_has_taken_off() -> None:
+    """Else one that fails at once, and is retried without a bound, would never let time go on."""
+    begun: list[tuple[float, float]] = []
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        begun.append((context.now, context.live(drone).position[2]))
+        raise ActionFailed("the lens is dirty")
+
+    patrol = Trip(name="p", action="take_photo", target=(9.0, 0.5, 1.2), along={"action": "look"})
+    outcome = flown([patrol], look=look, flow=untiring, until=20.0)
+    assert all(height > 0.0 for _, height in begun)
+    assert 5 < len(begun) == outcome.count("trip.failed") < 200
+
+
+def test_an_action_along_the_way_begins_once_its_launch_is_on_record() -> None:
+    """A drone that hovers flies at once; if the app is killed then, nothing was done for a flight that never was."""
+    looked: list[float] = []
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        looked.append(context.now)
+
+    brain = charged(app=pursuing(look), recorded=True)
+    brain.go_on({}, {"cf1": {}}, 0.0)
+    along = {"along": {"action": "look"}}
+    way = {"action": "take_photo", "target": [9.0, 0.5, 1.2], "fields": along}
+    brain.begin([{"name": "m", "trips": [way]}], 0.0)
+    brain.tell({"telemetry": {"cf1": {"landed": False}}}, 0.0)
+    settled(brain, 5.0)
+    assert brain.mission("m")["status"] == "RUNNING" and not looked
+    brain.tell({"durable": 1000}, 5.0)
+    settled(brain, 6.0)
+    assert looked
+
+
 def test_what_an_action_along_the_way_raises_fails_the_trip() -> None:
     async def look(drone: Any, trip: Any, context: Any) -> None:
         await context.sleep(1.0)
@@ -235,14 +299,34 @@ def test_what_an_action_along_the_way_raises_fails_the_trip() -> None:
     assert outcome.standing["missions"]["m0"]["reason"] == "look failed: the lens is dirty"
 
 
-def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
-    line = Trip(
+def line(*, metres: float, source: Point = (2.0, 4.0, 1.2), x: float = 10.0) -> Trip:
+    """Return a trip along a line, with pictures on the way."""
+    return Trip(
         name="line",
         action="take_photo",
-        source=(2.0, 4.0, 1.2),
-        target=(10.0, 4.0, 1.2),
-        along={"action": "take_photo", "metres": 2.0},
+        source=source,
+        target=(x, source[1], source[2]),
+        along={"action": "take_photo", "metres": metres},
     )
-    taken = photos(flown([line]))
+
+
+def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
+    taken = photos(flown([line(metres=2.0)]))
     xs = [photo["position"][0] for photo in taken]
     assert xs == pytest.approx([2.0, 4.0, 6.0, 8.0, 10.0], abs=0.3)
+
+
+def test_the_picture_at_the_end_of_a_line_is_not_taken_twice() -> None:
+    for metres in (1.0, 1.143, 1.333, 1.6):
+        assert len(photos(flown([line(metres=metres)]))) == round(8.0 / metres) + 1
+
+
+def test_pictures_close_to_each_other_are_taken_one_by_one() -> None:
+    """Not all of them at the first place, where a drone is near enough to the next one from the beginning."""
+    xs = [photo["position"][0] for photo in photos(flown([line(metres=0.15, x=4.0)]))]
+    assert 10 < len(xs) < 30
+
+
+def test_the_first_picture_is_not_taken_while_a_drone_rises_below_it() -> None:
+    taken = photos(flown([line(metres=2.0, source=(1.0, 0.5, 1.2))]))
+    assert taken[0]["position"][2] > 0.9

@@ -28,7 +28,9 @@ OUT = [AfterTrip.STAY, AfterTrip.NEXT]
 
 
 def order(
-    deadlines: dict[str, float | None], priorities: dict[str, int] | None = None
+    deadlines: dict[str, float | None],
+    priorities: dict[str, int] | None = None,
+    sources: dict[str, Point] | None = None,
 ) -> list[tuple[str, str]]:
     """Return the order in which one drone flies missions, and why."""
     inner = apps.flow(policy=earliest_deadline)
@@ -41,6 +43,8 @@ def order(
         apps.mission(name, apps.trip("A", 3.0, priority=(priorities or {}).get(name, 0)))
         for name in deadlines
     ]
+    for mission in missions:
+        mission.trips[0].source = (sources or {}).get(mission.name)
     outcome = apps.fly(apps.app(flow), *missions)
     return [
         (str(e["mission"]), str(e["why"]).partition(";")[0])
@@ -61,6 +65,14 @@ def test_a_higher_priority_comes_before_any_deadline() -> None:
 
 def test_what_is_too_late_already_keeps_none_waiting_that_can_be_in_time() -> None:
     assert [name for name, _ in order({"a": 5.0, "b": None, "c": 60.0})] == ["c", "a", "b"]
+
+
+def test_the_way_from_a_source_to_its_target_takes_its_time() -> None:
+    """It is 37 s to the source, and 33 s from there."""
+    deadlines: dict[str, float | None] = {"a": 60.0, "b": 300.0}
+    far = {"a": (19.0, 0.5, 1.2)}
+    assert [name for name, _ in order(deadlines, sources=far)] == ["b", "a"]
+    assert [name for name, _ in order(deadlines | {"a": 90.0}, sources=far)] == ["a", "b"]
 
 
 def test_it_misses_no_more_than_nearest_in_nearly_all_plans() -> None:

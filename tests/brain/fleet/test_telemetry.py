@@ -98,3 +98,10 @@ def test_a_leg_is_flown_as_drones_of_the_fleet_move(motion: Motion, part: float)
         assert state.battery_level > 0.3 - 1e-9
         clock.now = 30.0
         assert (state.location, state.battery_level) == ((4.0, 0.0, 1.0), 1.0)
+
+
+@pytest.mark.parametrize("name", ["take", "motion", "location", "anything"])
+def test_who_sees_it_cannot_change_it(name: str) -> None:
+    known = KnownState(Clock(), HOME, STRAIGHT)
+    with pytest.raises(AttributeError):
+        setattr(known, name, [])

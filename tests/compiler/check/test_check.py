@@ -1,6 +1,6 @@
 """What the checks say of a graph and find out about it, for each case of `cases/`.
 
-`mistakes.txt` and `advice.txt` are refused; in `sound.txt`, `allowed.txt` and `gates.txt` nothing is wrong;
+`mistakes.txt`, `advice.txt` and `followed.txt` are refused, and whoever does what is said of the last has a sound graph; in `sound.txt`, `allowed.txt` and `gates.txt` nothing is wrong;
 `warnings.txt` is most likely not meant; `resume.txt` is about where missions go on after a Stop.
 """
 
@@ -13,12 +13,15 @@ import pytest
 
 import plutoc.check
 from plutoc.check.run import check
+from plutoc.diagnostic import Diagnostic, Rejected
 from tests.compiler.check.facts import told
+from tests.compiler.check.follow import followed
 from tests.compiler.check.graphs import build, checked
 from tests.kit.sections import Section, compare, params, sections
 
 CASES = sorted(Path(__file__).with_name("cases").glob("*.txt"))
-REFUSED = ("mistakes", "advice")
+REFUSED = ("mistakes", "advice", "followed")
+FOLLOWED = Path(__file__).parent / "cases/followed.txt"
 
 
 @pytest.mark.parametrize("case", params(*CASES))
@@ -27,6 +30,25 @@ def test_of_a_graph_just_this_is_said_and_found_out(case: Section, update: bool)
     comes = told(case.given)
     compare(case, comes, update)
     assert comes.startswith("-- refused") == (case.path.stem in REFUSED)
+
+
+@pytest.mark.parametrize("case", params(FOLLOWED))
+def test_advice_that_is_followed_to_the_letter_leads_to_a_sound_graph(case: Section) -> None:
+    """Each time fewer mistakes are left, or another one: none comes twice."""
+    text = case.given
+    said = set[str]()
+    while found := _errors(text):
+        assert found[0].message not in said, text
+        said.add(found[0].message)
+        text = followed(text, found[0])
+
+
+def _errors(text: str) -> tuple[Diagnostic, ...]:
+    try:
+        check(build(text))
+    except Rejected as rejected:
+        return rejected.diagnostics
+    return ()
 
 
 def test_each_code_of_the_checks_is_shown_by_a_case() -> None:

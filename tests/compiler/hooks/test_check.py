@@ -116,3 +116,23 @@ app crop {
     hooks = "from . import Status\ndef look(mission, context) -> Status: ...\n"
     (one,) = found(Source("hooks.py", hooks), app)
     assert (one.code, one.label) == ("P3014", "must be `None`")
+
+
+def test_a_creator_may_never_make_a_mission() -> None:
+    """It may do something else: `-> None` is as right as `-> Mission | None`."""
+    app = """pluto 1
+app crop {
+  creator tell
+  create = MissionCreator
+  told = MissionCreator(hook: tell)
+  allocate = DroneAllocator
+  launch = TripLauncher
+  watch = TripMonitor
+  start -> create -> allocate -> launch -> watch
+  lost -> told -> allocate
+  watch -> allocate when STANDBY
+  watch -> end
+}
+"""
+    hooks = 'async def tell(event, context) -> None:\n    context.log("lost")\n'
+    assert found(Source("hooks.py", hooks), app) == ()

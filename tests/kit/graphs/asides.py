@@ -60,9 +60,12 @@ def _strange(drawing: Drawing) -> str:
 
 
 def retried(drawing: Drawing, ends: Ends) -> Ends:
-    """Draw a block that puts a failed trip back."""
+    """Draw a block that puts a failed trip back, or leaves it out."""
     if not _any(ends, F):
         return ends
+    if drawing.happens(0.2):
+        skip = drawing.block("skip", "TripSkipper", (S, C))
+        return {**drawing.lead(ends, skip, (F,)), skip: (S, C)}
     written = drawing.rng.choice(RETRIES)
     emits = (S,) if written.endswith(" 0") else (S, F)
     retry = drawing.block("retry", "PriorityManager", emits, written)

@@ -40,6 +40,8 @@ class Drawing:
     """It uses another author's blocks, too."""
     plain: bool = False
     """It has no actions, fields, policies and parameters of its own."""
+    events: Random | None = None
+    """The luck by which events happen in it; None: none do. The rest is drawn as without them."""
     words: list[str] = field(default_factory=list)
     """Categories, actions and hooks."""
     blocks: dict[str, str] = field(default_factory=dict)
@@ -56,6 +58,10 @@ class Drawing:
     def chance(self, share: float) -> bool:
         """Let it happen in this share of cases."""
         return self.rng.random() < share
+
+    def happens(self, share: float) -> bool:
+        """Let something of events be in this share of cases."""
+        return self.events is not None and self.events.random() < share
 
     def block(self, name: str, kind: str, emits: Iterable[Status], written: str = "") -> str:
         """Declare a block, and return its name, with a number behind it."""
@@ -121,8 +127,8 @@ class Drawing:
 
     def _written(self, source: str, ways: Mapping[str, Statuses]) -> Iterable[str]:
         """Write the arrows of a block: with guards, without where that says the same."""
-        if source == START:
-            yield from (f"{START} -> {target}" for target in ways)
+        if source not in self.blocks:  # missions come from there
+            yield from (f"{source} -> {target}" for target in ways)
             return
         emits = self.emits[source]
         bare: list[str] = []

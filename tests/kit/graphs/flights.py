@@ -8,6 +8,9 @@ from tests.kit.graphs.drawing import C, Drawing, Ends, F, R, S, Statuses, ordere
 OUTCOMES = (S, C, F)
 SAID: tuple[Statuses, ...] = (OUTCOMES, OUTCOMES, (F,), (R, F), (), ())
 """What a hook beside a monitor declares."""
+WAITED_FOR = tuple(
+    f"event: {name}{of}" for name in ("smoke", "seen", "late", "lost") for of in ("", ", of: any")
+)
 DEEPEST = 3
 USUAL = (("watch", "timer"), ("watch", "gap"), ("watch", "gap", "timer"), ("timer", "watch", "gap"))
 
@@ -40,11 +43,15 @@ def monitor(drawing: Drawing, ends: Ends) -> Ends:
     kind = "TripMonitor"
     if drawing.strange and drawing.chance(0.4):
         kind = drawing.rng.choice(("others.Eye", "others.Witness"))
-    return drawing.into(ends, drawing.block("watch", kind, OUTCOMES))
+    written = "relief: 25 %" if kind == "TripMonitor" and drawing.happens(0.2) else ""
+    return drawing.into(ends, drawing.block("watch", kind, OUTCOMES, written))
 
 
 def limit(drawing: Drawing, ends: Ends, kind: str) -> Ends:
-    """Draw a block that fails the trip at its limit."""
+    """Draw a block that fails the trip at its limit, or breaks the flight off at an event."""
+    if drawing.events is not None and drawing.happens(0.5):
+        event = drawing.events.choice(WAITED_FOR)
+        return drawing.into(ends, drawing.block("event", "EventMonitor", OUTCOMES, event))
     if drawing.strange and drawing.chance(0.5):
         kind = drawing.rng.choice(("others.Deadline", "others.Patience"))
     given = "within" if kind.startswith("others.") else "default"

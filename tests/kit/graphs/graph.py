@@ -31,6 +31,8 @@ FIELDS = (
     "trip has layers: int = 1, gentle: bool",
     'trip has remark: text = "", share: percent = 20 %',
 )
+EVENTS = ("event smoke(level: int = 0)", "event seen")
+ON_THE_WAY = ("action look along", "action take_photo along")
 RESULTS = ("", "", " -> int", " -> float", " -> text")
 
 
@@ -40,13 +42,16 @@ def random_source(
     *,
     strange: float = 0.15,
     plain: bool = False,
+    events: Random | None = None,
 ) -> str:
     """Return an app, sound or not, of about so many blocks.
 
-    Some use another author's blocks, too; a plain one has nothing of its own but modifiers and evaluators.
+    Some use another author's blocks, too; a plain one has nothing of its own but modifiers and evaluators. With a luck
+    for `events` it is the same app in which they happen.
     """
     most_blocks = rng.choice(most)
-    drawing = Drawing(rng=rng, most=most_blocks, strange=rng.random() < strange, plain=plain)
+    is_strange = rng.random() < strange
+    drawing = Drawing(rng=rng, most=most_blocks, strange=is_strange, plain=plain, events=events)
     return _Graph(drawing).text()
 
 
@@ -77,13 +82,30 @@ class _Graph:
         luck = Random(f"{len(drawing.words)}/{len(drawing.blocks)}")
         if not drawing.plain:
             drawing.words += [one for one in FIELDS if luck.random() < 0.4]
+        self._made_of_events()
         return drawing.text()
+
+    def _made_of_events(self) -> None:
+        """Draw what makes missions of events, and where they begin."""
+        drawing = self.drawing
+        if drawing.events is None:
+            return
+        drawing.words += EVENTS
+        for event in ("smoke", "seen", "late", "lost"):
+            if drawing.happens(0.4):
+                hook = drawing.hook("creator", "react")
+                check = drawing.block("check", "MissionCreator", (U,), f"hook: {hook}")
+                drawing.arrows.append((event, check, (U,)))
+                drawing.lead({check: (U,)}, drawing.events.choice(self.heads))
 
     def _words(self) -> None:
         """Declare what drones there are, and what they do."""
         drawing = self.drawing
         own = [action for action in ACTIONS if drawing.chance(0.35)]
         names = [*BUILT_IN, *(action.split("(")[0].split()[1] for action in own)]
+        if drawing.events is not None:
+            drawing.words += [one for one in ON_THE_WAY if drawing.happens(0.6)]
+            names.append("follow")
         for category in drawing.rng.choice(CATEGORIES):
             can = [name for name in names if drawing.chance(0.9)] or names
             drawing.words.append(f"category {category} can {', '.join(can)}")

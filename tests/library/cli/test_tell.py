@@ -64,6 +64,17 @@ def journal(tmp_path: Path) -> Path:
         ("skip North A", {"command": "skip", "mission": "North", "trip": "A"}),
         ("cancel South", {"command": "cancel", "mission": "South"}),
         ("mishap cf1 --kind crash", {"command": "mishap", "drone": "cf1", "kind": "crash"}),
+        (
+            "event smoke id=a at=3,4 level=0.7 place=wall hot=true --keep 20s",
+            {
+                "command": "raise-event",
+                "event": "smoke",
+                "id": "a",
+                "at": [3.0, 4.0],
+                "fields": {"level": 0.7, "place": "wall", "hot": True},
+                "keep": 20.0,
+            },
+        ),
     ],
 )
 def test_each_command_arrives_and_the_answer_is_printed(
@@ -89,6 +100,19 @@ def test_motors_are_cut_by_the_gateway_without_a_word_to_the_app(
         assert command("tell", journal, "cut-motors", *words) == (0, "they are cut\n", "")
     assert heard == [request_]
     assert offline.pending_stop(journal) is None
+
+
+@pytest.mark.parametrize(
+    ("fact", "says"),
+    [
+        ("at=Dock", "at=Dock is no place: write it in metres, like at=3,4"),
+        ("level", '"level" is no fact of an event: write it like level=0.7'),
+    ],
+)
+def test_what_cannot_be_said_of_an_event_is_told(
+    fact: str, says: str, journal: Path, command: Command
+) -> None:
+    assert command("tell", journal, "event", "smoke", fact) == (2, "", f"{says}\n")
 
 
 def test_trips_and_drones_are_taken_from_a_file(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import pytest
 from pluto_fleet.crazyflie.navigation import Crazyflie
 from pluto_fleet.crtp.equipment import camera, picture, port_of
 from pluto_fleet.drones.protocol import ActionNotDone, NotReady, Rejected
-from pluto_fleet.shared.domain.model import Item, Photo
+from pluto_fleet.shared.domain.model import Item, Photo, Point, Sighting
 from tests.library.crazyflie.hangar import FAST, Hangar, drone, hangar
 
 PILLS = Item(name="pills", mass=0.004)
@@ -117,3 +118,40 @@ async def test_it_blinks_and_has_its_lights_back(one: Hangar, cf: Crazyflie) -> 
     values = [value for value, _ in groupby(told)]  # cflib may say something twice
     assert values == [191.0, 128.0] * 8 + [0.0]
     assert {command.what for command in one.commands} == {"set led.bitmask"}
+
+
+async def test_its_camera_sees_what_the_tracker_sees_below_it_also_on_the_way(
+    folder: Path,
+) -> None:
+    """It covers 2 m by 1.15 m of ground from a metre."""
+    streaming = await camera()
+    options = {"camera": f"127.0.0.1:{port_of(streaming)}", "camera_view": [90, 60]}
+    person = Sighting("t1", "person", (1.5, 2.0, 0.0))
+    asked: list[tuple[float, float]] = []
+
+    def in_view(place: Point, width: float, height: float) -> tuple[Sighting, ...]:
+        asked.append((width, height))
+        return (person,)
+
+    async with hangar(folder, options) as one:
+        one.navigation._setup = replace(one.navigation._setup, in_view=in_view)
+        cf = await one.connected()
+        await cf.takeoff(1.0, FAST)
+        assert await cf.sees() == (person,)
+        going = asyncio.create_task(cf.go_to((2.0, 2.0, 1.0), FAST))
+        photo = await cf.trigger("take_photo", {})
+        assert not going.done()
+        await going
+        with pytest.raises(ActionNotDone, match="cf1 must stop to pick_item"):
+            await cf.trigger("pick_item", {})
+    streaming.close()
+    await streaming.wait_closed()
+    assert isinstance(photo, Photo)
+    assert (photo.tracks, photo.sees) == ((person,), ("person",))
+    for seen in asked:
+        assert seen == pytest.approx((2.0, 1.15), abs=0.2)
+
+
+async def test_without_a_camera_it_sees_nothing_and_says_so(cf: Crazyflie) -> None:
+    with pytest.raises(ActionNotDone, match="cf1 has no camera"):
+        await cf.sees()

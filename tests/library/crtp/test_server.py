@@ -17,6 +17,8 @@ from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.packets import NULL
 from pluto_fleet.crtp.server import Server
 from pluto_fleet.shared.domain.errors import BadInput
+from pluto_fleet.shared.domain.fleet_data import WorldData
+from pluto_fleet.shared.events.world import Mover
 from tests.kit.unthreaded import in_virtual_time, passes, the_air
 
 ECHO = b"\xfcare you there"
@@ -77,7 +79,9 @@ def folder(tmp_path: Path) -> Iterator[Path]:
 
 @pytest.mark.process
 def test_drones_in_a_process_do_what_is_asked_and_stay_where_they_were(folder: Path) -> None:
-    uris = process.start(folder, HOMES)
+    slow = Mover(name="t1", kind="person", path=((4.0, 3.0), (5.0, 3.0)), speed=1e-6)
+    around = process.Surroundings(data=WorldData(movers=(slow,)))
+    uris = process.start(folder, HOMES, world=around)
     assert list(uris) == list(HOMES)
     assert process.start(folder, HOMES) == uris
     for more, refusal in (
@@ -89,6 +93,8 @@ def test_drones_in_a_process_do_what_is_asked_and_stay_where_they_were(folder: P
     with pytest.raises(BadInput, match="cannot be asked"):
         process.told(folder, "dance")
     assert first_picture(process.told(folder, "camera")) == frames(0)
+    track = first_track(process.told(folder, "tracker"))
+    assert track == {"id": "t1", "kind": "person", "at": pytest.approx([4.0, 3.0, 0.0], abs=0.01)}
     process.told(folder, "fault", drone="cf1", name="place", value=[5.0, 4.0, 0.0])
     process.told(folder, "fault", drone="cf2", name="level", value=0.5)
     process.end(folder)
@@ -98,6 +104,13 @@ def test_drones_in_a_process_do_what_is_asked_and_stay_where_they_were(folder: P
     state = json.loads(process.told(folder, "state"))
     assert state["cf1"]["at"] == [5.0, 4.0, 0.0]
     assert state["cf2"]["level"] == pytest.approx(0.5, abs=0.01)
+
+
+def first_track(tracker: str) -> object:
+    """Return what a client of a tracker is told first."""
+    host, _, port = tracker.rpartition(":")
+    with socket.create_connection((host, int(port)), 10) as connection:
+        return json.loads(connection.makefile().readline())
 
 
 def first_picture(camera: str) -> bytes:

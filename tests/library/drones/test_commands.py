@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, nan
 from pathlib import Path
 
@@ -13,8 +13,8 @@ from pluto_fleet.drones.protocol import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
 from pluto_fleet.jobs.controls import Act, Cut, GoTo, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
-from pluto_fleet.shared.domain.model import Category, Item, Photo, Point
-from tests.kit.drones import FakeDrone, the_loop
+from pluto_fleet.shared.domain.model import Category, Item, Photo, Point, Sighting
+from tests.kit.drones import FakeDrone, passes, the_loop
 from tests.library.drones.teams import flying
 
 PILLS = Item(name="pills", mass=0.004)
@@ -169,6 +169,48 @@ async def test_cut_motors_waits_for_nothing(tmp_path: Path, hangs: bool) -> None
         team.begins("cf1", None, 0.0)
 
 
+# Elsewhere, on its way
+
+
+async def test_one_on_its_way_is_sent_on_without_a_hover_at_the_pace_that_is_asked(
+    tmp_path: Path,
+) -> None:
+    async with flying(tmp_path) as flown:
+        team = flown.team
+        drone = flown.drones["cf1"]
+        await flown.up()
+        assert not team.turn("cf1", GoTo((9.0, 9.0, 1.0)))  # it is on no way
+        flies = flown.begin(team.do("cf1", GoTo((5.0, 1.0, 1.0))))
+        await passes(2)
+        drone.told.clear()
+        began = the_loop().now
+        here = drone.place
+        assert team.turn("cf1", GoTo((here[0], here[1] + 1.0, 1.0), 4.0))
+        assert not team.turn("cf1", GoTo((9.0, 9.0, 1.0)))  # until that has reached it
+        await flown.until(lambda: flies.is_set)
+        assert flies.error is None
+        assert the_loop().now - began == pytest.approx(4.0, abs=0.3)
+        assert [told.split()[0] for told in drone.told] == ["go"]
+        assert not team.turn("cf1", GoTo((9.0, 9.0, 1.0)))  # it has arrived
+
+
+async def test_one_that_was_to_hover_flies_on_if_that_is_wanted_before_it_does(
+    tmp_path: Path,
+) -> None:
+    drone = FakeDrone()
+    drone.slow["hold"] = 2.0
+    async with flying(tmp_path, drone) as flown:
+        await flown.up()
+        flies = flown.begin(flown.team.do("cf1", GoTo((5.0, 1.0, 1.0))))
+        await passes(2)
+        flown.kernel.post(flown.team.break_off, "cf1")
+        await flown.until(lambda: flies.is_set)
+        began = the_loop().now
+        await flown.do(flown.team.do("cf1", GoTo((2.0, 1.5, 1.0))))
+        assert the_loop().now - began < 2.0
+        assert "hold" not in drone.told
+
+
 # What an action gave is what the app knows, with either copy of the runtime in its navigation
 
 
@@ -187,6 +229,7 @@ def test_a_photo_is_one_of_this_copy() -> None:
         position=(1.0, 2.0, 3.0), width=2.0, height=1.5
     )
     whole = Photo(position=(1, 2, 3), width=2, height=1, sees=("bloom",), sharpness=0.5, file="a")
+    whole = replace(whole, tracks=(Sighting("t1", "person", (1.0, 2.0, 0.0)),))
     assert result_of("cf1", "take_photo", whole) == whole
 
 

@@ -10,7 +10,7 @@ from typing import Self, cast
 
 import pytest
 
-from pluto_fleet.drones import localization
+from pluto_fleet.drones import source
 from pluto_fleet.drones.localization import LocalizationFeed
 from pluto_fleet.drones.real_fleet import RealDrone, RealFleet
 from pluto_fleet.drones.team import make_team
@@ -136,7 +136,7 @@ async def test_a_drone_that_takes_long_to_hear_keeps_no_other_and_hears_the_late
 async def test_eyes_that_close_are_opened_again(
     end: object, why: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(localization, "PAUSE", 0.0)
+    monkeypatch.setattr(source, "PAUSE", 0.0)
     async with Scene() as scene:
         await scene.sees(("cf1", (1, 1, 1)), end, ("cf1", (2, 2, 2)))
         assert scene.cf1.heard == [(1, 1, 1), (2, 2, 2)]

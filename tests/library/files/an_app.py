@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +15,10 @@ from pluto_fleet.shared.domain.model import Category, Drone, Mission, Trip
 from pluto_fleet.shared.domain.own_fields import OwnField
 from pluto_fleet.shared.domain.quantities import Type
 from pluto_fleet.shared.domain.status import Status
+from pluto_fleet.shared.events.company import CompanyOf
+from pluto_fleet.shared.events.declared import TRIP_FIELDS, AlongField
+from pluto_fleet.shared.events.raising import EventsOf
+from pluto_fleet.shared.events.tracks import TracksOf
 from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.own_action import OwnAction
 from pluto_fleet.shared.flow.run import Run
@@ -172,3 +177,36 @@ OWN = described(
     )
 )
 """An app with fields of its own, of every sort."""
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class SurveyTrip(Trip):
+    track: str | None = None
+    reach: float = 0.5
+    lost_after: float = 2.0
+    along: Mapping[str, Any] | None = None
+
+
+SURVEY = described(
+    App(
+        name="survey",
+        title="Survey",
+        flow=fly_mission,
+        mission=FieldMission,
+        trip=SurveyTrip,
+        fields=(
+            *TRIP_FIELDS,
+            AlongField(
+                name="along",
+                on=Entity.TRIP,
+                type=FieldType.ALONG,
+                label="On the way",
+                actions=("take_photo", "measure"),
+            ),
+        ),
+        categories=(Category(name="scout", speed=1.0, flight_time=600.0),),
+        actions=BUILT_IN,
+        parts=(EventsOf(), TracksOf(), CompanyOf()),
+    )
+)
+"""An app whose drones take photos on the way."""

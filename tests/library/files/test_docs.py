@@ -11,7 +11,7 @@ from pluto_fleet.files.missions import load_missions
 from pluto_fleet.files.plan_check import problems
 from pluto_fleet.files.reading import ELSEWHERE
 from pluto_fleet.shared.domain.airspace import Airspace
-from tests.library.files.an_app import APP
+from tests.library.files.an_app import APP, SURVEY
 from tests.paths import ROOT
 
 PAGE = (ROOT / "docs" / "files.md").read_text(encoding="utf-8")
@@ -53,12 +53,15 @@ def test_the_example_of_promises_is_read(tmp_path: Path) -> None:
 
 def test_the_examples_of_areas_and_lists_are_read(tmp_path: Path) -> None:
     """With the list that is shown beside its mission."""
-    _, _, area, each, *_ = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    _, _, area, on_the_way, each, *_ = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
     [rows] = re.findall(r"```\n(nr,.*?)```", PAGE, re.DOTALL)
     (tmp_path / "m.toml").write_text(area, encoding="utf-8")
     [field] = load_missions(tmp_path / "m.toml", APP, Airspace())
     assert [trip.name for trip in field.trips] == [f"Beds {n}" for n in range(1, 41)]
     assert field.trips[0].target[2] == 1.5
+    (tmp_path / "m.toml").write_text(on_the_way, encoding="utf-8")
+    strips = load_missions(tmp_path / "m.toml", SURVEY, Airspace())
+    assert [one.name for one in strips] == [f"Strip {n}" for n in range(1, 6)]
     (tmp_path / "m.toml").write_text(each, encoding="utf-8")
     (tmp_path / "beds.csv").write_text(rows, encoding="utf-8")
     first, second = load_missions(tmp_path / "m.toml", APP, Airspace())

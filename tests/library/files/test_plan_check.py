@@ -8,9 +8,11 @@ from typing import Any
 import pytest
 
 from pluto_fleet.files.fleet import DroneEntry, FleetFile
-from pluto_fleet.files.plan_check import endless, look_alikes, problems, uncharged
+from pluto_fleet.files.plan_check import endless, look_alikes, problems, uncharged, untracked
 from pluto_fleet.shared.domain.airspace import Airspace
+from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.domain.model import AfterTrip, Category, Item, Point
+from pluto_fleet.shared.events.world import Mover
 from pluto_fleet.shared.fleet.reach import chain_of, miss_of
 from tests.kit import apps
 from tests.library.files.an_app import APP, FieldMission, FieldTrip
@@ -45,6 +47,34 @@ def fleet(*drones: tuple[Category, Point], airspace: Airspace | None = None) -> 
 def said(team: FleetFile, *trips: FieldTrip) -> list[str]:
     mission = FieldMission(name="M", trips=list(trips))
     return problems([mission], APP, team, team.airspace)
+
+
+@pytest.mark.parametrize(
+    ("real", "simulated", "said"),
+    [
+        (True, False, "name a tracker, by tracker = … in [fleet]"),
+        (False, True, "add [[world.mover]] to a simulated world"),
+        (
+            True,
+            True,
+            "name a tracker, by tracker = … in [fleet], or add [[world.mover]] to a simulated world",
+        ),
+    ],
+)
+def test_who_follows_what_nobody_sees_is_told_what_to_add(
+    real: bool, simulated: bool, said: str
+) -> None:
+    team = fleet((SCOUT, HOME))
+    follows = FieldMission(name="M", trips=[trip("follow")])
+    sentence = untracked([follows], APP, team, real=real, simulated=simulated)
+    assert sentence == f"drones follow what moves, and nothing says where that is: {said}"
+    walker = Mover(name="t1", kind="person", path=((1.0, 1.0),), speed=1.0)
+    moving = replace(team, world=WorldData(movers=(walker,)))
+    assert (untracked([follows], APP, moving, real=real, simulated=simulated) is None) == simulated
+    seen = replace(team, tracker="lines")
+    assert (untracked([follows], APP, seen, real=real, simulated=simulated) is None) == real
+    stands = FieldMission(name="M", trips=[trip("take_photo")])
+    assert untracked([stands], APP, team, real=real, simulated=simulated) is None
 
 
 def test_a_chain_goes_from_a_pick_to_its_release() -> None:

@@ -67,19 +67,14 @@ def test_what_is_too_old_by_then_is_dropped_and_said_so(clock: list[float]) -> N
     assert names(living.named("event.raised"), "id") == ["roof"]
 
 
-def test_a_place_that_is_not_on_the_map_is_found_out_at_resume(clock: list[float]) -> None:
-    living = stopped(clock, {"at": [4_000.0, 2.0]}, rest=1.0)
-    (why,) = names(living.named("event.dropped"), "why")
-    assert "outside the map" in str(why)
-    assert living.statuses == ["COMPLETED"]
-
-
 def test_what_cannot_happen_is_not_kept(clock: list[float]) -> None:
     living = Living(app(), apps.mission("a", apps.trip("1", 9)))
-    keep = partial(kept_events.kept_one, living.app)
+    keep = partial(kept_events.kept_one, living.app, living.fleet)
     standing = living.memory.standing()
     with pytest.raises(BadInput, match='there is no event "smoke"; there are: intruder'):
         keep(standing, "smoke", {})
+    with pytest.raises(BadInput, match="is outside the map"):
+        keep(standing, "intruder", {"at": [4_000.0, 2.0]})
     with pytest.raises(BadInput, match="unknown key"):
         keep(standing, "intruder", {"fields": {"colour": "red"}})
     living.run()

@@ -8,7 +8,9 @@ from errno import ENOSPC
 from pathlib import Path
 
 from pluto_fleet.journal import errors
+from pluto_fleet.journal.database import written
 from pluto_fleet.journal.errors import JournalError
+from pluto_fleet.journal.facts import row_of
 from pluto_fleet.journal.standing import Row, Standing, inherited
 from pluto_fleet.journal.store import Entry
 from pluto_fleet.shared.domain.trace import Event
@@ -41,11 +43,11 @@ class Memory:
 
     def rows(self) -> list[Row]:
         """Return the durable rows."""
-        return [(table, key, json.loads(text)) for (table, key), text in self._rows.items()]
+        return [(table, key, row_of(table, key, text)) for (table, key), text in self._rows.items()]
 
     def replace(self, rows: Sequence[Row]) -> None:
         """Have other rows, as somebody has written them."""
-        self._rows = {(table, key): json.dumps(row) for table, key, row in rows}
+        self._rows = {(table, key): written(row) for table, key, row in rows}
 
     def standing(self) -> Standing:
         """Return where everything stands, by the durable rows."""
@@ -83,4 +85,4 @@ class Memory:
         for entry in entries:
             self._events.append(entry.events)
             for table, key, row in entry.rows:
-                self._rows[table, key] = json.dumps(row)
+                self._rows[table, key] = written(row)

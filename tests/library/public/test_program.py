@@ -33,14 +33,18 @@ def test_each_extra_is_installed_or_not(monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(extras, "version", lambda name: "1.2")
     there = {"cflib", "mcap", "PIL", "starlette", "uvicorn", "websockets", "matplotlib", "shapely"}
     monkeypatch.setattr(extras, "find_spec", lambda name: name if name in there else None)
+    there |= {"mavsdk", "pymavlink"}
     assert extras.installed() == (
-        "areas (shapely 1.2), crazyflie (cflib 1.2), plot (matplotlib 1.2),"
+        "areas (shapely 1.2), crazyflie (cflib 1.2), mavlink (mavsdk 1.2, pymavlink 1.2),"
+        " plot (matplotlib 1.2),"
         " station (mcap 1.2, pillow 1.2, starlette 1.2, uvicorn 1.2, websockets 1.2)"
     )
-    there -= {"cflib", "uvicorn", "shapely"}
-    assert extras.installed() == "plot (matplotlib 1.2); not installed: areas, crazyflie, station"
+    there -= {"cflib", "uvicorn", "shapely", "mavsdk"}
+    assert extras.installed() == (
+        "plot (matplotlib 1.2); not installed: areas, crazyflie, mavlink, station"
+    )
     there.clear()
-    assert extras.installed() == "not installed: areas, crazyflie, plot, station"
+    assert extras.installed() == "not installed: areas, crazyflie, mavlink, plot, station"
 
 
 def test_the_extras_are_those_that_an_installer_knows() -> None:

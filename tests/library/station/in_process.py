@@ -90,9 +90,9 @@ class World:
         """Return what a simulated world takes for the time of day."""
         return Moment(wall=self.loop.now, boot="", up=0.0)
 
-    def clock(self, speed: float) -> RealTime:
+    def clock(self, *given: float) -> RealTime:
         """Make a gateway's clock, and remember it."""
-        self.kernels.append(RealTime(speed))
+        self.kernels.append(RealTime(*given))
         return self.kernels[-1]
 
     def navigation(self, *given: Any) -> SimulatedNavigation:

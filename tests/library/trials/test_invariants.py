@@ -14,6 +14,7 @@ from pluto_fleet.trials.rules import (
     AttemptsCountUp,
     CompletedDidEverything,
     EndsOnce,
+    EventsHappenOnce,
     LimitsAreKept,
     NothingAfterTheEnd,
     Rule,
@@ -46,8 +47,10 @@ def sound() -> Events:
     def given(name: str, drone: str) -> Event:
         return {"event": "trip.allocated", "mission": "ward", "trip": name, "drone": drone}
 
-    promised = {"opens": 3.0, "deadline": 16.5, "after": ["dusk"]}
+    promised = {"opens": 5.0, "deadline": 18.5, "after": ["dusk"]}
     events: list[Event] = [
+        {"event": "event.raised", "id": "door"},
+        {"event": "event.over", "id": "door", "made": "dusk"},
         {"event": "mission.created", "mission": "dusk", "trips": []},
         {"event": "mission.ended", "mission": "dusk", "status": "COMPLETED", "reason": ""},
         {"event": "mission.promised", "mission": "ward", **promised},
@@ -65,7 +68,7 @@ def sound() -> Events:
         trip("launched", "bed", "d1"),
         trip("completed", "bed", "d1"),
         {"event": "drone.returning", "drone": "d1"},
-        {"event": "mission.late", "mission": "ward", "deadline": 16.5},
+        {"event": "mission.late", "mission": "ward", "deadline": 18.5},
         {"event": "mission.extended", "mission": "ward", "redo": [], "add": ["look"]},
         {"event": "drone.free", "drone": "d1"},
         given("look", "d1"),
@@ -214,7 +217,7 @@ def gives_a_recovering_drone(trace: Events) -> None:
 
 @planted("d0 was lost before drone.free", StaysDown)
 def brings_back_the_lost(trace: Events) -> None:
-    trace.insert(place(trace, "drone.lost") + 1, {"t": 6.5, "event": "drone.free", "drone": "d0"})
+    trace.insert(place(trace, "drone.lost") + 1, {"t": 11.5, "event": "drone.free", "drone": "d0"})
 
 
 @planted("flight 2 of pick of ward calls itself attempt 1", AttemptsCountUp)
@@ -224,6 +227,37 @@ def miscounts(trace: Events) -> None:
             event["attempt"] = 1
 
 
+@planted("flight 1 of look of ward calls itself attempt 2", AttemptsCountUp)
+def charges_an_interruption(trace: Events) -> None:
+    launch = place(trace, "trip.launched", trip="look")
+    again = [
+        {"t": trace[launch]["t"], "event": "trip.interrupted", "mission": "ward", "trip": "look"},
+        dict(trace[launch], attempt=2),
+    ]
+    trace[launch + 1 : launch + 1] = again
+    trace[place(trace, "trip.completed", trip="look")]["attempt"] = 2
+
+
+@planted("event door happens once more", EventsHappenOnce)
+def happens_twice(trace: Events) -> None:
+    trace.insert(1, dict(trace[0]))
+
+
+@planted("event window has not happened, and is over", EventsHappenOnce)
+def reacts_to_nothing(trace: Events) -> None:
+    trace[1]["id"] = "window"
+
+
+@planted("mission dusk is made once more, of event door", EventsHappenOnce)
+def makes_a_mission_twice(trace: Events) -> None:
+    trace.insert(2, dict(trace[1]))
+
+
+@planted("mission dawn was made of an event, and has not begun", EventsHappenOnce)
+def loses_a_mission(trace: Events) -> None:
+    trace[1]["made"] = "dawn"
+
+
 @planted("look 1 times to do", CompletedDidEverything)
 def forgets_a_trip(trace: Events) -> None:
     del trace[
@@ -231,9 +265,9 @@ def forgets_a_trip(trace: Events) -> None:
     ]
 
 
-@planted("begins before its window, 3.5 s", PromisesAreKept)
+@planted("begins before its window, 5.5 s", PromisesAreKept)
 def opens_too_soon(trace: Events) -> None:
-    trace[place(trace, "mission.promised")]["opens"] = 3.5
+    trace[place(trace, "mission.promised")]["opens"] = 5.5
 
 
 @planted("begins, and dusk before it is FAILED", PromisesAreKept)
@@ -253,7 +287,7 @@ def promises_again(trace: Events) -> None:
 
 @planted("ward is late before its deadline", PromisesAreKept)
 def is_late_too_soon(trace: Events) -> None:
-    trace[place(trace, "mission.promised")]["deadline"] = 18.0
+    trace[place(trace, "mission.promised")]["deadline"] = 20.0
 
 
 @planted("ward is late once more", PromisesAreKept)
@@ -262,7 +296,7 @@ def is_late_twice(trace: Events) -> None:
     trace.insert(late, dict(trace[late]))
 
 
-@planted("was due at 16.5 s, and is not late", PromisesAreKept)
+@planted("was due at 18.5 s, and is not late", PromisesAreKept)
 def hides_that_it_is_late(trace: Events) -> None:
     del trace[place(trace, "mission.late")]
 

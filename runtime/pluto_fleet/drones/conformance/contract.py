@@ -25,6 +25,7 @@ from .recording import (
     moved,
     off_course,
     stands_still,
+    stood,
     too_fast,
     units_differ,
 )
@@ -38,6 +39,9 @@ _MISSING = {
     "may_fall": "emergency_stop was not tried",
 }
 
+
+SETTLES = 2.0
+"""Seconds after which a drone keeps pace with what it follows."""
 
 _Flight = Callable[[], Coroutine[Any, Any, FlightRecord]]
 
@@ -84,6 +88,7 @@ class NavigationContract(Author):
         possible: dict[str, _Flight] = {
             "tour": lambda: flights.tour(self),
             "closed in the air": lambda: flights.closed_in_the_air(self),
+            "followed": lambda: flights.followed(self),
         }
         if self._gives("make_unreachable"):
             possible["unreachable"] = lambda: flights.unreachable(self, self.make_unreachable)
@@ -218,6 +223,24 @@ class NavigationContract(Author):
         assert step.after.telemetry.flying, "after hold, telemetry says that it does not fly"
         drift = moved(record.during("after hold"))
         assert drift <= 2 * self.tolerance, f"hold returned, and it moved {drift:.2f} m further"
+
+    def test_it_follows_what_moves(self) -> None:
+        """Sent on twice a second, by `follow` or by `go_to`, it keeps near, and does not stop on its way."""
+        record = self._flown("followed")
+        step = record.step("follow").done()
+        samples = record.during("follow")
+        x, y, _ = step.before.telemetry.position
+        starts = step.began + SETTLES
+        ends = step.began + self.away / self.pace
+        stopped = stood(samples, starts, ends - flights.AHEAD, self.pace / 4)
+        assert stopped is None, f"it stopped on its way, {stopped:.1f} s after it had set out"
+        far = max(
+            dist(one.telemetry.position[:2], (x + self.pace * (one.at - step.began), y))
+            for one in samples
+            if starts < one.at < ends
+        )
+        most = self.pace * flights.AHEAD + 2 * self.tolerance
+        assert far <= most, f"it was {far:.2f} m away from what moves at {self.pace} m/s"
 
     def test_landing_returns_with_the_motors_off(self) -> None:
         record = self._tour()

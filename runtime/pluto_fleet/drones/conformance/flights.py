@@ -13,6 +13,7 @@ from math import dist, nan
 from typing import TYPE_CHECKING
 
 from ...shared.domain.model import Point
+from ..following import follow
 from ..protocol import DroneNavigation
 from .recording import FlightRecord, Sample, Step, Truth
 
@@ -33,6 +34,8 @@ class Author:
     """Metres to fly, along x from where the drone stands: there must be room."""
     speed = 0.5
     """Metres per second: the limit that is given with each command."""
+    pace = 0.2
+    """Metres per second of what it follows, along x for as far as it flies away."""
     rest = 0.4
     """Seconds to observe a drone after a command, while it should stay where it is."""
     tolerance = 0.1
@@ -209,6 +212,41 @@ async def tour(subject: Author) -> FlightRecord:
         await flight.tries("connect again", drone.connect, subject.connect_limit)
         await flight.rests()
         await flight.does("close", drone.close, 20.0)
+    return flight.record
+
+
+AHEAD = 1.0
+AGAIN = 0.5
+"""Seconds ahead of what it follows to which a drone is sent, and until it is sent on."""
+
+
+async def followed(subject: Author) -> FlightRecord:
+    """Follow what moves along x, and is known twice a second."""
+    async with flying(subject, subject.make) as flight:
+        await flight.sets_out()
+        drone = flight.navigation
+        pace = subject.pace
+        x, y, _ = drone.telemetry.position
+        lasts = subject.away / pace
+
+        async def follows() -> None:
+            began = now()
+            while (passed := now() - began) < lasts:
+                ahead = min(passed + AHEAD, lasts)
+                target = (x + pace * ahead, y, subject.height)
+                going = asyncio.create_task(follow(drone, target, subject.speed, ahead - passed))
+                await asyncio.wait([going], timeout=AGAIN)
+                if not going.done():
+                    going.cancel()
+                    await asyncio.wait([going], timeout=1.0)
+                elif not going.cancelled() and going.exception() is None:
+                    await asyncio.sleep(max(0.0, began + passed + AGAIN - now()))
+                if not going.cancelled():
+                    going.result()
+
+        await flight.does("follow", follows, 2 * lasts + 10)
+        await flight.does("hold", drone.hold, 10.0)
+        await flight.does("land", lambda: drone.land(subject.speed), flight.limit(subject.height))
     return flight.record
 
 

@@ -163,6 +163,20 @@ def too_fast(samples: Sequence[Sample], speed: float, noise: float) -> float | N
     return None
 
 
+def stood(samples: Sequence[Sample], start: float, end: float, slowest: float) -> float | None:
+    """Return how many seconds after the first sample it was slower than this, between two times; None: never."""
+    told = [one for one in samples if start < one.at < end]
+    begin = 0
+    for now in told:
+        while now.at - told[begin].at > WINDOW:
+            begin += 1
+        seconds = now.telemetry.time - told[begin].telemetry.time
+        way = dist(now.telemetry.position, told[begin].telemetry.position)
+        if seconds > WINDOW / 2 and way < slowest * seconds:
+            return now.at - samples[0].at
+    return None
+
+
 def looks_without_news(samples: Sequence[Sample]) -> int:
     """Return the most samples in a row without new telemetry."""
     most = row = 0

@@ -28,8 +28,8 @@ class Reservation:
     """The space reserved for one drone. The part behind it is free, by its telemetry."""
 
     __slots__ = (
-        *("_known", "_shape", "at", "box", "drone", "fails"),
-        *("moves", "points", "shape_box", "slack", "tail", "telemetry", "until"),
+        *("_known", "_shape", "at", "box", "drone", "fails", "moves", "points"),
+        *("shape_box", "shoots", "slack", "tail", "telemetry", "until"),
     )
 
     def __init__(self, drone: str, telemetry: Telemetry, slack: float = 0.0) -> None:
@@ -44,8 +44,10 @@ class Reservation:
         """The index of the point that it left last."""
         self.tail: tuple[Point, ...] = ()
         """Where it may go beyond that, or while it has not stopped yet."""
+        self.shoots: tuple[Point, ...] = ()
+        """Where it may still shoot to from the way before this one."""
         self.until = 0.0
-        """Until when that may be so."""
+        """Until when that, or that it has not stopped, may be so."""
         self.box: Box = (0.0,) * 6
         """The box around all that it may take up until it is told something else."""
         self.shape_box = self.box
@@ -54,11 +56,22 @@ class Reservation:
         self._known: tuple[float, int, tuple[Point, ...]] = -1.0, 0, ()
         """For when, from which point and for which route the shape was asked for last."""
 
-    def moves_along(self, points: tuple[Point, ...], tail: tuple[Point, ...]) -> None:
-        """Reserve a route that it is about to fly, with its possible overshoot."""
+    def moves_along(
+        self,
+        points: tuple[Point, ...],
+        tail: tuple[Point, ...],
+        shoots: tuple[Point, ...] = (),
+        until: float = 0.0,
+    ) -> None:
+        """Reserve a route that it is about to fly, with its possible overshoot.
+
+        `shoots`: where it may still shoot to, until a time.
+        """
         self.points, self.at, self.tail = points, 0, tail
+        self.shoots = shoots
+        self.until = until
         self.moves, self.fails = True, False
-        self.box = _widened(box_of((*points, *tail) if tail else points))
+        self.box = _widened(box_of((*points, *tail, *shoots) if tail or shoots else points))
 
     def rests(self, tail: tuple[Point, ...], until: float) -> None:
         """Reserve the place where it hovers now."""
@@ -113,7 +126,8 @@ class Reservation:
     def _seen(self, now: float) -> tuple[Point, ...]:
         here = self.place
         if self.moves:
-            return (here, *self.points[self.at + 1 :], *self.tail)
+            shoots = self.shoots if now < self.until else ()
+            return (here, *self.points[self.at + 1 :], *self.tail, *shoots)
         if self.fails or self.telemetry.location[2] < self.points[0][2] - SINKS:
             return here, (here[0], here[1], 0.0)
         return (here, *self.tail) if now < self.until else (here,)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import lru_cache, partial
 from math import dist, inf
 from typing import TYPE_CHECKING
@@ -115,7 +116,12 @@ class Traffic:
         if not self._space.has_room(section):
             return None
         now = self._kernel.now
+        shoots = self._shoots(section.drone, now)
+        if shoots:
+            section = replace(section, shoots=shoots)
         for way in self._ways(section, ways):
+            if shoots:
+                way = replace(way, shoots=shoots)
             if self._space.blocker(way) is None and not (self._waiting and self._elder(way, now)):
                 return self._give(way)
         if not (beside and self._is_taken(section, now)):
@@ -129,8 +135,11 @@ class Traffic:
         since: float,
         ways: Ways | None = None,
         beside: bool = False,
-    ) -> Section:
-        """Wait for a section, and return it; it may only lead out of the way."""
+    ) -> Section | None:
+        """Wait for a section, and return it; it may only lead out of the way.
+
+        None: the drone wants another one by now.
+        """
         wait = Wait(section, since, tuple(self._ways(section, ways)), beside)
         self._waiting.add(wait)
         if self._timer is None:
@@ -181,6 +190,36 @@ class Traffic:
             if meets(shape, column, self.limit) and not meets(shape[:1], column, self.limit):
                 self.halted[other] = None
                 self._controls.break_off(other)
+
+    def turned(self, section: Section) -> bool:
+        """Reserve another section for a drone that is on its way; False: that must stop first.
+
+        The drone does not stop: where it may shoot to is reserved, too.
+        """
+        now = self._kernel.now
+        way = replace(section, shoots=self._shoots(section.drone, now))
+        if self._space.blocker(way) is not None or (self._waiting and self._elder(way, now)):
+            return False
+        self._give(way)
+        return True
+
+    def _shoots(self, drone: str, now: float) -> tuple[Point, ...]:
+        """Return where a drone may shoot to that is on its way, or has not stopped yet."""
+        claim = self._claims.get(drone)
+        if claim is None or not self._overshoot:
+            return ()
+        if claim.moves:
+            return ahead(claim.shape(now), self._overshoot)
+        return claim.tail if now < claim.until else ()
+
+    def wants_another(self, drone: str) -> bool:
+        """Called when a drone that may wait for its section wants another; return whether it did."""
+        wait = self._waiting.of(drone)
+        if wait is None:
+            return False
+        self._waiting.remove(wait)
+        wait.over.set(None)
+        return True
 
     def break_off(self, drone: str) -> None:
         """Drop a drone's place in the queue."""
@@ -348,7 +387,8 @@ class Traffic:
 
     def _give(self, section: Section) -> Section:
         claim = self._space.claim(section.drone)
-        claim.moves_along(section.points, section.tail)
+        until = self._kernel.now + STOPPING if section.shoots else 0.0
+        claim.moves_along(section.points, section.tail, section.shoots, until)
         self._waiting.changed(claim)
         return section
 

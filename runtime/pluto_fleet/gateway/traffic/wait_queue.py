@@ -50,6 +50,11 @@ class Obstacle:
             self._points, self._last = claim.points, 0
             self._until = claim.until if stops else now + HOVERS
             return
+        if claim.shoots and now < claim.until:  # then it is on its route alone
+            self._points = ()
+            self._last = 0
+            self._until = claim.until
+            return
         shape = claim.shape(now)
         if claim.points is not self._points or claim.at > self._last:
             self._points, self._clear = claim.points, 0.0
@@ -127,7 +132,8 @@ class Wait:
     ways: Sequence[Section]
     beside: bool = False
     """It may end beside its target, if another drone has taken that."""
-    over: Future[Section] = field(default_factory=Future)
+    over: Future[Section | None] = field(default_factory=Future)
+    """Set with what it gets; None: it wants another section by now."""
     due: float = -inf
     """When it has to be looked at again, unless what keeps it changes before."""
     keepers: Collection[str] = ()

@@ -41,18 +41,22 @@ class Section:
     """It ends on the ground: the last point is right below the one before."""
     tail: tuple[Point, ...] = ()
     """Where it goes next by default: to its dock."""
+    shoots: tuple[Point, ...] = ()
+    """Where it may still shoot to at first, as it comes from another way."""
     aside: bool = False
     """It only makes room for others."""
     target: Point | None = None
     """Where it was to end, if it ends beside that."""
     whole: tuple[Point, ...] = field(init=False, compare=False, repr=False)
-    """It with its tail."""
+    """It with its tail, and where it may shoot to."""
     box: Box = field(init=False, compare=False, repr=False)
     """The box around all that."""
 
     def __post_init__(self) -> None:
         # Frozen, yet both are asked for again and again.
-        whole = (*self.points, *self.tail) if self.tail else self.points
+        whole = self.points
+        if self.tail or self.shoots:
+            whole = (*whole, *self.tail, *self.shoots)
         object.__setattr__(self, "whole", whole)
         object.__setattr__(self, "box", box_of(whole))
 

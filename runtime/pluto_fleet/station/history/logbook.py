@@ -15,6 +15,7 @@ from .reading import JournalText
 
 if TYPE_CHECKING:
     from ...app import App
+    from ..wire import EventRow
 
 LEFT_OUT = "an event could not be shown: it is not as this app, or this version, knows it"
 
@@ -26,6 +27,7 @@ class Logbook:
     feed: Feed
     lines: list[Any] = field(default_factory=list)
     results: list[Any] = field(default_factory=list)
+    events: list[EventRow] = field(default_factory=list)
     said: str = ""
     """What is missing; empty: nothing."""
 
@@ -45,6 +47,7 @@ def logbook(app: App, journal: JournalText, name_of: NameOf = nowhere) -> Logboo
             book.lines += _new(book.feed.log.since(len(book.lines)))
     book = book or Logbook(Feed(app, {}))
     book.results = _new(iter(book.feed.results))
+    book.events = [*book.feed.events]
     book.said = journal.damaged or book.said
     return book
 

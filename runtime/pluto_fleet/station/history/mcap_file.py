@@ -1,7 +1,7 @@
 """A flight as an MCAP file, which Foxglove and other tools of robotics read.
 
-Each drone has a pose and a transform of Foxglove's own schemas, and a battery; each mission its row;
-the console is a `foxglove.Log`, and each result a message. All are JSON.
+Each drone has a pose and a transform of Foxglove's own schemas, and a battery; each mission its row; what moves beside
+them a pose; the console is a `foxglove.Log`, and each result a message. All are JSON.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ from .replay import Past
 if TYPE_CHECKING:
     from mcap.writer import Writer
 
+    from ..wire import TrackWay
+
 FRAME = "map"
 """The name of the fleet's own coordinates: metres, z up."""
 
@@ -31,6 +33,7 @@ HOW_TO_INSTALL = (
 LARGEST = 1024 * 1024 * 1024
 """Bytes of a file, which is made in memory."""
 
+_NO_TURN = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
 _SECOND = 1_000_000_000
 _LATEST = 2**64 - 1
 _LEVELS = {"bad": 4, "info": 2, "good": 2, "hook": 2}
@@ -64,11 +67,15 @@ class _Writing:
         """What was written last where only changes are."""
 
     def write(self, past: Past, book: Logbook) -> None:
-        """Write all: first what is shown over time, then the console and the results."""
+        """Write all: first what is shown over time, then the console, what moved and happened, and the results."""
         for frame in past.frames():
             self._frame(frame)
         for line in book.lines:
             self._line(line)
+        for way in past.ways():
+            self._way(way)
+        for happened in book.events:
+            self._put("/events", "pluto.Event", happened["time"], happened)
         for result in book.feed.brought():
             assert isinstance(result, Mapping)
             self._put("/results", "pluto.Result", result["time"], result)
@@ -93,18 +100,25 @@ class _Writing:
         stamp = self._stamp(t)
         position = {axis: row.get(axis) for axis in "xyz"}
         if None not in position.values():
-            turn = {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}
-            pose = {"position": position, "orientation": turn}
-            put = {"timestamp": stamp, "frame_id": FRAME, "pose": pose}
-            self._put(f"{topic}/pose", "foxglove.PoseInFrame", t, put)
+            self._put_pose(topic, t, position)
             moved = {"timestamp": stamp, "parent_frame_id": FRAME, "child_frame_id": drone}
-            moved |= {"translation": position, "rotation": turn}
+            moved |= {"translation": position, "rotation": _NO_TURN}
         if row.get("battery") is not None:
             level = {"level": row["battery"]}
             self._put_change(f"{topic}/battery", "pluto.Battery", t, level)
         standing = {fact: row.get(fact) for fact in ("status", "mission", "why")}
         self._put_change(f"{topic}/status", "pluto.DroneStatus", t, standing)
         return moved
+
+    def _way(self, way: TrackWay) -> None:
+        """Write where something was that moves."""
+        for t, *at in way["way"]:
+            self._put_pose(f"/tracks/{_topic(way['id'])}", t, dict(zip("xyz", at, strict=True)))
+
+    def _put_pose(self, topic: str, t: float, position: Mapping[str, Any]) -> None:
+        pose = {"position": position, "orientation": _NO_TURN}
+        put = {"timestamp": self._stamp(t), "frame_id": FRAME, "pose": pose}
+        self._put(f"{topic}/pose", "foxglove.PoseInFrame", t, put)
 
     def _line(self, line: Any) -> None:
         number, t, mission, text, kind = _parts(line)
@@ -186,6 +200,7 @@ SCHEMAS: Mapping[str, dict[str, Any]] = {
     "pluto.Mission": _object(name=_TEXT, status=_TEXT, reason=_TEXT, wait=_TEXT, done=_WHOLE),
     "pluto.Battery": _object(level=_NUMBER),
     "pluto.DroneStatus": _object(status=_TEXT, mission={}, why=_TEXT),
+    "pluto.Event": _object(id=_TEXT, name=_TEXT, time=_NUMBER, made={}, why=_TEXT),
     "pluto.Result": _object(time=_NUMBER, mission=_TEXT, kind=_TEXT, value={}),
 }
 """Their JSON schemas, by their names; those of Foxglove have all of its fields that are used here."""

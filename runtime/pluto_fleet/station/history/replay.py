@@ -12,13 +12,14 @@ from ..results.rows import NameOf, nowhere
 from ..shown import changed
 from .frames import frames_of, opened_at
 from .logbook import logbook
+from .ways import Ways
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from ...app import App
     from ..shown import Frame
-    from ..wire import FlightSummary, Replay
+    from ..wire import FlightSummary, Replay, TrackWay
     from .reading import Event, JournalText
 
 BATTERY_STEP = 0.01
@@ -82,6 +83,8 @@ class Past:
             "log": [],
             "results": [],
             "alerts": [],
+            "events": [],
+            "tracks": [],
             "batteries": {},
         }
         if start <= 0:
@@ -95,9 +98,12 @@ class Past:
             whole["said"] = "; ".join(filter(None, (whole["said"], book.said)))
         whole["log"] = book.lines[-LINES:]
         whole["results"] = book.results[-RESULTS:]
+        whole["events"] = book.events
+        ways = Ways()
         alerts: dict[str, Any] = {}
         for _, events in self.read().instants():
             for event in events:
+                ways.take(event)
                 for id, change in (
                     event.get("alerts", {}).items() if event["event"] == SHOWN else ()
                 ):
@@ -105,6 +111,15 @@ class Past:
                 for drone, level in _levels(event):
                     _add_level(whole["batteries"].setdefault(drone, []), event["t"], level)
         whole["alerts"] = [*alerts.values()]
+        whole["tracks"] = ways.all()
+
+    def ways(self) -> list[TrackWay]:
+        """Return where all was that moved beside the drones."""
+        ways = Ways(most=None)
+        for _, events in self.read().instants():
+            for event in events:
+                ways.take(event)
+        return ways.all()
 
     @property
     def begun_at(self) -> int | None:

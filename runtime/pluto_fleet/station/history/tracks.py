@@ -69,8 +69,8 @@ class Tracks:
             track = self._of(event)
             before, after = event["battery"]
             track.add(Known(event["t"] - event["seconds"], _point(event["from"]), before))
-            ended = _point(event["to"]) if event["ended"] == DONE else None
-            track.add(Known(event["t"], ended, after))
+            ended = event["to"] if event["ended"] == DONE else event.get("at")
+            track.add(Known(event["t"], None if ended is None else _point(ended), after))
         elif event["event"].startswith("drone.") and event.get("at") is not None:
             self._of(event).add(Known(event["t"], _point(event["at"]), event.get("battery")))
 

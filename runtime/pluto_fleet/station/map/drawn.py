@@ -10,11 +10,12 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from hashlib import sha256
-from math import dist
+from itertools import chain
+from math import dist, inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ...files.areas import read_places
+from ...files.areas import OF_LANES, read_lanes
 from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
 from ...files.reading import Document, PlanTable, parsed, text_of
 from ...files.writing import landmark_tables, with_landmarks
@@ -24,19 +25,23 @@ from ...shared.domain import values
 from ...shared.domain.airspace import EPSILON, distance, inside
 from ...shared.domain.errors import BadInput, PlutoError
 from ...shared.domain.text import printable
+from ...shared.fleet.reach import flight_seconds
 from .pictures import floor_plan, safe_name
 
 if TYPE_CHECKING:
+    from ...app import App
+    from ...files.lines import Line
     from ...shared.domain.airspace import Airspace, Corner, Polygon
     from ...shared.domain.model import Point
-    from ..wire import MapData, Place, Plane, Swept, Ways, Zone
+    from ..wire import MapData, Place, Plane, Swept, SweptTrip, Ways, Zone
     from ..wire import Picture as PictureData
 
 
 class DrawnWays:
     """Answers one question after another in a thread, as each may take seconds."""
 
-    def __init__(self, airspace: Airspace) -> None:
+    def __init__(self, app: App, airspace: Airspace) -> None:
+        self._app = app
         self._airspace = replace(airspace)  # its cache of routes must not be shared by threads
         self._one_at_a_time = asyncio.Lock()
 
@@ -50,10 +55,10 @@ class DrawnWays:
             return await asyncio.to_thread(self._find, read)
 
     async def sweep(self, area: dict[str, object]) -> Swept:
-        """Return the targets of an area's trips: those that `[[mission.area]]` of a missions file has.
+        """Return the trips of an area: those that `[[mission.area]]` of a missions file has.
 
-        `area` has its `polygon` and `spacing`, and may have a `height`, and `before`, the place from which
-        the drones come. Raises `BadInput` with all that is wrong.
+        `area` has what stands there, but for fields, and may have `before`, the place from which the drones come.
+        Raises `BadInput` with all that is wrong.
         """
         async with self._one_at_a_time:
             return await asyncio.to_thread(self._sweep, area)
@@ -82,15 +87,35 @@ class DrawnWays:
         come = None if before is None else self._point(before, "before")
         document = Document("", {"area": area})
         table = PlanTable(document, area, ("area",), "the area")
-        table.read({"polygon": None, "spacing": None}, {"height": None})
-        places = read_places(table, self._airspace, come)
+        table.read({"polygon": None}, dict.fromkeys(("action", *OF_LANES)))
+        lanes = read_lanes(table, self._app, self._airspace, come)
         document.refuse_if_bad()
         [made] = document.areas
+        lines = [line for lane in lanes for line in lane]
         return {
-            "targets": [[*place] for place in places],
+            "trips": [_swept(line) for line in lines],
+            "places": made.places,
             "metres": made.metres,
+            "seconds": self._seconds(lines, str(area.get("action", ""))),
             "forbidden": made.forbidden,
         }
+
+    def _seconds(self, lines: Sequence[Line], action: str) -> float | None:
+        """Return how long the fastest drone takes from the first place to the last, with what it does there."""
+        if action not in self._app.actions:
+            return None
+        kinds = [kind for kind in self._app.categories if kind.can(action)]
+        busy = self._app.actions[action].lasts({}) * len(lines)
+        ends = [(one.start, one.end) if one.places > 1 else (one.end,) for one in lines]
+        first, *others = chain.from_iterable(ends)
+        times = (flight_seconds(kind, self._airspace, first, others, busy) for kind in kinds)
+        return min((one for one in times if one < inf), default=None)
+
+
+def _swept(line: Line) -> SweptTrip:
+    if line.places == 1:
+        return {"target": [*line.end], "source": None, "every": None}
+    return {"target": [*line.end], "source": [*line.start], "every": round(line.every, 3)}
 
 
 NEAR = 0.5

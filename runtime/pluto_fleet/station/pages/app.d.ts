@@ -22,6 +22,8 @@ declare global {
   type Alert = wire.Alert;
   type DroneHours = wire.DroneHours;
   type DroneRow = wire.DroneRow;
+  type EventRow = wire.EventRow;
+  type EventShape = wire.EventData;
   type FlightReport = wire.FlightReport;
   type FlightSummary = wire.FlightSummary;
   type Forecast = wire.Forecast;
@@ -51,6 +53,9 @@ declare global {
   type SavedPlans = wire.SavedPlans;
   type State = wire.State;
   type Swept = wire.Swept;
+  type SweptTrip = wire.SweptTrip;
+  type TrackRow = wire.TrackRow;
+  type TrackWay = wire.TrackWay;
   type TrashedPlan = wire.TrashedPlan;
   type TripRow = wire.TripRow;
   type Words = wire.Words;
@@ -73,6 +78,8 @@ declare global {
     default?: Scalar | null;
     hint?: string;
   };
+  /** What is done on the way of a trip. */
+  type Along = { action: string; every?: string; parameters?: Record<string, Scalar> };
   /** A trip of the plan, with the fields that the app's trips have beside. */
   type PlanTrip = wire.PlanTrip;
   /** A mission of the plan, with the fields that the app's missions have beside. */
@@ -238,5 +245,5 @@ declare global {
   }
 
   /** Of a field: no value, it is empty; typing, more of the same is likely to come at once; wrong, what was typed cannot be in the plan. */
-  type Changed = (value: Scalar | undefined, typing: boolean, wrong: { typed: string; why: string } | null) => void;
+  type Changed = (value: Scalar | Along | undefined, typing: boolean, wrong: { typed: string; why: string } | null) => void;
 }

@@ -43,6 +43,8 @@ export interface AppData {
   actions: ActionData[];
   categories: CategoryData[];
   drones: FleetDrone[];
+  /** Those that it declares, which can be raised. */
+  events: EventData[];
   /** How results are shown on the map. */
   layers: Layer[];
   map: MapShape;
@@ -118,10 +120,41 @@ export interface EdgeData {
   implicit?: boolean;
 }
 
+/** An event that the app declares. */
+export interface EventData {
+  name: string;
+  fields: ParameterData[];
+  /** Whether a creator is asked to make a mission of it. */
+  creates: boolean;
+}
+
+/** Something that has happened, and what has come of it. */
+export interface EventRow {
+  id: string;
+  name: string;
+  time: number;
+  at: number[] | null;
+  track: string | null;
+  /** That whose hook or drone has raised it. */
+  mission: string | null;
+  trip: string | null;
+  drone: string | null;
+  /** Those that the app declares. */
+  fields: Record<string, string | number | number | boolean | null>;
+  /** The missions that were made of it. */
+  made: string[];
+  /** The missions whose flights it has broken off. */
+  broke_off: string[];
+  /** Why no mission was made of it; empty: one was, no creator was asked, or none has answered yet. */
+  why: string;
+  /** When that was decided, in seconds of the flight. */
+  over: number | null;
+}
+
 /** A field of missions or of trips that the user of an app fills in. */
 export interface FieldData {
   name: string;
-  /** `time`, `int`, `rounds`, `time of day`, `evaluator`, or the type of a field of the app's own. */
+  /** `time`, `int`, `rounds`, `time of day`, `evaluator`, `along`, or a type of the language. */
   type: string;
   label: string;
   default: string | number | number | boolean | null;
@@ -130,6 +163,10 @@ export interface FieldData {
   /** Whether it must be filled in. */
   needed?: boolean;
   units?: string[];
+  /** Of `along`: what can be done on the way. */
+  actions?: string[];
+  /** Those of them that are done again and again, `every` so far or so long. */
+  spaced?: string[];
 }
 
 /** The fields that this app has. */
@@ -271,6 +308,10 @@ export interface LiveMessage {
   /** Results of before of which more is known now. */
   amended: Result[];
   alerts: Alert[];
+  /** Of those that were raised, or of which something has come; of many the newest. */
+  events: EventRow[];
+  /** All that is tracked, if that has changed. */
+  tracks?: TrackRow[];
   /** All others, if that has changed. */
   people?: Person[];
 }
@@ -507,6 +548,9 @@ export interface Replay {
   log: LogLine[];
   results: Result[];
   alerts: Alert[];
+  /** What has happened, as it is at the end; only with the first part, like the next. */
+  events: EventRow[];
+  tracks: TrackWay[];
   /** Of each drone pairs of time and level; only with the first part. */
   batteries: Record<string, number[][]>;
 }
@@ -641,13 +685,48 @@ export interface State {
   busy: "" | "asking" | "connecting";
 }
 
-/** How an area is flown over: the targets of its trips, in their order. */
+/** How an area is flown over. */
 export interface Swept {
-  targets: number[][];
-  /** The way from the first to the last. */
+  /** In their order. */
+  trips: SweptTrip[];
+  /** At which the action is done. */
+  places: number;
+  /** The way from the first place to the last. */
   metres: number;
+  /** How long one drone takes for that, with what it does there; null: none can do the action. */
+  seconds: number | null;
   /** The share of the area that may not be flown over. */
   forbidden: number;
+}
+
+/** A trip of those that fly over an area. */
+export interface SweptTrip {
+  target: number[];
+  /** Where its line begins; null: it is no line, but one place. */
+  source: number[] | null;
+  /** After how many metres of a line the action is done, each time. */
+  every: number | null;
+}
+
+/** Something that moves, and is tracked. */
+export interface TrackRow {
+  id: string;
+  kind: string;
+  x: number;
+  y: number;
+  z: number;
+  /** When it was reported last, in seconds of the flight; where it is since then is not known. */
+  seen: number;
+  /** Where it was in the minute before that, the oldest first. */
+  trail: number[][];
+}
+
+/** Where something was that was tracked. */
+export interface TrackWay {
+  id: string;
+  kind: string;
+  /** Of each report the second of the flight, x, y and z. */
+  way: number[][];
 }
 
 /** A plan that was deleted, and can be restored. */
@@ -657,7 +736,7 @@ export interface TrashedPlan {
   deleted_at: number;
 }
 
-/** A trip as the Monitor shows it. */
+/** A trip as the Monitor shows it. Where it follows what moves, its place is where its drone will meet that. */
 export interface TripRow {
   name: string;
   status: string;
@@ -665,6 +744,8 @@ export interface TripRow {
   y: number;
   priority: number | number | null;
   action: string;
+  /** The id of the track that it follows. */
+  track?: string;
 }
 
 /** The way of each pair of places, both ends included; None: there is none. */

@@ -13,6 +13,7 @@ from ...files.missions import moment, read_missions
 from ...files.plan_check import impossible, unflyable
 from ...files.reading import Document
 from ...shared.domain.values import shown
+from ...shared.events.declared import OF_TARGET
 from ...shared.time.hours import Hours
 from .shape import MOMENTS, Shape
 
@@ -183,11 +184,14 @@ def _of_its_height(
 def bare(given: Mapping[str, object]) -> dict[str, object]:
     """Return a trip, or a mission but for its trips, as in a missions file."""
     ours = ("key", "launched", "ended", "done", "trips")
-    return {
+    table = {
         key: value
         for key, value in given.items()
         if key not in ours and value is not None and (key, value) != ("parameters", {})
     }
+    if "track" in table and "target" not in table:
+        table["target"] = {key: table.pop(key) for key in OF_TARGET if key in table}
+    return table
 
 
 def _problem(missions: Sequence[Shape], place: KeyPath, text: str, alone: str) -> PlanProblem:

@@ -15,7 +15,7 @@ import msgspec
 from msgspec import Meta
 
 from ...shared.domain.errors import BadInput
-from ...shared.domain.fields import Entity
+from ...shared.domain.fields import Entity, FieldType
 from ...shared.domain.text import quoted
 from ..operation import in_words
 
@@ -52,6 +52,14 @@ class _Item(msgspec.Struct, forbid_unknown_fields=True):
     mass: Scalar | None = None
 
 
+class _Along(msgspec.Struct, forbid_unknown_fields=True):
+    """What is done on the way, and how often."""
+
+    action: Text
+    every: Text | None = None
+    parameters: Annotated[dict[Text, Scalar | None], Meta(max_length=64)] | None = None
+
+
 _TRIP: Mapping[str, Any] = {
     "key": Key,
     "name": Text | None,
@@ -75,9 +83,15 @@ _NEEDED = {"key", "action", "trips"}
 
 
 @cache
-def _kinds(on_missions: tuple[str, ...], on_trips: tuple[str, ...]) -> tuple[Any, Any]:
-    """Return the types of a mission and of a trip, in an app with these fields."""
-    trip = _struct("Trip", {**_TRIP, **dict.fromkeys(on_trips, Scalar | None)}, _NEEDED)
+def _kinds(
+    on_missions: tuple[str, ...], on_trips: tuple[str, ...], along: tuple[str, ...]
+) -> tuple[Any, Any]:
+    """Return the types of a mission and of a trip, in an app with these fields; `along` are also on trips."""
+    fields = {
+        **dict.fromkeys(on_trips, Scalar | None),
+        **dict.fromkeys(along, _Along | Text | None),
+    }
+    trip = _struct("Trip", {**_TRIP, **fields}, _NEEDED)
     fields = {**_MISSION, **dict.fromkeys(on_missions, Scalar | None)}
     fields |= {"after": list[Text] | None, "trips": list[trip]}  # type: ignore[valid-type]
     return _struct("Mission", fields, _NEEDED | {"name"}), trip
@@ -89,7 +103,8 @@ def _struct(name: str, kinds: Mapping[str, Any], needed: Collection[str]) -> typ
 
 
 def _kinds_of(app: App) -> tuple[Any, Any]:
-    return _kinds(tuple(fields_of(app, Entity.MISSION)), tuple(fields_of(app, Entity.TRIP)))
+    along = tuple(field.name for field in app.fields if field.type is FieldType.ALONG)
+    return _kinds(tuple(fields_of(app, Entity.MISSION)), tuple(fields_of(app, Entity.TRIP)), along)
 
 
 def missions_from(given: object, app: App) -> list[Shape]:
@@ -162,7 +177,7 @@ def _sentence(error: str, what: str, kinds: tuple[Any, Any]) -> str:
     for pattern, words in _PATTERNS.items():
         error = error.replace(f"matching regex {pattern!r}", words)
     within = kinds[0] if what == "mission" and ".trips[" not in error else kinds[1]
-    known = _Item if ".item`" in error else within
+    known = _Item if ".item`" in error else _Along if ".along`" in error else within
 
     def place(match: re.Match[str]) -> str:
         first, trip, rest = match.groups()
@@ -179,7 +194,11 @@ def _sentence(error: str, what: str, kinds: tuple[Any, Any]) -> str:
 def _written(one: msgspec.Struct, kept: Collection[str] = ()) -> Shape:
     """Return what is said, and what is kept though nothing is said of it."""
     fields = msgspec.structs.asdict(one).items()
-    return {name: value for name, value in fields if value is not None or name in kept}
+    return {
+        name: _written(value) if isinstance(value, _Along) else value
+        for name, value in fields
+        if value is not None or name in kept
+    }
 
 
 def _mission(read: Any) -> Shape:

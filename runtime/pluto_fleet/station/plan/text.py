@@ -133,11 +133,20 @@ def _promises(given: Mapping[str, Any]) -> Shape:
 
 
 def _trip(given: Mapping[str, Any], app: App, landmarks: Landmarks) -> Shape:
+    given = _apart(given)
     trip = {key: given[key] for key in _BASIC if key in given}
     for key in ("target", "source"):
-        if key in trip:
+        if trip.get(key) is not None:
             trip[key] = _metres(trip[key], landmarks)
     return {**trip, **_fields(given, app, Entity.TRIP)}
+
+
+def _apart(trip: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return a trip of a file with what its target follows, if that moves, as fields of its own."""
+    target = trip.get("target")
+    if not isinstance(target, dict):
+        return trip
+    return {**trip, **target, "target": None}
 
 
 def _fields(given: Mapping[str, Any], app: App, entity: Entity) -> Shape:
@@ -184,5 +193,5 @@ def _unfinished(given: Any, number: int, app: App, file: str) -> Shape:
     if isinstance(rest.get("after"), str):
         rest["after"] = [rest["after"]]
     keys = (*TRIP_KEYS, *fields_of(app, Entity.TRIP))
-    drawn = [{key: _plain(one[key]) for key in keys if key in one} for one in trips]
+    drawn = [{key: _plain(one[key]) for key in keys if key in one} for one in map(_apart, trips)]
     return {"name": str(number), **rest, "trips": drawn}

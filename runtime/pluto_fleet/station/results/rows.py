@@ -75,6 +75,8 @@ class ResultRows:
         elif kind == "trip.completed":
             self._brought[event["drone"]] = brought = self._completed(event)
             return brought
+        elif kind == "action.result":
+            return self._on_the_way(event)
         elif kind == DRAINED:
             return self._drained(event)
         elif (verdict := VERDICTS.get(str(kind))) is not None:
@@ -115,17 +117,35 @@ class ResultRows:
 
     def _completed(self, event: Event) -> tuple[Result, Any]:
         did: Any = event["did"]
-        name, row = str(did["action"]), self._row(event)
-        action = self._actions.get(name)  # none: the app had it when it flew
+        row = self._row(event)
+        row["target"] = did["target"]
+        row["at"] = self._beside.pop((event["mission"], event["trip"]), None)
+        return self._done(row, str(did["action"]), did.get("parameters", {}), event.get("result"))
+
+    def _on_the_way(self, event: Event) -> tuple[Result, Any]:
+        """Return what an action has brought while its drone flew on."""
+        fact: Any = event.get
+        row = self._row(event)
+        if fact("at") is not None:
+            row["at"] = [round(one, 3) for one in fact("at")]
+        return self._done(row, fact("action"), fact("parameters", {}), fact("result"))
+
+    def _done(
+        self, row: Result, name: str | None, parameters: Mapping[str, Any], data: Any
+    ) -> tuple[Result, Any]:
+        """Say what an action has brought; one without a name is a hook's own."""
+        action = self._actions.get(name or "")  # none: the app had it when it flew
         usual = {one.name: one.default for one in action.parameters} if action else {}
-        given = {**usual, **did.get("parameters", {})}
-        data, quantity = event.get("result"), None
+        given = {**usual, **parameters}
+        quantity = None
         if name == MEASURE:
             quantity = given.pop("quantity", None)
-        meaning, value = self._meanings.of(name, quantity), plain(data)
-        row["action"], row["parameters"], row["target"] = name, given, did["target"]
-        row["at"] = self._beside.pop((event["mission"], event["trip"]), None)
-        row["place"] = self._name_of(row["at"] or did["target"])
+        meaning = self._meanings.of(name or "", quantity)
+        value = plain(data)
+        row["action"] = name
+        row["parameters"] = given
+        place = row["at"] or row["target"]
+        row["place"] = None if place is None else self._name_of(place)
         row["kind"], row["layers"] = meaning.kind, [*meaning.layers]
         if isinstance(data, dict) and "$photo" in data:
             if meaning.kind != "handling":

@@ -196,8 +196,9 @@ async def find_ways(asked: Asked, ways: list[Any]) -> Response:
 
 
 async def sweep_area(asked: Asked, **_: object) -> Response:
-    """Answer with the targets of an area's trips."""
-    return json_reply(await asked.station.ways.sweep(dict(asked.given)))
+    """Answer with the trips of an area."""
+    area = {name: value for name, value in asked.given.items() if value is not None}
+    return json_reply(await asked.station.ways.sweep(area))
 
 
 # Flights of the past, and results: of none, it is the flight of now

@@ -266,7 +266,7 @@ def _sees_it_at_work(pupil: Pupil) -> None:
     value.fill("20 s")
     value.press("Enter")
     pupil.saved("limit: 20 s")
-    pupil.runs("0 of 3 missions completed in 1 min 27 s.", 0.5)
+    pupil.runs("0 of 3 missions completed in 1 min 30 s.", 0.5)
     pupil.shows("called-back")
     page.keyboard.press("Control+z")
     pupil.saved("limit: 3 min")

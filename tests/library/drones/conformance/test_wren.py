@@ -25,7 +25,7 @@ PAGE = (DOCS / "navigation.md").read_text()
 BLOCK = re.compile(r"^```python\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize(("name", "place"), [("wren", 0), ("lines", 1)])
+@pytest.mark.parametrize(("name", "place"), [("wren", 0), ("lines", 1), ("bodies", 2)])
 def test_the_page_shows_the_files_as_they_are(name: str, place: int, update: bool) -> None:
     text = (DOCS / f"navigation/{name}.py").read_text()
     code = text.partition("from __future__ import annotations\n\n")[2]
@@ -40,7 +40,7 @@ def test_the_page_shows_the_files_as_they_are(name: str, place: int, update: boo
 @pytest.mark.long
 def test_the_test_file_that_the_page_shows_is_one(tmp_path: Path) -> None:
     """As its reader runs it: with pytest, and nothing of ours besides."""
-    (tmp_path / "test_wren.py").write_text(BLOCK.findall(PAGE)[2])
+    (tmp_path / "test_wren.py").write_text(BLOCK.findall(PAGE)[3])
     runtime = Path(pluto_fleet.__path__[0]).parent
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-k", "go_to_is_refused or falls_silent", "-rs"],

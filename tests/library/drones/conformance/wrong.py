@@ -199,6 +199,18 @@ class Forgetful(Wrong):
             self.goes_silent()
 
 
+class Halting(Wrong):
+    """Stops before it flies anywhere, also when it is on its way."""
+
+    found_by = "test_it_follows_what_moves"
+    says = "it stopped on its way"
+
+    async def go_to(self, target: Point, speed: float) -> None:
+        self.put(self.place)
+        await asyncio.sleep(0.4)
+        await super().go_to(target, speed)
+
+
 class Hasty(Wrong):
     """Takes the speed for a wish."""
 

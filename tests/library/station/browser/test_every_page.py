@@ -17,10 +17,20 @@ from tests.kit.pictures import kept
 from tests.kit.station import Station
 from tests.library.station.browser.conftest import Serve, Visit
 from tests.pages.looking import in_language, looked_at
-from tests.pages.scenes import Scenes, a_flight, heat, scenes
+from tests.pages.scenes import Scenes, a_flight, heat, pursuit, scenes
 from tests.paths import EXAMPLES, ROOT
 
-SHOWN = ("empty-missions", "missions", "trips", "monitor", "results", "history", "map", "help")
+SHOWN = (
+    "empty-missions",
+    "missions",
+    "trips",
+    "monitor",
+    "events",
+    "results",
+    "history",
+    "map",
+    "help",
+)
 """What the docs have pictures of."""
 
 FOLDER = ROOT / "docs" / "station"
@@ -71,6 +81,17 @@ def test_what_was_measured_is_seen_over_the_whole_map(
     station = serve("pm10", *missions, "--speed", "60", own=True)
     page = visit(station, size=SIZES[device], touch=device == "phone")
     look_through(page, station, heat, device, update)
+
+
+@pytest.mark.long  # a flight, twice
+@pytest.mark.parametrize("device", SIZES)
+def test_what_moves_and_what_happens_is_seen_live_and_in_a_replay(
+    serve: Serve, visit: Visit, device: str, update: bool
+) -> None:
+    missions = ("--missions", str(EXAMPLES / "pursue" / "missions.toml"))
+    station = serve("pursue", *missions, "--speed", "3", own=True)
+    page = visit(station, size=SIZES[device], touch=device == "phone")
+    look_through(page, station, pursuit, device, update)
 
 
 def test_the_docs_show_every_picture_and_no_other() -> None:

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.kit.station import Station, until
-from tests.library.station.browser.conftest import Visit
+from tests.library.station.browser.conftest import Serve, Visit
 from tests.library.station.browser.exercise import Place
 from tests.library.station.browser.steps import (
     add_mission,
@@ -54,6 +54,26 @@ def drawn(station: Station, visit: Visit, *actions: tuple[str, Place]) -> tuple[
         drag(page, action, place)
         until(partial(has, station, count), "the trip is kept")
     return station, page
+
+
+@pytest.mark.long
+def test_a_trip_does_something_on_its_way_as_its_card_says(serve: Serve, visit: Visit) -> None:
+    station, page = drawn(serve("aerial_mapping"), visit, ("Take photo", (3.0, 4.0)))
+    page.get_by_label("On the way").select_option("take_photo")
+    often = page.get_by_label("How often: a length or a time")
+    expect(often).to_have_value("1 m")
+    often.fill("often")
+    expect(card_of(page, 1).locator("[data-field=along] .problem")).to_contain_text("2 m")
+    often.fill("2 m")
+    until(lambda: along(station) == {"action": "take_photo", "every": "2 m"}, "it is kept")
+    expect(card_of(page, 1).locator("[data-field=along] .problem")).to_be_hidden()
+    page.get_by_label("On the way").select_option("")
+    until(lambda: along(station) is None, "it is taken away")
+
+
+def along(station: Station) -> object:
+    """Return what the only trip does on its way."""
+    return trips(station)[0].get("along")
 
 
 @pytest.mark.long
@@ -143,3 +163,27 @@ def test_a_row_and_a_grid_are_drawn_over_the_map_and_added_at_once(
     assert targets(station)[4:8] == [[7, 4.5], [8, 4.5], [9, 4.5], [9, 5.5]]
     page.get_by_role("button", name=re.compile("^Undo ")).click()
     until(lambda: len(trips(station)) == 4, "it goes at once, too")
+
+
+def test_an_area_is_swept_on_the_way(serve: Serve, visit: Visit) -> None:
+    """The tool says how many photos that makes, in what time; each lane is a trip from its source to its target."""
+    station = serve("aerial_mapping")
+    station.plan([])
+    page = visit(station)
+    add_mission(page, "Drawn")
+    page.get_by_role("button", name="A sweep of an area").click()
+    panel = page.locator(".tool-panel")
+    for name, value in (("From x", "4"), ("From y", "3"), ("To x", "10"), ("To y", "6")):
+        panel.get_by_label(name, exact=True).fill(value)
+        panel.get_by_label(name, exact=True).press("Tab")
+    panel.get_by_label("Between lanes").fill("1.5 m")
+    expect(panel).to_contain_text("8 trips with 8 places")
+    panel.get_by_label("It is done").select_option(label="On the way")
+    expect(panel).to_contain_text("2 trips with 8 places")
+    expect(panel).to_contain_text("One drone takes about")
+    panel.get_by_role("button", name="Add 2 trips").click()
+    until(partial(has, station, 2), "they are kept")
+    for trip, ends in zip(trips(station), ([4.75, 9.25], [9.25, 4.75]), strict=True):
+        assert [trip["source"][0], trip["target"][0]] == ends
+        assert trip["along"] == {"action": "take_photo", "every": "1.5 m"}
+    expect(page.locator(".problem:visible")).to_have_count(0)

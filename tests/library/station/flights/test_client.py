@@ -66,6 +66,43 @@ def test_the_example_of_the_page_on_the_interface_prints_what_it_says(serve: Ser
     assert "night shift" in [line.get("by") for line in station.audit()]
 
 
+def test_the_example_of_a_program_that_raises_events_prints_what_it_says(serve: Serve) -> None:
+    station = serve("pursue", speed=20.0)
+    said = StringIO()
+    code, output = re.findall(r"```(?:python)?\n(.*?)```", PAGE, re.DOTALL)[2:4]
+
+    def program(url: str) -> None:
+        example = station.folder / "example.py"
+        example.write_text(code.replace("http://127.0.0.1:8765", url), "utf-8")
+        with redirect_stdout(said):
+            runpy.run_path(str(example))
+
+    beside(station, program)
+    assert said.getvalue() == output
+    happened = station.events("event.raised")
+    assert len({one["id"] for one in happened}) == len(happened)
+
+
+def test_an_event_in_json_happens_as_the_page_says_and_what_cannot_be_is_told_with_409(
+    serve: Serve,
+) -> None:
+    station = serve("pursue", speed=20.0)
+    path, body, answer = re.findall(
+        r"8765(/api/events/\w+) .*\n *-d '(.*)'\n(.*)\n```", PAGE, re.MULTILINE
+    )[0]
+    given = json.loads(body)
+    assert station.ask("POST", path, given).status == 409  # nothing flies
+    station.flying()
+    assert station.ask("POST", path, {**given, "id": ""}).status == 400
+    for wrong in ({"at": [-1.0, 0.0]}, {"fields": {"size": 3}}, {"mission": "nobody's"}):
+        assert station.ask("POST", path, {**given, "id": str(wrong), **wrong}).status == 409
+    assert station.ask("POST", f"{path}s", {"id": "of another name"}).status == 409
+    answered = station.ask("POST", path, given)  # a refusal of an event is not kept for its id
+    assert answered.body.decode() == answer
+    happened = [one for one in station.events("event.raised") if one["id"] == given["id"]]
+    assert [(one["at"][:2], one["fields"]) for one in happened] == [(given["at"], given["fields"])]
+
+
 def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:
     station = serve(speed=1.0)
 

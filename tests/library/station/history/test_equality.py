@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from copy import deepcopy
 from dataclasses import dataclass, field
+from io import BytesIO
 from math import dist
 from typing import Any
 
 import pytest
+from mcap.reader import make_reader
 
+from pluto_fleet.flight.tracked import EVERY, MOVED, STILL
 from pluto_fleet.station.shown import MOVING, Shown
 from tests.kit.apps import NAMES
 from tests.library.station.conftest import Serve
@@ -18,6 +21,8 @@ from tests.library.station.in_process import Flown
 SPEED = 20
 NEAR = 2.0
 """Metres that a drone may have flown since it was heard of."""
+PACE = 0.5
+"""Metres a second at which nothing moves that fast."""
 ENDS = ("over", "stopped", "interrupted")
 
 
@@ -32,6 +37,9 @@ class Page:
     flight: str = ""
     seen: int = 0
     shown: Shown = field(default_factory=Shown)
+    events: dict[str, Any] = field(default_factory=dict)
+    tracks: list[Any] = field(default_factory=list)
+    """What was tracked, of all looks."""
 
     def look(self) -> str:
         """Take what has changed, as a page does; return what goes on."""
@@ -43,6 +51,8 @@ class Page:
         self.results += given["results"]
         for row in given["amended"]:
             self.results[row["number"] - 1] = row
+        self.events |= {row["id"]: row for row in given["events"]}
+        self.tracks += given.get("tracks", [])
         t = given["state"]["time"]
         self.shown.take_frame({**given, "t": t})
         self.views[t] = deepcopy(self.shown)
@@ -123,6 +133,58 @@ def test_the_replay_of_every_instant_is_what_was_shown(serve: Serve, name: str) 
         whole = shown_at(frames, t)
         rows = [list(whole.rows[kind].values()) for kind in ("missions", "drones")]
         assert [scrubbed["t"], scrubbed["missions"], scrubbed["drones"]] == [whole.t, *rows]
+
+
+def test_what_moves_and_what_has_happened_is_replayed_as_it_was_told(serve: Serve) -> None:
+    """Where each object was at each instant, as near as a place a second says it; and what came of each event."""
+    station = serve("pursue", speed=SPEED)
+    station.tell("start")
+    page = Page(station)
+    station.until(lambda: page.look() and len(page.events) >= 2, "something has happened")
+    station.until(lambda: page.look() and any(track_of(page)), "something is followed")
+    station.tell("events/intruder", at=[3, 3], fields={"kind": "dog"})
+    station.tell("stop", how="land")
+    station.until(lambda: page.look() in ENDS, "the flight has ended")
+    replay = station.get("/api/flights/replay", flight=page.flight)
+    assert replay["events"] == [*page.events.values()]
+    assert [one["name"] for one in replay["events"] if one["fields"] == {"kind": "dog"}]
+    assert {name for one in replay["events"] for name in one["made"]} <= page.shown.rows[
+        "missions"
+    ].keys()
+    ways = {one["id"]: one for one in replay["tracks"]}
+    assert {one["id"]: one["kind"] for one in page.tracks} == dict.fromkeys(ways, "person")
+    for one in page.tracks:
+        known = [place for place in ways[one["id"]]["way"] if place[0] <= one["seen"]]
+        t, *at = known[-1]
+        assert one["seen"] - t < STILL
+        assert dist(at, [one[axis] for axis in "xyz"]) <= PACE * EVERY + MOVED
+        assert one["trail"][-1] == at[:2]
+    file = station.ask("GET", "/api/flights/mcap", flight=page.flight).body
+    topics = {channel.topic for _, channel, _ in make_reader(BytesIO(file)).iter_messages()}
+    assert {"/events", *(f"/tracks/{id}/pose" for id in ways)} <= topics
+
+
+def test_a_drone_that_follows_is_seen_in_the_replay_at_every_instant(serve: Serve) -> None:
+    """Its legs are broken off again and again, as what it follows goes elsewhere."""
+    station = serve("pursue", speed=SPEED)
+    station.tell("start")
+    page = Page(station)
+    station.until(lambda: page.look() and len(track_of(page)) > 0, "something is followed")
+    station.until(lambda: page.look() and (page.shown.t or 0.0) > 60, "it was followed for a while")
+    station.tell("stop", how="land")
+    station.until(lambda: page.look() in ENDS, "the flight has ended")
+    frames = replayed(station, page.flight)
+    for t, view in page.views.items():
+        shown = shown_at(frames, t)
+        for id, row in view.rows["drones"].items():
+            assert row["x"] is None or shown.rows["drones"][id]["x"] is not None, (t, row)
+
+
+def track_of(page: Page) -> list[str]:
+    """Return the tracks that missions follow now, by the rows of these."""
+    rows = [row for row in page.shown.rows["missions"].values() if row["drone"] is not None]
+    now = [row["trips"][row["current"]] for row in rows if row["current"] is not None]
+    return [trip["track"] for trip in now if "track" in trip]
 
 
 def test_a_flight_is_replayed_over_all_its_lives(serve: Serve) -> None:

@@ -13,7 +13,7 @@ from pluto_fleet.files.missions import load_missions
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.map.drawn import DrawnWays, name_of
-from tests.library.files.an_app import APP
+from tests.library.files.an_app import APP, SURVEY
 
 LIFT = ((4.0, 0.0), (6.0, 0.0), (6.0, 6.0), (4.0, 6.0))
 MAP = Airspace(size=(10.0, 8.0), no_fly=(LIFT,))
@@ -22,7 +22,7 @@ MAP = Airspace(size=(10.0, 8.0), no_fly=(LIFT,))
 def test_a_way_leads_around_what_is_closed() -> None:
     """As it will be flown; there is none into it."""
     pairs = [[[1, 1], [1, 5]], [[1, 1, 1], [9, 1, 1]], [[1, 1], [5, 1]]]
-    straight, around, none = asyncio.run(DrawnWays(MAP).ways(pairs))["ways"]
+    straight, around, none = asyncio.run(DrawnWays(APP, MAP).ways(pairs))["ways"]
     assert straight == [[1.0, 1.0, 1.2], [1.0, 5.0, 1.2]]
     route = MAP.route((1.0, 1.0, 1.0), (9.0, 1.0, 1.0))
     assert route is not None and around is not None
@@ -40,15 +40,32 @@ def test_an_area_is_swept_as_that_of_a_file(tmp_path: Path) -> None:
     )
     [of_file] = load_missions(tmp_path / "m.toml", APP, MAP)
     area: dict[str, Any] = {"polygon": corners, "spacing": "2 m", "height": 2, "before": [9, 7]}
-    swept = asyncio.run(DrawnWays(MAP).sweep(area))
-    assert swept["targets"] == [[*trip.target] for trip in of_file.trips[1:]]
+    swept = asyncio.run(DrawnWays(APP, MAP).sweep(area))
+    assert [one["target"] for one in swept["trips"]] == [[*t.target] for t in of_file.trips[1:]]
+    assert {one["source"] for one in swept["trips"]} == {None}
+    assert swept["places"] == len(swept["trips"])
+    assert swept["seconds"] is None  # it was not said what is done there
     assert swept["forbidden"] == pytest.approx(10 / 48)
     assert swept["metres"] > 20
 
 
+def test_an_area_is_swept_along_lines() -> None:
+    """With fewer trips, for as many photos, in less time."""
+    area: dict[str, Any] = {"polygon": [[1, 1], [3, 1], [3, 7], [1, 7]], "spacing": "1 m"}
+    area["action"] = "take_photo"
+    stops = asyncio.run(DrawnWays(SURVEY, MAP).sweep({**area}))
+    lines = asyncio.run(DrawnWays(SURVEY, MAP).sweep({**area, "on_the_way": True}))
+    assert [len(one["trips"]) for one in (stops, lines)] == [12, 2]
+    assert lines["trips"][0] == {"target": [1.5, 6.5, 1.2], "source": [1.5, 1.5, 1.2], "every": 1.0}
+    assert stops["places"] == lines["places"] == 12
+    assert stops["metres"] == lines["metres"] == 11.0
+    assert lines["seconds"] == 11.0 + 2 * 1.0
+    assert stops["seconds"] == 11.0 + 12 * 1.0
+
+
 def test_an_area_that_is_closed_cannot_be_swept() -> None:
     with pytest.raises(BadInput, match="nothing that may be flown over"):
-        asyncio.run(DrawnWays(MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
+        asyncio.run(DrawnWays(APP, MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))
 
 
 WARD = Landmarks(

@@ -4,7 +4,8 @@ import { World } from "../../../../runtime/pluto_fleet/station/pages/core/world.
 import { marksOf, nextMark } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
 import { linesOf } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
 import { Playback } from "../../../../runtime/pluto_fleet/station/pages/history/playback.js";
-import { countUntil, Replayer } from "../../../../runtime/pluto_fleet/station/pages/history/replayer.js";
+import { countUntil } from "../../../../runtime/pluto_fleet/station/pages/history/moments.js";
+import { Replayer } from "../../../../runtime/pluto_fleet/station/pages/history/replayer.js";
 
 const STATE = { phase: "flying", time: 0, plan: 1, map: 0, said: "", how: null, busy: "" };
 const LENGTH = 100;

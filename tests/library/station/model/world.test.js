@@ -72,3 +72,24 @@ test("until the station has spoken, nothing is known", () => {
   world.take({ state: STATE });
   assert.equal(world.state.value.known, true);
 });
+
+/** @param {string} id @param {number} x @returns {any} */
+const track = (id, x) => ({ id, kind: "person", x, y: 0, z: 0, seen: 1, trail: [] });
+
+test("what is not tracked any more is gone, and what is not said stays", () => {
+  const world = new World();
+  world.take({ flight: "f", state: STATE, tracks: [track("t1", 1), track("t2", 2)] });
+  world.take({ flight: "f", state: STATE });
+  assert.deepEqual(world.tracks.keys.value, ["t1", "t2"]);
+  world.take({ flight: "f", state: STATE, tracks: [track("t2", 3)] });
+  assert.deepEqual(world.tracks.all().map(({ id, x }) => [id, x]), [["t2", 3]]);
+});
+
+test("of many events the newest are kept, and one of which more is known has the same place", () => {
+  const world = new World();
+  const event = (/** @type {number} */ number) => (/** @type {any} */ ({ id: `e${number}`, time: number, made: [] }));
+  world.take({ flight: "f", state: STATE, events: Array.from({ length: 700 }, (_, at) => event(at)) });
+  world.take({ flight: "f", state: STATE, events: [{ ...event(699), made: ["Look"] }] });
+  const all = world.events.all();
+  assert.deepEqual([all.length, all[0].id, all.at(-1)?.made], [500, "e200", ["Look"]]);
+});

@@ -6,6 +6,7 @@ import asyncio
 from pathlib import Path
 from typing import Any
 
+from pluto_fleet.app import App
 from pluto_fleet.files.fleet import FleetFile, default_fleet
 from pluto_fleet.station.plan.plan import MissionPlan
 from tests.library.files.an_app import APP
@@ -16,9 +17,11 @@ FLEET = default_fleet(APP)
 Json = dict[str, Any]
 
 
-def a_plan(keep: Path | None = None, fleet: FleetFile = FLEET, now: float = 0.0) -> MissionPlan:
+def a_plan(
+    keep: Path | None = None, fleet: FleetFile = FLEET, now: float = 0.0, app: App = APP
+) -> MissionPlan:
     """Return an empty plan, or the one that is kept there; its revisions count from 1."""
-    return MissionPlan(APP, fleet, keep, now=lambda: now)
+    return MissionPlan(app, fleet, keep, now=lambda: now)
 
 
 def trip(key: str = "trip-one", **given: object) -> Json:

@@ -89,6 +89,46 @@ def test_what_was_done_beside_its_target_says_where() -> None:
     assert "another drone is at its place" in feed.console()
 
 
+def on_the_way(value: object, **more: object) -> dict[str, Any]:
+    """Return what was brought while a drone flew on, from where it was."""
+    facts = {"mission": "Field", "trip": "A", "round": 0, "attempt": 1, "drone": "cf1"}
+    result = value_data(value)
+    return {
+        "t": 5.0,
+        "event": "action.result",
+        "result": result,
+        "at": [1.00049, 2, 1],
+        **facts,
+    } | more
+
+
+def test_what_was_brought_on_the_way_is_shown_as_what_an_action_brings_at_the_end_of_it() -> None:
+    """Photos among the photos; a hook's own value as it is; and no reserve is charged to any of them."""
+    photo = Photo(position=(1.0, 2.0, 1.0), width=1.0, height=1.0, sees=("bloom",), file="1.png")
+    feed = taken(
+        on_the_way(photo, action="take_photo"),
+        on_the_way(21.5, action="measure", parameters={"quantity": "temperature"}),
+        on_the_way("smoke"),
+        trip(action="take_photo", result=value_data(photo)),
+        drained(0.08),
+    )
+    found: list[Any] = [json.loads(text) for text in feed.results.since(0)]
+    assert [one["layers"] for one in found] == [
+        ["take_photo:photos", "take_photo:findings"],
+        ["measure"],
+        [],
+        ["take_photo:photos", "take_photo:findings"],
+    ]
+    assert [one["kind"] for one in found] == ["photo", "measurement", "result", "photo"]
+    assert (found[0]["value"]["picture"], found[0]["tags"]) == (
+        "/api/photo?result=1&flight=a-flight",
+        ["bloom"],
+    )
+    assert [one["at"] for one in found] == [[1.0, 2, 1]] * 3 + [None]
+    assert (found[1]["values"][0]["value"], found[2]["value"]) == (21.5, "smoke")
+    assert [one["drained"] for one in found] == [None, None, None, 0.08]
+
+
 def drained(level: float, drone: str = "cf1") -> dict[str, Any]:
     return {"t": 60.0, "event": "drone.drained", "drone": drone, "level": level}
 

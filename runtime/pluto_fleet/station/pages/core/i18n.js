@@ -175,7 +175,7 @@ export function typedQuantity(text, units, unit) {
 export const usualUnit = (units, usual) =>
   (usual.split(" ")[1] || USUAL.find((one) => units.includes(one))) ?? units[0] ?? "";
 
-/** "2 missions": @param {"many.missions" | "many.trips" | "many.drones" | "many.others" | "many.lines" | "many.runs"} key @param {number} n */
+/** "2 missions": @param {"many.missions" | "many.trips" | "many.drones" | "many.others" | "many.lines" | "many.places" | "many.runs"} key @param {number} n */
 export const many = (key, n) => t(key, { n });
 
 /** @typedef {Words["facts"][string]} Fact */

@@ -4,6 +4,7 @@
 import { batch, signal } from "@preact/signals";
 
 export const LINES_KEPT = 5000; // of the console, and results
+const EVENTS_KEPT = 500;
 
 /** Rows by their key. @template {Record<string, any>} Row */
 class Rows {
@@ -21,9 +22,10 @@ class Rows {
   /** @param {Row[]} fresh */
   take(fresh) {
     if (!fresh.length) return;
-    let isNew = false;
+    let [isNew, isOther] = [false, false];
     for (const row of fresh) {
       const known = this.rows.get(row[this.key]);
+      isOther ||= known?.peek() !== row;
       if (known) known.value = row;
       else {
         this.rows.set(row[this.key], signal(row));
@@ -31,7 +33,7 @@ class Rows {
       }
     }
     if (isNew) this.keys.value = [...this.rows.keys()];
-    this.version.value += 1;
+    if (isOther) this.version.value += 1;
   }
 
   /** Have exactly these rows; those that stay keep their signals. @param {Row[]} rows */
@@ -128,6 +130,10 @@ export class World {
     this.drones = new Rows("id");
     /** @type {Rows<Alert>} */
     this.alerts = new Rows("id");
+    /** @type {Rows<TrackRow>} what moves beside the drones */
+    this.tracks = new Rows("id");
+    /** @type {Rows<EventRow>} what has happened, the oldest first */
+    this.events = new Rows("id");
     /** @type {Tail<LogLine>} */
     this.log = new Tail();
     /** @type {Tail<Result>} */
@@ -149,6 +155,11 @@ export class World {
       this.missions.take(message.missions ?? []);
       this.drones.take(message.drones ?? []);
       this.alerts.take(message.alerts ?? []);
+      if (message.tracks) this.tracks.replace(message.tracks);
+      if (message.events?.length) {
+        this.events.take(message.events);
+        this.events.replace(this.events.all().slice(-EVENTS_KEPT));
+      }
       this.log.take(message.log ?? []);
       this.results.take(message.results ?? []);
       this.results.amend(message.amended ?? []);
@@ -159,7 +170,8 @@ export class World {
   /** Forget the flight, but not how the station stands. */
   clear() {
     batch(() => {
-      for (const part of [this.missions, this.drones, this.alerts, this.log, this.results]) part.clear();
+      const { missions, drones, alerts, tracks, events, log, results } = this;
+      for (const part of [missions, drones, alerts, tracks, events, log, results]) part.clear();
       this.flight.value = "";
     });
   }

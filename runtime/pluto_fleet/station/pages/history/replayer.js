@@ -2,6 +2,7 @@
 // frames since. Parts of a recording are fetched when they are needed. Pure, but for the fetching.
 
 import { batch } from "@preact/signals";
+import { countUntil, eventsAt, tracksAt } from "./moments.js";
 
 /** @typedef {(from: number) => Promise<Replay>} FetchPart */
 
@@ -9,17 +10,6 @@ import { batch } from "@preact/signals";
 
 const GRID = 30; // seconds: where one scrubs to often, little is fetched twice
 const SOON = 5; // seconds before the end of a part in which the next one is fetched
-
-/** How many of these stand before or at an instant; their times only grow. @template One @param {readonly One[]} all @param {number} t @param {(one: One) => number} timeOf */
-export function countUntil(all, t, timeOf) {
-  let [low, high] = [0, all.length];
-  while (low < high) {
-    const middle = (low + high) >> 1;
-    if (timeOf(all[middle]) <= t) low = middle + 1;
-    else high = middle;
-  }
-  return low;
-}
 
 /** The newest row of each name in some frames. @template {Record<string, any>} Row @param {readonly Frame[]} frames @param {(frame: Frame) => Row[]} of @param {keyof Row & string} by */
 function newest(frames, of, by) {
@@ -80,7 +70,7 @@ export class Replayer {
     const frames = part.frames.slice(goesOn ? this.at + 1 : 0, last + 1);
     [this.part, this.at] = [part, last];
     batch(() => {
-      const { missions, drones, alerts } = this.world;
+      const { missions, drones, alerts, tracks, events } = this.world;
       const rows = [
         newest(frames, (frame) => frame.missions, "name"), newest(frames, (frame) => frame.drones, "id"),
         newest(frames, (frame) => frame.alerts, "id"),
@@ -90,6 +80,8 @@ export class Replayer {
         if (goesOn) shown.take(fresh);
         else shown.replace(fresh);
       });
+      tracks.replace(tracksAt(this.whole?.tracks ?? [], t));
+      events.replace(eventsAt(this.whole?.events ?? [], t));
       this.world.log.replace(this.until(this.whole?.log ?? [], t));
       this.world.results.replace(this.until(this.whole?.results ?? [], t));
       this.world.state.value = { ...part.frames[last].state, time: Math.max(t, part.frames[last].t), known: true };

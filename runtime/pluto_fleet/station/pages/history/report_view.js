@@ -53,6 +53,7 @@ function Report({ report, replay, model }) {
       h(Fact, { name: t("column.lost"), words: flight.lost.join(", ") || t("none") })),
     h(Part, { title: t("page.missions"), isEmpty: !missions.length }, h(Missions, { missions })),
     h(Part, { title: t("page.results"), isEmpty: !results.length }, h(ReportMap, { shape, model }), h(Results, { results })),
+    replay.events.length > 0 && h(Part, { title: t("monitor.events"), isEmpty: false }, h(Events, { events: replay.events })),
     h(Part, { title: t("report.incidents"), isEmpty: !incidents.length }, h(Table, {
       title: t("report.incidents"),
       heads: [t("column.time"), t("column.mission"), t("column.drone"), t("report.what")],
@@ -88,6 +89,19 @@ const Missions = ({ missions }) => h(Table, {
       `${trip.name} (${plain(trip.action)}): ${tOr(`status.${trip.status}`, trip.status)}`,
       trip.drone && ` · ${trip.drone}`, trip.attempts > 1 && ` · ${t("report.attempts", { n: trip.attempts })}`,
       trip.why && h("span", { class: "hint" }, " · ", h(Said, { text: trip.why }))))),
+  ]),
+});
+
+/** @param {{ events: EventRow[] }} props */
+const Events = ({ events }) => h(Table, {
+  title: t("monitor.events"),
+  heads: [t("column.time"), t("event.which"), t("column.mission"), t("column.drone"), t("report.outcome")],
+  rows: events.map(({ id, name, time, mission, drone, made, broke_off: broken, why }) => [
+    clock(time), [h("strong", null, capital(name)), ` ${id}`], mission ?? "", drone ?? "",
+    [
+      made.length > 0 && h("p", null, `${t("event.made")} ${made.join(", ")}`),
+      broken.length > 0 && h("p", null, `${t("event.broke-off")} ${broken.join(", ")}`), why && h("p", { class: "hint" }, h(Said, { text: why })),
+    ],
   ]),
 });
 

@@ -7,6 +7,7 @@ import { percent, t, tOr } from "../core/i18n.js";
 import { useCalm } from "../ui/hooks.js";
 import { Mark, Tags, useCamera } from "./camera.js";
 import { way } from "./routes.js";
+import { trackNames } from "./tracked.js";
 import { toPixels } from "./view.js";
 
 const TAIL = 30; // seconds of the way that it came
@@ -19,9 +20,11 @@ export const Homes = ({ app }) => h("g", { class: "layer homes" },
   app.drones.map(({ id, home: [x, y] }) => h(Mark, { key: id, x, y },
     h("path", { d: "M-6 6V-1L0 -7L6 -1V6Z" }, h("title", null, t("map.home", { drone: id }))))));
 
-/** Where a mission's drone is bound: its present trip's target. @param {MissionRow | undefined} mission */
-const target = (mission) =>
-  (mission && mission.current !== null ? mission.trips[mission.current] : undefined);
+/** Where a mission's drone is bound: its present trip's target, if that stands. @param {MissionRow | undefined} mission */
+function target(mission) {
+  const trip = mission && mission.current !== null ? mission.trips[mission.current] : undefined;
+  return trip?.track ? undefined : trip;
+}
 
 /** @param {{ world: World, chosen: string | null, onPick: (id: string) => void }} props chosen: the selected drone */
 export function Fleet({ world, chosen, onPick }) {
@@ -108,7 +111,7 @@ export function Names({ world, chosen, more }) {
       importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
       ...toPixels(view, row.x ?? 0, row.y ?? 0),
     }));
-    const others = (more?.value ?? []).map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
+    const others = [...more?.value ?? [], ...trackNames(world)].map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
     return { labels: [...drones, ...others], box, marks: drones.map(({ x, y }) => ({ x, y, r: 10 })) };
   }), [world, chosen, camera, more]);
   return h(Tags, useCalm(labels, LABELS_EVERY).value);

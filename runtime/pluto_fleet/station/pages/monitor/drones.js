@@ -5,6 +5,7 @@ import { h } from "preact";
 import { useRef, useState } from "preact/hooks";
 import { duration, many, number, roughly, t, typedNumber } from "../core/i18n.js";
 import { app, line, mayFly, perform, selectDrone, selection, selectMission } from "../core/station.js";
+import { followed } from "../map/tracked.js";
 import {
   Battery, Button, Empty, Icon, IconButton, joined, Said, Select, Standing, toneOf, walking,
 } from "../ui/parts.js";
@@ -114,6 +115,7 @@ export function DroneCard({ world, id, live }) {
   const can = live && mayFly.value;
   const isAway = row.retired || row.status === "LOST";
   const flies = (row.z ?? 0) > IN_THE_AIR;
+  const track = followed(world, row);
   const isRunning = world.state.value.phase === "flying";
   return h("section", { class: "drone-card card stack", "aria-label": t("drone.card", { drone: id }) },
     h("div", { class: "row" }, h("h2", { class: "called" }, id), category && h("span", { class: "muted" }, category),
@@ -123,6 +125,7 @@ export function DroneCard({ world, id, live }) {
     h(WhyNot, { row, live }),
     row.mission && h("p", null, t("drone.mission"), " ",
       h("button", { type: "button", class: "link", onClick: () => selectMission(row.mission) }, row.mission)),
+    track && h("p", null, t("drone.follows", { track })),
     row.x !== null && row.y !== null && row.seen_at === null && h("p", { class: "muted num" },
       t("drone.at", { x: number(row.x), y: number(row.y), z: number(row.z ?? 0) })),
     can && h("div", { class: "row" },

@@ -38,9 +38,9 @@ export const due = ({ late, due: at }, now) => {
   return at === null ? "" : t("monitor.due-in", { time: roughly(Math.max(0, at - now)) });
 };
 
-/** "take photo at 1.5; 2". @param {TripRow} trip */
-export const done = ({ action, x, y }) =>
-  t("monitor.action-at", { action: plain(action), x: number(x), y: number(y) });
+/** "take photo at 1.5; 2", or "take photo: track t7". @param {TripRow} trip */
+export const done = ({ action, x, y, track }) => (track ? `${plain(action)}: ${t("event.track", { track })}`
+  : t("monitor.action-at", { action: plain(action), x: number(x), y: number(y) }));
 
 /** @type {Record<string, (row: MissionRow) => boolean>} */
 const FILTERS = {

@@ -11,15 +11,24 @@ import { Camera, Mark } from "../map/camera.js";
 import { Fleet, Homes, Names } from "../map/fleet.js";
 import { Floor, MapSplit } from "../map/floor.js";
 import { landmarkNames, Landmarks, North } from "../map/ground.js";
+import { Tracks } from "../map/tracks.js";
 import { Button, Icon, SaidWords, SureButton, Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
 import { DroneCard, DroneList } from "./drones.js";
+import { EventList, mattered, picking } from "./events.js";
 import { Graph } from "./graph.js";
 import { MissionList } from "./missions.js";
 
+/** Where a trip leads; what it follows may not be known any more. @param {World} world @param {TripRow} trip */
+const spot = (world, trip) => (trip.track ? world.tracks.get(trip.track) : trip);
+
 /** @param {{ world: World, chosen: string | null }} props */
 export function Targets({ world, chosen }) {
-  const way = world.missions.get(chosen)?.trips ?? [];
+  const trips = world.missions.get(chosen)?.trips ?? [];
+  const way = trips.flatMap((trip) => {
+    const at = spot(world, trip);
+    return at ? [{ x: at.x, y: at.y, status: trip.status }] : [];
+  });
   return h("g", { class: "layer targets" },
     way.length > 1 && h("polyline", { class: "way", points: way.map(({ x, y }) => `${x},${y}`).join(" ") }),
     way.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
@@ -31,7 +40,9 @@ export function Targets({ world, chosen }) {
 function Target({ world, name, isChosen }) {
   const row = world.missions.get(name);
   if (!row?.drone || hasEnded(row) || row.current === null) return null;
-  const { x, y } = row.trips[row.current];
+  const at = spot(world, row.trips[row.current]);
+  if (!at) return null;
+  const { x, y } = at;
   return h(Mark, { x, y, class: `target ${isChosen ? "chosen" : ""}` },
     h("g", { "data-own": true, onClick: () => selectMission(name) },
       h("title", null, name), h("path", { d: "M0-10L10 0 0 10-10 0z" }), h("text", { y: 4 }, row.index + 1)));
@@ -55,7 +66,7 @@ function Asked({ row: { name }, question: { said, answers } }) {
       : h(Button, { key: answer, onClick: () => decide(answer) }, tOr(`answer.${answer}`, answer))))));
 }
 
-const LISTS = /** @type {const} */ (["missions", "drones", "log", "graph"]);
+const LISTS = /** @type {const} */ (["missions", "drones", "events", "log", "graph"]);
 /** @typedef {typeof LISTS[number]} ListName */
 
 /**
@@ -70,16 +81,19 @@ export function Watch({ world, isLive, foot }) {
     const row = world.drones.rows.get(drone ?? world.missions.rows.get(mission ?? "")?.peek().drone ?? "")?.peek();
     if (row && row.x !== null && row.y !== null) camera.reveal(row.x, row.y);
   }, [drone, mission, world, camera]);
-  const lists = LISTS.filter((name) => name !== "graph" || (shape.graph && prefs.graph.value));
+  useEffect(() => () => { picking.value = null; }, []);
+  const has = { graph: shape.graph && prefs.graph.value, events: shape.events.length || world.events.all().some(mattered) };
+  const lists = LISTS.filter((name) => !(name in has) || has[/** @type {keyof typeof has} */ (name)]);
   const list = lists.find((name) => name === prefs.railTab.value) ?? "missions";
   return h(MapSplit, {
     stage: [
       h(Floor, {
-        key: "floor", map: shape.map, camera,
+        key: "floor", map: shape.map, camera, class: picking.value ? "aiming" : "", onPlace: (at) => picking.peek()?.(at),
         overlay: [h(Names, { key: "names", world, chosen: drone, more: landmarkNames }), h(North, { key: "north" })],
         children: [
           h(Landmarks, { key: "landmarks" }),
           h(Homes, { key: "homes", app: shape }),
+          h(Tracks, { key: "tracks", world }),
           h(Targets, { key: "targets", world, chosen: mission }),
           h(Fleet, { key: "fleet", world, chosen: drone, onPick: selectDrone }),
         ],
@@ -96,6 +110,7 @@ export function Watch({ world, isLive, foot }) {
       h("div", { key: "body", class: "rail-body", role: "tabpanel", "aria-label": t(`monitor.${list}`) }, {
         missions: () => h(MissionList, { world, live: isLive }),
         drones: () => h(DroneList, { world, live: isLive }),
+        events: () => h(EventList, { world, live: isLive }),
         log: () => h(Console, { world, live: isLive }),
         graph: () => h(Graph, { world }),
       }[list]()),

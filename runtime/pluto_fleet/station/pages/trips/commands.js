@@ -29,16 +29,20 @@ const edit = (change, typing = false) => plan.edit(inSelected(change), typing);
 const put = (fresh, index) => edit((all) =>
   all.toSpliced(index, 0, ...fresh.filter(({ key }) => !all.some((one) => one.key === key))));
 
-/** Put an action at places, as new trips. @param {ActionShape} action @param {readonly Point[]} targets */
-export function add(action, targets) {
-  if (isLocked.peek() || !targets.length) return [];
+/** What is done on the way along a line, if it is one. @param {string} action @param {Partial<SweptTrip>} line */
+const onTheWay = (action, { source, every }) =>
+  (source && every ? { source: [...source], along: { action, every: `${every} m` } } : {});
+
+/** Put an action at places, or along lines, as new trips. @param {ActionShape} action @param {readonly (Pick<SweptTrip, "target"> & Partial<SweptTrip>)[]} spots */
+export function add(action, spots) {
+  if (isLocked.peek() || !spots.length) return [];
   const before = trips();
   let items = before.filter((trip) => trip.action === PICK).length;
-  const fresh = targets.map((target) => {
+  const fresh = spots.map(({ target, ...line }) => {
     // how heavy an item is, only people know
     const item = action.item ? { name: items ? t("trips.item-n", { n: items + 1 }) : t("trips.item-stem") } : null;
     items += 1;
-    return { key: newKey(), action: action.name, target: [...target], parameters: {}, item };
+    return { key: newKey(), action: action.name, target: [...target], ...onTheWay(action.name, line), parameters: {}, item };
   });
   put(fresh, before.length);
   markOne(/** @type {PlanTrip} */ (fresh.at(-1)).key);

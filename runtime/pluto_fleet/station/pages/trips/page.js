@@ -60,7 +60,7 @@ export default function Page() {
       if (marked.peek().length > 1) markOne(null);
       return;
     }
-    const [key] = add(action, [snapped(at, event.shiftKey, places.peek())]);
+    const [key] = add(action, [{ target: snapped(at, event.shiftKey, places.peek()) }]);
     take(null);
     if (key) onAdded(key, action, event.pointerType);
   }
@@ -81,7 +81,7 @@ export default function Page() {
         children: [
           h(Homes, { key: "homes", app: shape }), h(Landmarks, { key: "landmarks" }),
           h(OtherTrips, { key: "others", shown: areOthersShown }), h(Ways, { key: "ways" }),
-          h(Drawn, { key: "drawn" }), h(Preview, { key: "preview" }),
+          h("g", { key: "drawn", class: "layer" }, h(Drawn, null)), h(Preview, { key: "preview" }),
           h(Pins, { key: "pins", onOpen: focusField, onRemoved: focusPin }),
         ],
       }),
@@ -102,8 +102,11 @@ const focusPin = (next) => requestAnimationFrame(() =>
 
 /** The pins that would be put now. */
 function Preview() {
-  const targets = hovered.value ? [hovered.value] : pattern.value;
-  return h("g", { class: "layer preview", "aria-hidden": true }, targets.map(([x, y], at) =>
+  const lines = hovered.value ? [] : pattern.value.flatMap(({ source, target }) => (source ? [{ source, target }] : []));
+  const targets = hovered.value ? [hovered.value] : pattern.value.map(({ target }) => target);
+  return h("g", { class: "layer preview", "aria-hidden": true }, lines.map(({ source, target }, at) =>
+    h("line", { key: `line ${at}`, class: "drawn", x1: source[0], y1: source[1], x2: target[0], y2: target[1] })),
+  targets.map(([x, y], at) =>
     h(Mark, { key: at, x, y }, h("g", { class: "pin new" }, h("circle", { class: "disc", r: 12.5 }), h("text", { y: 4.5 }, "+")))));
 }
 

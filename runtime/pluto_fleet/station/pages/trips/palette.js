@@ -52,7 +52,7 @@ export function Palette({ camera, onAdded, onNew }) {
     const form = /** @type {HTMLFormElement} */ (event.currentTarget);
     const action = /** @type {ActionShape} */ (inHand.peek());
     const target = ["x", "y"].map((name) => Number(String(new FormData(form).get(name)).replace(",", ".")));
-    const [key] = add(action, [target]);
+    const [key] = add(action, [{ target }]);
     form.reset();
     setSaid("");
     x.current?.focus(); // for another of the same
@@ -136,7 +136,7 @@ function Chip({ action, number, camera, onAdded, onTake }) {
     if (!wasDragged.current) return;
     hovered.value = null;
     const place = isKept ? target(event) : null;
-    const [key] = place ? add(action, [place]) : [];
+    const [key] = place ? add(action, [{ target: place }]) : [];
     if (key) onAdded(key, action, event.pointerType);
   }
   return h("button", {

@@ -165,7 +165,8 @@ function nearest(drones, [x, y]) {
 }
 
 export function Ways() {
-  const stops = abouts.value.flatMap(({ target, isHeld }) => (target ? [{ target, isHeld }] : []));
+  const stops = abouts.value.flatMap(({ target, isHeld, trip: { source } }) => (target
+    ? [...(source ? [{ target: source, isHeld: false }] : []), { target, isHeld }] : []));
   const home = stops.length ? nearest(app.value?.drones ?? [], stops[0].target) : undefined;
   const legs = [...(home ? [{ target: home.slice(0, 2), isHeld: false }] : []), ...stops];
   return h("g", { class: "layer ways" }, legs.slice(1).map(({ target, isHeld }, at) => {

@@ -25,7 +25,7 @@ export const tool = signal(null);
 /** The rectangle or the line that was drawn last, in metres. @type {Signal<{ from: At, to: At } | null>} */
 export const drawn = signal(null);
 
-/** What the tool at work would add. @type {Signal<readonly Point[]>} */
+/** What the tool at work would add. @type {Signal<readonly (Pick<SweptTrip, "target"> & Partial<SweptTrip>)[]>} */
 export const pattern = signal([]);
 
 export const { marked, markOne, markAll, toggle, extendTo } = marking(

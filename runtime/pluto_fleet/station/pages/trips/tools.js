@@ -4,7 +4,7 @@
 import { h } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { send } from "../core/api.js";
-import { capital, many, number, percent, t } from "../core/i18n.js";
+import { capital, duration, many, number, percent, t } from "../core/i18n.js";
 import { landmarks } from "../core/landmarks.js";
 import { app } from "../core/station.js";
 import { read } from "../ui/field.js";
@@ -111,7 +111,7 @@ export function ToolPanel({ onAdded }) {
     onKeyDown: (/** @type {KeyboardEvent} */ event) => { if (event.key === "Escape") work(null); },
   },
   h("p", { class: "hint" }, t(`trips.draw-${now}`)), h(ActionChoice, { value: action, onPick: setAction }),
-  h({ row: Row, grid: Grid, sweep: Sweep }[now], null),
+  h({ row: Row, grid: Grid, sweep: Sweep }[now], { action }),
   h("div", { class: "row" },
     h(Button, { kind: "primary", type: "submit", disabled: !total }, t("trips.add-many", { trips: many("many.trips", total) })),
     h(Button, { kind: "quiet", onClick: () => work(null) }, t("trips.cancel"))));
@@ -131,7 +131,7 @@ function Row() {
   const [trips, setTrips] = useState("5");
   const { from, to } = corners();
   const total = count(trips);
-  useEffect(() => { pattern.value = total > MOST ? [] : row(from, to, total); }, [from.x, from.y, to.x, to.y, total]);
+  useEffect(() => { pattern.value = total > MOST ? [] : stops(row(from, to, total)); }, [from.x, from.y, to.x, to.y, total]);
   return h(Counts, { total }, h(ToolField, { label: t("page.trips"), value: trips, onWrite: setTrips }));
 }
 
@@ -140,13 +140,16 @@ function Grid() {
   const [rows, setRows] = useState("3");
   const { from, to } = corners();
   const [wide, high] = [count(columns), count(rows)];
-  useEffect(() => { pattern.value = wide * high > MOST ? [] : grid(from, to, wide, high); }, [from.x, from.y, to.x, to.y, wide, high]);
+  useEffect(() => { pattern.value = wide * high > MOST ? [] : stops(grid(from, to, wide, high)); }, [from.x, from.y, to.x, to.y, wide, high]);
   return h(Counts, { total: wide * high },
     h(ToolField, { label: t("trips.columns"), value: columns, onWrite: setColumns }),
     h(ToolField, { label: t("trips.rows"), value: rows, onWrite: setRows }));
 }
 
 export const MOST = 500; // trips at once
+
+/** @param {readonly Point[]} targets */
+const stops = (targets) => targets.map((target) => ({ target }));
 
 /** @typedef {{ from: At, to: At }} Corners */
 
@@ -206,21 +209,32 @@ const rectangle = ({ from, to }) => [[from.x, from.y], [to.x, from.y], [to.x, to
 /** A place without the height at which drones cruise anyway. @param {Point} target @returns {Point} */
 const flat = ([x, y, z]) => (z === undefined || z === app.peek()?.map.cruise_height ? [x, y] : [x, y, z]);
 
-/** @param {Point[]} polygon @param {string} spacing @returns {Promise<Swept>} */
-async function sweep(polygon, spacing) {
+/** @param {object} area @returns {Promise<Swept>} */
+async function sweep(area) {
   const before = abouts.peek().at(-1)?.target ?? undefined;
-  return (await send("POST", "/api/plan/sweep", { polygon, spacing, before })).data;
+  return (await send("POST", "/api/plan/sweep", { ...area, before })).data;
 }
 
-function Sweep() {
+/** What lies between lanes, or what photos have in common. @param {string} text */
+const dense = (text) => (text.trim().endsWith("%") ? { overlap: text } : { spacing: text });
+
+/** Whether an action can be done on the way, again and again. @param {string} action */
+const canOnTheWay = (action) =>
+  app.value?.fields.trip.some(({ type, spaced = [] }) => type === "along" && spaced.includes(action)) ?? false;
+
+/** @param {{ action: string }} props */
+function Sweep({ action }) {
   const [spacing, setSpacing] = useState("1 m");
+  const [isOnTheWay, goOn] = useState(false);
   const [zone, setZone] = useState("");
   const zones = landmarks.value?.zones ?? [];
   const polygon = zones.find(({ name }) => name === zone)?.corners ?? rectangle(corners());
-  const { data, trouble } = useAnswer([], () => sweep(polygon, spacing), { anew: JSON.stringify([polygon, spacing]), settles: PAUSE });
-  const isTooMany = data !== null && data.targets.length > MOST;
+  const can = canOnTheWay(action);
+  const area = { polygon, ...dense(spacing), action, on_the_way: can && isOnTheWay };
+  const { data, trouble } = useAnswer([], () => sweep(area), { anew: JSON.stringify(area), settles: PAUSE });
+  const isTooMany = data !== null && data.trips.length > MOST;
   const swept = isTooMany ? null : data;
-  useEffect(() => { pattern.value = swept?.targets.map(flat) ?? []; }, [swept]);
+  useEffect(() => { pattern.value = swept?.trips.map((trip) => ({ ...trip, target: flat(trip.target), source: trip.source && flat(trip.source) })) ?? []; }, [swept]);
   const wrong = isTooMany ? t("trips.count-wrong", { n: MOST }) : trouble;
   return h("div", { class: "stack" },
     zones.length > 0 && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.zone")), h(Select, {
@@ -228,7 +242,11 @@ function Sweep() {
     })),
     !zone && h(CornerFields, null),
     h(ToolField, { label: t("trips.spacing"), value: spacing, numeric: false, onWrite: setSpacing }),
-    swept && h("p", { class: "hint" }, t("trips.swept", { trips: many("many.trips", swept.targets.length), metres: number(swept.metres) })),
+    can && h("label", { class: "field" }, h("span", { class: "hint" }, t("trips.swept-where")), h(Select, {
+      value: isOnTheWay ? "lines" : "", onPick: (picked) => goOn(picked === "lines"), options: [["", t("trips.at-each-place")], ["lines", t("trips.on-the-way")]],
+    })),
+    swept && h("p", { class: "hint" }, t("trips.swept", { trips: many("many.trips", swept.trips.length), places: many("many.places", swept.places), metres: number(swept.metres) })),
+    swept?.seconds && h("p", { class: "hint" }, t("trips.swept-takes", { time: duration(swept.seconds) })),
     swept && swept.forbidden > 0 && h("p", { class: "hint" }, t("trips.swept-forbidden", { share: percent(swept.forbidden) })),
     wrong && h("p", { class: "problem", role: "status" }, wrong));
 }

@@ -4,7 +4,7 @@
 import { h } from "preact";
 import { useId, useRef, useState } from "preact/hooks";
 import { capital, inWords, t, TIME, typedNumber, typedQuantity, usualUnit } from "../core/i18n.js";
-import { Check, Problem, Select } from "./parts.js";
+import { Check, Input, Problem, Select } from "./parts.js";
 
 const NUMERIC = ["int", "float"];
 
@@ -54,6 +54,7 @@ export function Field(props) {
   if (type === "rounds") return framed(given, Rounds(given));
   if (type === "bool") return framed(given, needed ? YesOrNo(given) : Tick(given));
   if (type === "evaluator") return framed(given, Evaluator(given));
+  if (type === "along") return framed(given, Along(given));
   return h(Typed, given);
 }
 
@@ -144,6 +145,23 @@ function Tick(props) {
   return h("input", {
     ...shared(props), type: "checkbox", checked: isTicked, onChange: () => onChange(!isTicked, false, null),
   });
+}
+
+const USUALLY_EVERY = "1 m";
+
+/** What is done on the way, and how often. @param {ControlProps} props */
+function Along(props) {
+  const { field: { actions = [], spaced = [] }, locked, onChange } = props;
+  const now = /** @type {Along} */ (typeof props.value === "string" ? { action: props.value } : props.value ?? { action: "" });
+  const { action, every } = now;
+  const pick = (/** @type {string} */ name) =>
+    (name ? { action: name, ...(spaced.includes(name) ? { every: every ?? USUALLY_EVERY } : {}) } : undefined);
+  return h("div", { class: "row along" },
+    h(Select, { ...shared(props), class: "", value: action, options: [["", t("none")], ...actions.map((name) => [name, capital(name)])], onPick: (name) => onChange(pick(name), false, null) }),
+    spaced.includes(action) && h(Input, {
+      class: "", "aria-label": t("field.every"), placeholder: t("field.such-as", { example: "2 m" }), maxLength: 20, autocomplete: "off", disabled: locked, value: every ?? "",
+      onText: (text) => onChange({ ...now, every: text }, true, null), // and no onChange: that comes, too, as it is taken away
+    }));
 }
 
 /** @param {ControlProps} props */
