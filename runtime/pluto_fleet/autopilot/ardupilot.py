@@ -5,7 +5,7 @@ Each behaviour names the source of ArduPilot that it follows; parameters have th
 
 from __future__ import annotations
 
-from math import hypot, isfinite
+from math import hypot, inf, isfinite
 from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -43,6 +43,11 @@ def _parameters() -> dict[str, Parameter]:
         "SYSID_MYGCS": Parameter(255.0, whole=True),
         "BATT_FS_LOW_ACT": Parameter(0.0, whole=True),
         "BATT_LOW_VOLT": Parameter(10.5),
+        "FENCE_ENABLE": Parameter(0.0, whole=True),
+        "FENCE_TYPE": Parameter(7.0, whole=True),
+        "FENCE_ACTION": Parameter(1.0, whole=True),
+        "FENCE_ALT_MAX": Parameter(100.0),
+        "FENCE_RADIUS": Parameter(300.0),
         "DISARM_DELAY": Parameter(10.0, whole=True),
     }
 
@@ -71,6 +76,7 @@ class ArduPilot(Vehicle):
         self.mode = STABILIZE
         self._speed = limits.level
         self._armed_at = 0.0
+        self._beyond = False
 
     @property
     def mode_number(self) -> int:
@@ -113,6 +119,8 @@ class ArduPilot(Vehicle):
         changes = int(flags) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE
         if not asked.exact or (self.mode != GUIDED and not changes):
             return DENIED
+        if self._is_beyond(self.goal_of(asked)):
+            return FAILED
         if not self.flies:  # its guided target is set, and nothing moves before a take-off
             return ACCEPTED
         self.mode, self.doing = GUIDED, Doing.GO
@@ -158,11 +166,31 @@ class ArduPilot(Vehicle):
             self.disarm()
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "EKF Failsafe: changed to LAND Mode")
+        self._watch_fence()
         silent = self.now - self.heard
         act = {1: Doing.RETURN, 5: Doing.LAND}.get(int(self.value("FS_GCS_ENABLE")))
         # without a station that it ever heard there is nothing to lose
         if act is not None and self.value("FS_GCS_TIMEOUT") < silent < 1e6:
             self.fail_safe(act, "GCS Failsafe")
+
+    # libraries/AC_Fence/AC_Fence.cpp, ArduCopter/fence.cpp
+
+    def _is_beyond(self, place: Metres) -> bool:
+        """Return whether a place is outside of its fences, as far as they are on."""
+        kinds = int(self.value("FENCE_TYPE")) if self.value("FENCE_ENABLE") else 0
+        x, y, z = place
+        return (
+            (bool(kinds & 1) and z >= self.value("FENCE_ALT_MAX"))
+            or (bool(kinds & 2) and hypot(x, y) >= self.value("FENCE_RADIUS"))
+            or (bool(kinds & 4) and self.is_beyond(place, inf))
+        )
+
+    def _watch_fence(self) -> None:
+        acts = {1: Doing.RETURN, 2: Doing.LAND}
+        act = acts.get(int(self.value("FENCE_ACTION")))
+        was_beyond, self._beyond = self._beyond, self._is_beyond(self.here)
+        if act is not None and self._beyond and not was_beyond:
+            self.fail_safe(act, "Fence Breached")
 
     # What it flies
 

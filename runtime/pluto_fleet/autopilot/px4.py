@@ -5,7 +5,7 @@ Each behaviour names the source of PX4 that it follows; parameters have the valu
 
 from __future__ import annotations
 
-from math import hypot, isfinite
+from math import hypot, inf, isfinite
 from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -51,6 +51,8 @@ def _parameters() -> dict[str, Parameter]:
         "BAT_EMERGEN_THR": Parameter(0.05),
         "RTL_RETURN_ALT": Parameter(60.0),
         "RTL_DESCEND_ALT": Parameter(30.0),
+        "GF_ACTION": Parameter(2.0, whole=True),
+        "GF_MAX_VER_DIST": Parameter(0.0),
         "CBRK_FLIGHTTERM": Parameter(_UNBREAKABLE, whole=True),
     }
 
@@ -73,6 +75,7 @@ class Px4(Vehicle):
         self._rises_to: float | None = None
         """The height above home of the take-off that is wanted."""
         self._armed_at = 0.0
+        self._beyond = False
 
     # commander/Commander.cpp, handle_command
 
@@ -108,6 +111,9 @@ class Px4(Vehicle):
         """Take a new place to hold: navigator/navigator_main.cpp, VEHICLE_CMD_DO_REPOSITION."""
         speed, flags, *_ = asked.values
         if not asked.exact:
+            return DENIED
+        if self.is_beyond(self.goal_of(asked), self._highest):
+            self.tell(mavlink.MAV_SEVERITY_CRITICAL, "Reposition is outside geofence")
             return DENIED
         if int(flags) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE:
             self.switch(Doing.GO)
@@ -153,8 +159,20 @@ class Px4(Vehicle):
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "Failsafe activated: no position, it descends")
         elif self.doing is not Doing.LAND:
+            self._watch_fence()
             self._watch_battery()
             self._watch_link()
+
+    @property
+    def _highest(self) -> float:
+        return self.value("GF_MAX_VER_DIST") or inf
+
+    def _watch_fence(self) -> None:
+        acts = {2: Doing.HOLD, 3: Doing.RETURN, 5: Doing.LAND}
+        act = acts.get(int(self.value("GF_ACTION")))
+        was_beyond, self._beyond = self._beyond, self.is_beyond(self.here, self._highest)
+        if act is not None and self._beyond and not was_beyond:
+            self.fail_safe(act, "Failsafe activated: geofence breached")
 
     def _watch_battery(self) -> None:
         act, left = self.value("COM_LOW_BAT_ACT"), self.charge

@@ -77,7 +77,7 @@ class Server(asyncio.DatagramProtocol):
         """Who has spoken, and when last."""
         self._reader = mavlink.MAVLink(None)
         self._reader.robust_parsing = True
-        self._links: dict[int, StationLink] = {}
+        self._links: dict[str, StationLink] = {}
         self.vehicles: dict[str, Vehicle] = {}
         for build in builds:
             self.join(build)
@@ -89,7 +89,7 @@ class Server(asyncio.DatagramProtocol):
         """Have one more vehicle."""
         vehicle = MAKES[build.make](build)
         self.vehicles[build.id] = vehicle
-        self._links[build.system] = StationLink(vehicle, partial(self._send, vehicle))
+        self._links[build.id] = StationLink(vehicle, partial(self._send, vehicle))
         return vehicle
 
     async def start(self, port: int = 0) -> None:
@@ -132,8 +132,8 @@ class Server(asyncio.DatagramProtocol):
         self._clients[addr] = self.talked
         for message in self._reader.parse_buffer(data) or ():
             target = getattr(message, "target_system", 0)
-            for system, link in self._links.items():
-                if target in (0, system) and not link.vehicle.faults.silent:
+            for link in self._links.values():
+                if target in (0, link.vehicle.build.system) and not link.vehicle.faults.silent:
                     link.hear(message)
 
     def _send(self, vehicle: Vehicle, data: bytes) -> None:

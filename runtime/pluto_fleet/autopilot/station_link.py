@@ -25,12 +25,15 @@ from .vehicle import (
 
 ARMED = mavlink.MAV_MODE_FLAG_SAFETY_ARMED | mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
 _WHOLE, _REAL = mavlink.MAV_PARAM_TYPE_INT32, mavlink.MAV_PARAM_TYPE_REAL32
+_FENCE = mavlink.MAV_MISSION_TYPE_FENCE
 _BYTEWISE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
 _BY_VALUE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_C_CAST
 _CAN = (
     mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
     | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_FLIGHT_TERMINATION
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
 )
 _USUAL = {
     mavlink.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
@@ -61,6 +64,8 @@ class StationLink:
             self._every.update(_USUAL)
         self._due = dict.fromkeys(self._every, 0.0)
         self._beat = 0.0
+        self._coming: list[tuple[float, float] | None] = []
+        """The corners of a fence that is being sent."""
         self._make: dict[int, Callable[[], Any]] = {
             mavlink.MAVLINK_MSG_ID_SYS_STATUS: self._status,
             mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: self._battery,
@@ -202,6 +207,13 @@ class StationLink:
                     self._parameter(name)
             case "PARAM_SET":
                 self._set(message)
+            case "MISSION_COUNT" if message.mission_type == _FENCE:
+                self._coming = [None] * message.count
+                self._next_corner(message)
+            case "MISSION_ITEM_INT" if message.mission_type == _FENCE:
+                if message.seq < len(self._coming):
+                    self._coming[message.seq] = (message.x / 1e7, message.y / 1e7)
+                self._next_corner(message)
 
     def _station(self, message: Any) -> None:
         mine = self.vehicle.parameters.get("SYSID_MYGCS", Parameter(message.get_srcSystem()))
@@ -299,6 +311,19 @@ class StationLink:
             int(taken),
             f"mftp:///{vehicle.build.id}-{vehicle.images}.jpg".encode(),
         )
+
+    # Its fence
+
+    def _next_corner(self, message: Any) -> None:
+        """Ask for the first corner that has not come, or take the fence: MAVLink's mission protocol."""
+        to = message.get_srcSystem(), message.get_srcComponent()
+        if None in self._coming:
+            missing = self._coming.index(None)
+            self._put(self._of().mission_request_int_encode(*to, missing, _FENCE))
+            return
+        self.vehicle.fence = tuple(corner for corner in self._coming if corner is not None)
+        accepted = mavlink.MAV_MISSION_ACCEPTED
+        self._put(self._of().mission_ack_encode(*to, accepted, _FENCE))
 
     # Parameters
 

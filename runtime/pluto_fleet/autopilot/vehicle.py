@@ -15,6 +15,7 @@ from typing import ClassVar
 from pymavlink.dialects.v20 import common as mavlink
 
 from ..geodesy import Degrees, LocalPlane
+from ..shared.domain.airspace import inside
 from .body import Body, Limits, Metres
 
 AUTOPILOT, CAMERA = 1, mavlink.MAV_COMP_ID_CAMERA
@@ -69,6 +70,8 @@ class Faults:
     """It has no satellites."""
     dead: bool = False
     """A motor is dead."""
+    blown: float = 0.0
+    """Metres a second to the east by which the wind takes it along."""
     blank: bool = False
     """Its camera takes no picture."""
     unready: str = ""
@@ -140,6 +143,8 @@ class Vehicle:
         self.heard = -inf
         """When it last heard of a ground station; never: minus infinity."""
         self.images = 0
+        self.fence: tuple[tuple[float, float], ...] = ()
+        """Latitudes and longitudes of the corners of what it must not leave; none: it may fly anywhere."""
         self.said: list[tuple[int, str]] = []
         """Texts to be sent, with their severity."""
         self.commands: dict[int, Callable[[Asked], int]] = {
@@ -232,6 +237,17 @@ class Vehicle:
         x, y, z = self.body.at
         return self.plane.to_degrees((x, y, z))
 
+    def is_beyond(self, place: Metres, highest: float) -> bool:
+        """Return whether a place is outside of its fence, or higher than so many metres."""
+        x, y, z = place
+        around = [self.plane.to_metres((*corner, self.build.home[2]))[:2] for corner in self.fence]
+        return z > highest or (bool(around) and not inside((x, y), tuple(around)))
+
+    @property
+    def here(self) -> Metres:
+        x, y, z = self.body.at
+        return x, y, z
+
     def stop_here(self) -> None:
         self.body.goal = self.body.stopping_place
 
@@ -259,6 +275,8 @@ class Vehicle:
             self.watch()
             self.steer()
             body.fly(seconds)
+            if self.high:
+                body.at[0] += self.faults.blown * seconds
         elif self.high:
             self.record.fell = True
             body.fall(seconds)

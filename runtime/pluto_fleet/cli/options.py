@@ -422,7 +422,8 @@ TABLE = (
     row(
         "drones",
         "--address A",
-        "find those at this radio address, not at E7E7E7E7E7; may be given several times",
+        "find those at this address, not at the usual ones: E7E7E7E7E7 of a radio, or"
+        " mavlink+udp://:14550; may be given several times",
         dest="addresses",
         action="append",
     ),

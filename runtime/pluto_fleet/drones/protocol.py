@@ -37,6 +37,7 @@ from typing import ClassVar, Protocol, runtime_checkable
 from ..geodesy import LocalPlane
 from ..jobs.reports import SILENCE
 from ..shared.domain.actions import Plain
+from ..shared.domain.airspace import Airspace
 from ..shared.domain.model import Item, Point, Sighting
 
 
@@ -191,6 +192,8 @@ class DroneSetup:
     """Seconds for which it may tell nothing in the air before its link counts as lost."""
     plane: LocalPlane | None = None
     """Where the map lies on the Earth; None: the fleet file does not say."""
+    airspace: Airspace | None = None
+    """The map, for drones that keep within it by themselves as well; None: it is only asked how it is."""
     in_view: InView = nothing_in_view
     """What the fleet's tracker sees where a camera looks that cannot tell by itself what moves."""
 

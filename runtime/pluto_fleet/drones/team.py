@@ -61,7 +61,7 @@ class Team:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._kernel = kernel
-        self._real = real
+        self._real, self._airspace = real, airspace
         self._cargo, self._feed = Cargo(folder, say), feeding
         self.tracking = tracking
         """What says where things are that move; None: nothing does."""
@@ -104,7 +104,8 @@ class Team:
         files = self._folder / FILES
         speed = drone.category.speed
         view = _view_of(self.tracking)
-        navigation = make_one(how, drone.home, speed, files, self._real, view)
+        airspace = self._airspace
+        navigation = make_one(how, drone.home, speed, files, self._real, airspace, view)
         if self._feed is not None:
             if not isinstance(navigation, Locatable):
                 raise deaf(self._feed.name, [drone.id])
@@ -246,6 +247,7 @@ def make_one(
     speed: float,
     folder: Path,
     fleet: RealFleet = RealFleet(),  # noqa: B008 - it is frozen
+    airspace: Airspace | None = None,
     in_view: InView = nothing_in_view,
 ) -> DroneNavigation:
     """Create one drone's navigation, with a maximum speed, in its fleet; nothing is connected yet.
@@ -261,6 +263,7 @@ def make_one(
         folder=folder,
         silence=fleet.silence,
         plane=fleet.plane,
+        airspace=airspace,
         in_view=in_view,
     )
     made = make_navigation(how.navigation, setup)
@@ -287,7 +290,9 @@ def make_team(
     tracking = _tracking(real, airspace, say)
     view = _view_of(tracking)
     navigations = {
-        drone.id: make_one(how[drone.id], drone.home, drone.category.speed, files, real, view)
+        drone.id: make_one(
+            how[drone.id], drone.home, drone.category.speed, files, real, airspace, view
+        )
         for drone in drones
     }
     return Team(

@@ -39,6 +39,10 @@ class VehicleAddress:
     uri: str
     """In its canonical form: all that it left out is there."""
 
+    def uri_of(self, system: int) -> str:
+        """Return the uri of another vehicle behind the same connection."""
+        return f"{self.uri.rpartition('=')[0]}={system}"
+
 
 def is_vehicle(uri: str) -> bool:
     """Return whether a uri is meant to be that of a MAVLink vehicle."""

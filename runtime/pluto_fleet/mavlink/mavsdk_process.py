@@ -21,6 +21,7 @@ from typing import Any
 
 from mavsdk.asyncio import Configuration, Mavsdk
 from mavsdk.asyncio.plugins.camera import CameraAsync
+from mavsdk.asyncio.plugins.geofence import GeofenceAsync
 from mavsdk.asyncio.plugins.mavlink_direct import MavlinkDirectAsync
 from mavsdk.asyncio.plugins.param import ParamAsync
 from mavsdk.asyncio.plugins.telemetry import TelemetryAsync
@@ -28,6 +29,7 @@ from mavsdk.autopilot import Autopilot
 from mavsdk.component_type import ComponentType
 from mavsdk.exceptions import MavsdkError
 from mavsdk.logging import LogLevel, log_subscribe
+from mavsdk.plugins.geofence import FenceType, GeofenceData, Point, Polygon
 from mavsdk.plugins.mavlink_direct import MavlinkMessage
 
 COMMAND = "mavsdk"
@@ -43,6 +45,7 @@ RATES = {33: 10.0, 245: 5.0, 1: 1.0, 147: 1.0, 242: 0.5}
 """How often a second these are to be told: GLOBAL_POSITION_INT, EXTENDED_SYS_STATE, SYS_STATUS, BATTERY_STATUS,
 HOME_POSITION. An ArduPilot tells none of them unasked."""
 _SET_INTERVAL = 511
+_NO_HEADING = 65535
 
 Message = Mapping[str, Any]
 
@@ -55,6 +58,7 @@ class Opened:
     direct: Any
     params: Any
     cameras: Any
+    fences: Any
     told: list[asyncio.Task[None]] = field(default_factory=list)
 
 
@@ -80,7 +84,13 @@ class Desk:
         number, link, system = asked["vehicle"], asked["link"], asked["system"]
         found = await self._system(link, system)
         await self.do_close(asked)
-        opened = Opened(found, MavlinkDirectAsync(found), ParamAsync(found), CameraAsync(found))
+        opened = Opened(
+            system=found,
+            direct=MavlinkDirectAsync(found),
+            params=ParamAsync(found),
+            cameras=CameraAsync(found),
+            fences=GeofenceAsync(found),
+        )
         self._open[number] = opened
         self._follow(number, opened, TelemetryAsync(found))
         await asyncio.gather(
@@ -91,19 +101,35 @@ class Desk:
 
     async def _system(self, link: str, number: int) -> Any:
         """Return a system with this number that has an autopilot: not a camera's, nor another station's."""
-        if link not in self._links:
-            self._links[link] = asyncio.ensure_future(_connected(link))
-        try:
-            mavsdk = await asyncio.shield(self._links[link])
-        except MavsdkError:
-            del self._links[link]  # such as a device that is not there yet
-            raise
+        mavsdk = await self._mavsdk(link)
         while True:
             for one in await mavsdk.get_systems():
                 alive = await one.has_autopilot() and await one.is_connected()
                 if alive and await one.get_system_id() == number:
                     return one
             await asyncio.sleep(_LOOK)
+
+    async def _mavsdk(self, link: str) -> Any:
+        """Return what has a connection open, for all vehicles behind it."""
+        if link not in self._links:
+            self._links[link] = asyncio.ensure_future(_connected(link))
+        try:
+            return await asyncio.shield(self._links[link])
+        except MavsdkError:
+            del self._links[link]  # such as a device that is not there yet
+            raise
+
+    async def do_scan(self, asked: Message) -> list[int]:
+        """Listen for a while; return the system ids of all autopilots that were heard."""
+        mavsdk = await self._mavsdk(asked["link"])
+        await asyncio.sleep(asked["listens"])
+        return sorted(
+            [
+                await one.get_system_id()
+                for one in await mavsdk.get_systems()
+                if await one.has_autopilot() and await one.is_connected()
+            ]
+        )
 
     async def _ask_for(self, opened: Opened, system: int, kind: int, rate: float) -> None:
         """Ask for a message so often; what does not come is noticed by who waits for it."""
@@ -112,21 +138,12 @@ class Desk:
             await _command(opened, system, "COMMAND_LONG", fields)
 
     def _follow(self, number: int, opened: Opened, told: Any) -> None:
-        latest: dict[str, Any] = {"velocity": [0.0, 0.0, 0.0], "heading": None}
-
         def tell(kind: str, facts: Any) -> None:
             self._tell({"vehicle": number, "told": kind, "facts": facts})
 
-        def on_velocity(one: Any) -> None:
-            latest["velocity"] = [one.north_m_s, one.east_m_s, one.down_m_s]
-
-        def on_heading(one: Any) -> None:
-            latest["heading"] = one.heading_deg
-
         def on_position(one: Any) -> None:
-            place = [one.latitude_deg, one.longitude_deg]
-            heights = [one.absolute_altitude_m, one.relative_altitude_m]
-            tell("position", {"place": place, "heights": heights, **latest})
+            if one.component_id == _AUTOPILOT:
+                tell("position", _position(json.loads(one.fields_json)))
 
         def on_battery(one: Any) -> None:
             tell("battery", {"volts": one.voltage_v, "percent": one.remaining_percent})
@@ -155,9 +172,7 @@ class Desk:
         opened.told = [
             asyncio.ensure_future(_each(stream, hear))
             for stream, hear in (
-                (told.subscribe_velocity_ned(), on_velocity),
-                (told.subscribe_heading(), on_heading),
-                (told.subscribe_position(), on_position),
+                (opened.direct.subscribe_message("GLOBAL_POSITION_INT"), on_position),
                 (told.subscribe_battery(), on_battery),
                 (told.subscribe_health(), on_health),
                 (told.subscribe_home(), on_home),
@@ -186,6 +201,12 @@ class Desk:
 
     async def do_photo(self, asked: Message) -> None:
         await self._open[asked["vehicle"]].cameras.take_photo(asked["camera"])
+
+    async def do_fence(self, asked: Message) -> None:
+        """Give it a fence in place of its own: it must stay within these corners."""
+        corners = [Point(latitude, longitude) for latitude, longitude in asked["corners"]]
+        fence = GeofenceData([Polygon(corners, FenceType.INCLUSION)], [])
+        await self._open[asked["vehicle"]].fences.upload_geofence(fence)
 
     async def do_read(self, asked: Message) -> float:
         """Read a parameter, of whichever type."""
@@ -219,6 +240,18 @@ async def _command(opened: Opened, system: int, message: str, fields: Message) -
     asked = MavlinkMessage(message, 0, 0, system, _AUTOPILOT, text)
     told = await opened.direct.send_command(asked)
     return int(json.loads(told.fields_json)["result"])
+
+
+def _position(told: Message) -> Message:
+    """Return a GLOBAL_POSITION_INT in degrees, metres and seconds; its heading is None if it has none."""
+    heading = told["hdg"]
+    return {
+        "clock": told["time_boot_ms"],
+        "place": [told["lat"] / 1e7, told["lon"] / 1e7],
+        "heights": [told["alt"] / 1000, told["relative_alt"] / 1000],
+        "velocity": [told["vx"] / 100, told["vy"] / 100, told["vz"] / 100],
+        "heading": None if heading == _NO_HEADING else heading / 100,
+    }
 
 
 def _lens(camera: Any) -> Message:

@@ -6,7 +6,7 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import suppress
-from math import dist
+from math import dist, inf
 from typing import Any
 
 from ..drones.protocol import (
@@ -28,10 +28,12 @@ from ..shared.domain.actions import PHOTO, Plain
 from ..shared.domain.model import Item, Photo, Point
 from ..shared.domain.text import number
 from . import own_failsafes
+from .fence import fence_of, settings
 from .makes import ACCEPTED, ANSWERS, CUT_MOTORS, LAND_HERE, MAKES, Make, Order
 from .mavsdk_client import ENDED, MavsdkClient, client
 from .options import options_of
-from .preflight import problems
+from .preflight import TWINS, problems
+from .scanning import scan
 from .state import VehicleState
 
 _FINDING = 12.0
@@ -40,6 +42,8 @@ _KNOWN = 3.0
 """Seconds in which it must then tell where it is, and how it is."""
 _ANSWER = 6.0
 """Seconds for a command, which is sent again three times."""
+_UPLOAD = 10.0
+"""Seconds for a fence, of some messages each way."""
 _CAMERA = 8.0
 """Seconds within which a camera must tell what it has taken."""
 _RESTS = 0.5
@@ -72,6 +76,7 @@ class MavlinkVehicle:
         """What it was told last, and when its mode was last one of that."""
         self._by_itself = ""
         """What it does by itself, if it does."""
+        self._fence_given, self._mixed = False, False
         self._parameters: dict[str, float] = {}
         """Those of `own_failsafes`, once they were read."""
         self._since = 0.0
@@ -83,8 +88,9 @@ class MavlinkVehicle:
         """Find its autopilot, and wait until it has told where it is and how it is."""
         await self._part()
         self._state = VehicleState(self._setup.plane, self._setup.home[2])
+        self._mixed = False
         address = self._address
-        self._parameters = {}
+        self._parameters, self._fence_given = {}, False
         self._client = client()
         self._number = self._client.join(self._hear)
         try:
@@ -167,6 +173,9 @@ class MavlinkVehicle:
             self._watch_mode()
         if told in ("position", "beat") and state.is_known:
             self._tell()
+        if state.twins.are_there and not self._mixed:
+            self._mixed = True
+            self._reports.happened("twins", TWINS)
 
     def _tell(self) -> None:
         state = self._state
@@ -240,7 +249,29 @@ class MavlinkVehicle:
         if most is not None and self._setup.speed > most:
             slower = f"it flies no faster than {number(most)} m/s (MPC_XY_VEL_MAX)"
             return [f"its category's speed is {number(self._setup.speed)} m/s, and {slower}"]
-        return problems(self._state, self._setup.home, self._options)
+        if found := problems(self._state, self._setup.home, self._options):
+            return found
+        why = await self._fenced_in()
+        return [] if why is None else [why]
+
+    async def _fenced_in(self) -> str | None:
+        """Give it the map as its fence, once; return why it has none."""
+        airspace, plane = self._setup.airspace, self._setup.plane
+        if self._fence_given or not self._options.fence or airspace is None or plane is None:
+            return None
+        try:
+            make, beyond = self._known_make.name, self._options.beyond
+            corners = fence_of(airspace, plane, beyond)
+            await self._ask("fence", _UPLOAD, corners=corners)
+            # one that climbs through its fence to return would hold there, until its battery is empty
+            returns = own_failsafes.return_height(make, self._parameters)
+            height = max(self._highest, returns or 0.0) + beyond
+            for name, value in settings(make, height).items():
+                await self.write(name, value)
+        except (ValueError, NavigationError) as error:
+            return f"it has no fence around the map: {error}"
+        self._fence_given = True
+        return None
 
     async def _read_failsafes(self) -> None:
         """Read once what it does by itself, and say it; a parameter that it does not have is passed over."""
@@ -250,9 +281,15 @@ class MavlinkVehicle:
         for name in own_failsafes.PARAMETERS[make]:
             with suppress(Rejected):
                 self._parameters[name] = await self._ask("read", _ANSWER, name=name)
-        does = own_failsafes.described(make, self._parameters)
+        does = own_failsafes.described(make, self._parameters, self._highest)
         said = ", ".join(f"{when}: {what}" for when, what in does.items())
         self._reports.happened("failsafes", f"what it does by itself: {said}")
+
+    @property
+    def _highest(self) -> float:
+        """The height above its home up to which it may fly."""
+        airspace = self._setup.airspace
+        return inf if airspace is None else airspace.ceiling - self._setup.home[2]
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Take off straight up, at the speed that its autopilot has for that."""
@@ -409,9 +446,13 @@ class MavlinkVehicle:
     async def facts(self) -> Mapping[str, str]:
         make = self._known_make
         await self._read_failsafes()
-        does = own_failsafes.described(make.name, self._parameters)
+        does = own_failsafes.described(make.name, self._parameters, self._highest)
         return {"autopilot": make.name, "mode": make.mode_name(self._state.mode), **does}
 
     @staticmethod
     def canonical_uri(uri: str) -> str:
         return vehicle_address(uri).uri
+
+    @staticmethod
+    async def scan(options: Mapping[str, object]) -> Sequence[str]:
+        return await scan(options_of(options).addresses)

@@ -26,6 +26,12 @@ class VehicleOptions(Struct, frozen=True, kw_only=True):
     """Metres per second below which it counts as hovering."""
     dock: _Metres = 3.0
     """Metres from its home within which it must stand to take off."""
+    addresses: tuple[str, ...] = ("mavlink+udp://:14540", "mavlink+udp://:14550")
+    """Where `drones` listens for vehicles: PX4 sends to both of these ports when it is simulated, and most radios to the second."""
+    fence: bool = True
+    """Whether its autopilot is given the map as its fence, in place of the one that it has."""
+    beyond: _Metres = 5.0
+    """Metres by which that fence is farther out than the map, and higher than its ceiling."""
 
 
 _WANTED = {
@@ -33,6 +39,9 @@ _WANTED = {
     "reach": "a number of metres above 0, at most 20",
     "still": "a number of metres per second above 0, at most 20",
     "dock": "a number of metres above 0, at most 20",
+    "addresses": 'a list of texts, such as ["mavlink+udp://:14550"]',
+    "fence": "true or false",
+    "beyond": "a number of metres above 0, at most 20",
 }
 """What each must be, for people."""
 

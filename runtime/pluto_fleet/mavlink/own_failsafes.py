@@ -6,6 +6,7 @@ Their names and numbers are those of PX4's and ArduPilot's parameter references 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from math import inf
 
 from ..shared.domain.text import number
 
@@ -18,6 +19,7 @@ PARAMETERS = {
         "COM_DL_LOSS_T",
         "COM_LOW_BAT_ACT",
         "RTL_RETURN_ALT",
+        "GF_ACTION",
     ),
     "ArduPilot": (
         "FS_GCS_ENABLE",
@@ -25,6 +27,7 @@ PARAMETERS = {
         "SYSID_MYGCS",
         "BATT_FS_LOW_ACT",
         "RTL_ALT",
+        "FENCE_ACTION",
     ),
 }
 """Which are read, by make."""
@@ -35,6 +38,8 @@ _PX4_LINK = {0: "nothing", 1: "holds", 2: "returns", 3: "lands", 5: "cuts its mo
 _PX4_BATTERY = {0: "warns", 2: "lands", 3: "returns, then lands"}
 _ARDUPILOT_LINK = {0: "nothing", 1: "returns", 2: "goes on", 5: "lands"}
 _ARDUPILOT_BATTERY = {0: "warns", 1: "lands", 2: "returns"}
+_PX4_FENCE = {0: "nothing", 1: "warns", 2: "holds", 3: "returns", 4: "cuts its motors", 5: "lands"}
+_ARDUPILOT_FENCE = {0: "warns", 1: "returns", 2: "lands", 3: "returns", 4: "brakes", 5: "returns"}
 
 
 def fastest(make: str, values: Values) -> float | None:
@@ -42,26 +47,41 @@ def fastest(make: str, values: Values) -> float | None:
     return values.get("MPC_XY_VEL_MAX") if make == "PX4" else None
 
 
-def described(make: str, values: Values) -> dict[str, str]:
-    """Return what it does without a ground station, at a low battery, and at which height it returns."""
+def return_height(make: str, values: Values) -> float | None:
+    """Return the height above its home, in metres, to which it climbs to return; None: it does not say."""
+    if make == "PX4":
+        return values.get("RTL_RETURN_ALT")
+    centimetres = values.get("RTL_ALT")
+    return None if centimetres is None else centimetres / 100
+
+
+def described(make: str, values: Values, highest: float = inf) -> dict[str, str]:
+    """Return what it does without a ground station, at a low battery and beyond its fence, and how high it returns.
+
+    `highest` is the height above its home up to which it may fly.
+    """
     if make == "PX4":
         link = _named(_PX4_LINK, values.get("NAV_DLL_ACT"))
         after = values.get("COM_DL_LOSS_T")
         battery = _named(_PX4_BATTERY, values.get("COM_LOW_BAT_ACT"))
-        height = values.get("RTL_RETURN_ALT")
+        fence = _named(_PX4_FENCE, values.get("GF_ACTION"))
     else:
         link = _named(_ARDUPILOT_LINK, values.get("FS_GCS_ENABLE"))
         after = values.get("FS_GCS_TIMEOUT")
         if link != "nothing" and values.get("SYSID_MYGCS", STATION) != STATION:
             link = f"nothing: SYSID_MYGCS is not {STATION}"
         battery = _named(_ARDUPILOT_BATTERY, values.get("BATT_FS_LOW_ACT"))
-        metres = values.get("RTL_ALT")
-        height = None if metres is None else metres / 100
+        fence = _named(_ARDUPILOT_FENCE, values.get("FENCE_ACTION"))
     timed = after is not None and not link.startswith(("nothing", "?"))
+    height = return_height(make, values)
+    returns = "?" if height is None else f"{number(height)} m"
+    if height is not None and height > highest:
+        returns += ", above the ceiling"
     return {
         "without a station": f"{link} after {number(after)} s" if timed and after else link,
         "battery low": battery,
-        "returns at": "?" if height is None else f"{number(height)} m",
+        "beyond its fence": fence,
+        "returns at": returns,
     }
 
 

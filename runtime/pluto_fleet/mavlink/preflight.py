@@ -20,10 +20,18 @@ _HEALTH = {
 """By MAVSDK's names; the last one is what the others come to, and may have a reason of its own."""
 
 
+TWINS = (
+    "several vehicles tell that they are this one: give each a system id of its own, by MAV_SYS_ID (PX4) or"
+    " SYSID_THISMAV (ArduPilot), and restart it"
+)
+
+
 def problems(state: VehicleState, home: Point, options: VehicleOptions) -> list[str]:
     """Return the reasons; nothing in the air, where it has taken off already."""
     if state.flying:
         return []
+    if state.twins.are_there:
+        return [TWINS]
     if not state.health:
         return ["it has not told how it is"]
     found = [why for name, why in _HEALTH.items() if not state.health.get(name, False)]

@@ -11,6 +11,7 @@ from typing import Any
 from ..geodesy import LocalPlane
 from ..shared.domain.model import Point
 from .makes import Place
+from .twins import Twins
 
 ON_GROUND = 1
 """MAV_LANDED_STATE."""
@@ -35,6 +36,7 @@ class VehicleState:
     ground: float
     """The height of its home on the map, in metres."""
     position: Point | None = None
+    twins: Twins = field(default_factory=Twins)
     astray: str = ""
     """Why it is nowhere on the map."""
     sea: float = 0.0
@@ -110,6 +112,7 @@ class VehicleState:
         self.sea = absolute - relative - self.ground
         north, east, down = facts["velocity"]
         self.velocity = (north, east, down)
+        self.twins.hear(facts["clock"], self.position, self.speed)
         heading = facts["heading"]
         if heading is not None and isfinite(heading):
             self.yaw = (pi / 2 + self.plane.bearing - radians(heading)) % (2 * pi)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import subprocess
 from collections.abc import Awaitable, Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -21,6 +22,7 @@ from pluto_fleet.drones.protocol import (
 from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.mavlink.navigation import MavlinkVehicle
 from pluto_fleet.process import respawn
+from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Photo
 
 pytestmark = pytest.mark.process
@@ -28,10 +30,12 @@ pytestmark = pytest.mark.process
 PLANE = LocalPlane(47.397742, 8.545594, 488.0)
 HOME = (5.0, 5.0, 0.0)
 FAR = (40.0, 5.0, 3.0)
+MAP = Airspace(size=(50.0, 20.0), ceiling=10.0)
 
 
 async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     """A command ends when somebody else takes the vehicle over; nothing is said against that."""
+    let(vehicle, "parameter RTL_RETURN_ALT", 4)
     going = await setting_out(flies, vehicle)
     let(vehicle, "pilot", "return")
     with pytest.raises(Rejected, match="acts by itself: it is in the mode Return"):
@@ -97,6 +101,45 @@ async def silent(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     assert vehicle.armed
 
 
+async def beyond(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """Its autopilot keeps the map by itself: it refuses places outside, and stops where the wind takes it there."""
+    going = await setting_out(flies, vehicle)
+    corners = [PLANE.to_metres((*corner, PLANE.altitude))[:2] for corner in vehicle.fence]
+    around = [(-5.0, -5.0), (55.0, -5.0), (55.0, 25.0), (-5.0, 25.0)]
+    assert corners == [pytest.approx(one, abs=0.05) for one in around]
+    with pytest.raises(Rejected, match="outside geofence"):
+        await flies.go_to((70.0, 5.0, 3.0), 2.0)
+    with pytest.raises(Rejected, match="outside geofence"):
+        await flies.go_to((40.0, 5.0, 66.0), 2.0)  # it would return at a height of 60 m
+    let(vehicle, "parameter GF_ACTION", 5)
+    let(vehicle, "blown", 20.0)
+    with pytest.raises(Rejected, match=r"in the mode Land \(.*Failsafe activated: geofence"):
+        await going
+    let(vehicle, "blown", 0.0)
+
+
+async def beyond_ardupilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """Of its kinds of fences the circle is left out: a map may be larger than that."""
+    let(vehicle, "parameter FENCE_RADIUS", 3)
+    let(vehicle, "parameter RTL_ALT", 400)
+    going = await setting_out(flies, vehicle)
+    with pytest.raises(Rejected, match="it could not do that"):
+        await flies.go_to((70.0, 5.0, 3.0), 2.0)
+    let(vehicle, "blown", 20.0)
+    with pytest.raises(Rejected, match=r"in the mode RTL \(Fence Breached"):
+        await going
+    let(vehicle, "blown", 0.0)
+
+
+async def twin(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """Where two tell that they are one, neither takes off: nobody could say which flies where."""
+    await flies.connect()
+    await asyncio.sleep(2.0)
+    with pytest.raises(NotReady, match="several vehicles tell that they are this one: give each"):
+        await flies.takeoff(3.0, 1.0)
+    assert not vehicle.armed
+
+
 CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, object]] = {
     pilot: {},
     blind: {},
@@ -106,7 +149,13 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     blank: {},
     other_make: {"autopilot": "ardupilot"},
     silent: {},
+    beyond: {},
+    twin: {},
+    beyond_ardupilot: {"autopilot": "ardupilot"},
 }
+
+
+ARDUPILOTS = (beyond_ardupilot,)
 
 
 async def setting_out(flies: MavlinkVehicle, vehicle: Vehicle) -> asyncio.Task[None]:
@@ -130,7 +179,12 @@ def test_each_fault_ends_the_command_that_it_keeps_from_being_done(tmp_path: Pat
 async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
     """Return what came of each case."""
     home = PLANE.to_degrees(HOME)
-    server = Server([Build(case.__name__, number, home) for number, case in enumerate(CASES, 1)])
+    builds = [
+        Build(case.__name__, number, home, make="ardupilot" if case in ARDUPILOTS else "px4")
+        for number, case in enumerate(CASES, 1)
+    ]
+    (one,) = (build for build in builds if build.id == twin.__name__)
+    server = Server([*builds, replace(one, id="other", home=PLANE.to_degrees((8.0, 5.0, 0.0)))])
     await server.start()
     flown = [
         MavlinkVehicle(
@@ -142,6 +196,7 @@ async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
                 options=options,
                 folder=tmp_path,
                 plane=PLANE,
+                airspace=MAP,
             )
         )
         for case, options in CASES.items()
@@ -158,6 +213,28 @@ async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
         let(server.vehicles["silent"], "silent", False)
         await asyncio.gather(*(flies.close() for flies in flown), return_exceptions=True)
         await server.close()
+
+
+@pytest.mark.long
+def test_who_is_there_is_heard_by_anybody() -> None:
+    """Cameras speak as well, and are no vehicles."""
+    pytest.importorskip("mavsdk")
+    assert asyncio.run(_scanned()) == (["m3", "m7"], ["m3", "m7"])
+
+
+async def _scanned() -> tuple[list[str], list[str]]:
+    """Return which vehicles were found, and which are there."""
+    home = PLANE.to_degrees(HOME)
+    server = Server([Build(f"m{number}", number, home) for number in (7, 3)])
+    await server.start()
+    try:
+        found = await MavlinkVehicle.scan(
+            {"addresses": [f"mavlink+udp://127.0.0.1:{server.port}?system=1"]}
+        )
+    finally:
+        await server.close()
+    there = {uri: id for id, uri in server.uris.items()}
+    return [there[uri] for uri in found], sorted(there.values())
 
 
 def test_heartbeats_end_with_those_of_the_gateway() -> None:
