@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from collections import deque
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import suppress
 from math import dist, inf
@@ -46,6 +47,8 @@ _UPLOAD = 10.0
 """Seconds for a fence, of some messages each way."""
 _CAMERA = 8.0
 """Seconds within which a camera must tell what it has taken."""
+_CAMERA_ON_THE_WAY = 4.0
+"""The same of a picture on the way: less than what an action there may take."""
 _RESTS = 0.5
 """Seconds for which it must stay at its target, to have arrived."""
 _SETTLES = 2.0
@@ -70,7 +73,8 @@ class MavlinkVehicle:
         self._make: Make | None = None
         self._client: MavsdkClient | None = None
         self._number = 0
-        self._photo: asyncio.Future[Mapping[str, Any]] | None = None
+        self._photos: deque[asyncio.Future[Mapping[str, Any]]] = deque()
+        """Those that were asked for, in their order."""
         self._crashed, self._cut = "", False
         self._order_given, self._agreed = "", 0.0
         """What it was told last, and when its mode was last one of that."""
@@ -163,8 +167,8 @@ class MavlinkVehicle:
             self._client = None
             self._reports.happened(LINK_LOST, str(facts))
             return
-        if told == "photo" and self._photo is not None and not self._photo.done():
-            self._photo.set_result(facts)
+        if told == "photo" and self._photos:
+            self._photos.popleft().set_result(facts)
         flew, mode = state.flying, state.mode
         state.hear(told, facts)
         if flew and not state.flying:
@@ -406,23 +410,34 @@ class MavlinkVehicle:
         return None
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
+        return await self._do(action, parameters, _CAMERA)
+
+    async def trigger(self, action: str, parameters: Mapping[str, Plain]) -> object:
+        """Do an action on its way: it flies on meanwhile."""
+        if action != PHOTO:
+            raise ActionNotDone(f"{self._id} must stop to {action}")
+        return await self._do(action, parameters, _CAMERA_ON_THE_WAY)
+
+    async def _do(self, action: str, parameters: Mapping[str, Plain], seconds: float) -> Photo:
         if (why := self.why_not(action, parameters)) is not None:
             raise Rejected(why)
-        return await self._take_photo()
+        return await self._take_photo(seconds)
 
-    async def _take_photo(self) -> Photo:
+    async def _take_photo(self, seconds: float) -> Photo:
         """Take a photo; that its camera has taken one, only its own message says."""
         lens = self._state.cameras[0]
-        self._photo = asyncio.get_running_loop().create_future()
+        coming = asyncio.get_running_loop().create_future()
+        self._photos.append(coming)
         try:
-            async with asyncio.timeout(_CAMERA):
-                await self._ask("photo", _CAMERA, camera=lens["component"])
-                taken = await self._photo
+            async with asyncio.timeout(seconds):
+                await self._ask("photo", seconds, camera=lens["component"])
+                taken = await coming
         except (TimeoutError, Rejected) as error:
             said = f": {error}" if isinstance(error, Rejected) else " of no picture"
             raise ActionNotDone(f"{self._id}: its camera tells{said}") from error
         finally:
-            self._photo = None
+            with suppress(ValueError):  # it has come
+                self._photos.remove(coming)
         if not taken["success"]:
             raise ActionNotDone(f"{self._id}: its camera has taken no picture")
         x, y, z = self._state.point(taken)

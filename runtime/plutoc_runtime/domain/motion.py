@@ -36,9 +36,7 @@ class Motion:
     `steady`: as `straight`, with what multicopters outdoors are usually set to.
     """
     limit: float = 100.0  # metres per second that the position controller follows
-    acceleration: float = (
-        0.0  # m/s² at both ends of a leg that is not smooth; 0: it has its speed at once
-    )
+    acceleration: float = 0.0  # m/s² at the ends of a leg that is not smooth; 0: at once
     up: float = CLIMB_SPEED  # metres per second straight up, where that is not smooth
     down: float = CLIMB_SPEED  # the same straight down
     low: float = 0.0  # metres above the ground below which it sinks more slowly
@@ -85,9 +83,8 @@ class Motion:
     def shortness(self, speed: float) -> float:
         """Return how many seconds a short leg can take more than its share of a long one."""
         if not self.smooth:
-            return (
-                self.pace * min(speed, self.limit) / self.acceleration if self.acceleration else 0.0
-            )
+            rate = self.acceleration
+            return self.pace * min(speed, self.limit) / rate if rate else 0.0
         most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
         return self.pace * max(SHORTEST, most)
 
@@ -181,17 +178,9 @@ def _progress(level: float, full: float, taper: float) -> float:
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
-STEADY = Motion(
-    legs="steady",
-    acceleration=3.0,
-    up=1.5,
-    down=1.5,
-    low=5.0,
-    touch_down=0.7,
-    settles=0.75,
-    landing=2.1,
-    slack=0.7,
-)
+_CLIMB = {"up": 1.5, "down": 1.5, "low": 5.0, "touch_down": 0.7}
+_WAITS = {"settles": 0.75, "landing": 2.1}
+STEADY = Motion(legs="steady", acceleration=3.0, slack=0.7, **_CLIMB, **_WAITS)
 """A multicopter as PX4 sets it; the durations were measured with a simulated one (docs/motion.md)."""
 
 CRAZYFLIE = Motion(

@@ -131,6 +131,23 @@ async def beyond_ardupilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     let(vehicle, "blown", 0.0)
 
 
+async def on_the_way(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """Photos are asked for before the last has come, one is not taken, and it flies on."""
+    going = await setting_out(flies, vehicle)
+    first, second = await asyncio.gather(*(flies.trigger("take_photo", {}) for _ in range(2)))
+    let(vehicle, "blank", True)
+    with pytest.raises(ActionNotDone, match="tells of no picture"):
+        await flies.trigger("take_photo", {})
+    let(vehicle, "blank", False)
+    last = await flies.trigger("take_photo", {})
+    taken = [first, second, last]
+    assert all(isinstance(one, Photo) for one in taken)
+    places = [one.position[0] for one in taken if isinstance(one, Photo)]
+    assert places == sorted(places)
+    assert len(vehicle.record.photos) == 3
+    await going
+
+
 async def twin(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     """Where two tell that they are one, neither takes off: nobody could say which flies where."""
     await flies.connect()
@@ -151,6 +168,7 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     silent: {},
     beyond: {},
     twin: {},
+    on_the_way: {},
     beyond_ardupilot: {"autopilot": "ardupilot"},
 }
 
