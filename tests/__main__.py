@@ -45,6 +45,7 @@ CAMPAIGNS = (
     "python -m tests.sizing --plans 100",
     "python -m tests.kill --brain 500 --gateway 100",
     "python -m tests.flights_crazyflie.campaign",
+    "python -m tests.flights_mavlink.campaign --times 3",
     "python -m tests.flights_crazyflie.examples",
     "python -m tests.waits --flights 6 --load 8",
     "python -m tests.waits --flights 6 --crtp --load 8 --stall 4",

@@ -9,6 +9,7 @@ from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import suppress
 from math import dist, inf
 from typing import Any
+from urllib.parse import quote
 
 from ..drones.protocol import (
     ACTS_BY_ITSELF,
@@ -69,6 +70,8 @@ class MavlinkVehicle:
         self._setup = setup
         self._options = options_of(setup.options)
         self._reports = Reports(setup)
+        self._has_stood_at_home = setup.folder / f"{quote(setup.id, safe='')}.stood-at-home"
+        """Is there once it was where its home is on the map: from then on it may land elsewhere, and go on from there."""
         self._state = VehicleState(setup.plane, setup.home[2])
         self._make: Make | None = None
         self._client: MavsdkClient | None = None
@@ -253,7 +256,8 @@ class MavlinkVehicle:
         if most is not None and self._setup.speed > most:
             slower = f"it flies no faster than {number(most)} m/s (MPC_XY_VEL_MAX)"
             return [f"its category's speed is {number(self._setup.speed)} m/s, and {slower}"]
-        if found := problems(self._state, self._setup.home, self._options):
+        home = None if self._has_stood_at_home.exists() else self._setup.home
+        if found := problems(self._state, home, self._options):
             return found
         why = await self._fenced_in()
         return [] if why is None else [why]
@@ -305,6 +309,7 @@ class MavlinkVehicle:
             reasons = await self.preflight()
             if reasons:
                 raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
+            self._has_stood_at_home.touch()
             await self._order("rise", self._known_make.rises(self._place(target)))
         await self._until(lambda: self._is_at(target), _LONGEST)
 

@@ -25,7 +25,7 @@ class VehicleOptions(Struct, frozen=True, kw_only=True):
     still: _Speed = 0.3
     """Metres per second below which it counts as hovering."""
     dock: _Metres = 3.0
-    """Metres from its home within which it must stand to take off."""
+    """Metres from its home within which it must stand to take off for the first time."""
     addresses: tuple[str, ...] = ("mavlink+udp://:14540", "mavlink+udp://:14550")
     """Where `drones` listens for vehicles: PX4 sends to both of these ports when it is simulated, and most radios to the second."""
     fence: bool = True

@@ -26,8 +26,11 @@ TWINS = (
 )
 
 
-def problems(state: VehicleState, home: Point, options: VehicleOptions) -> list[str]:
-    """Return the reasons; nothing in the air, where it has taken off already."""
+def problems(state: VehicleState, home: Point | None, options: VehicleOptions) -> list[str]:
+    """Return the reasons; nothing in the air, where it has taken off already.
+
+    `home` is where it must stand; None: it may have landed anywhere.
+    """
     if state.flying:
         return []
     if state.twins.are_there:
@@ -39,7 +42,7 @@ def problems(state: VehicleState, home: Point, options: VehicleOptions) -> list[
         found[-1] += f": {state.texts[-1][1]}"
     if state.battery is None:
         found.append("it does not tell how full its battery is")
-    if state.position is not None:
+    if state.position is not None and home is not None:
         x, y, _ = state.position
         away = hypot(x - home[0], y - home[1])
         if away > options.dock:
