@@ -88,20 +88,28 @@ def with_drawing(name: str, text: str, drawing: Drawing, *, closed: bool) -> tup
     `BadInput` if the file cannot have it, and `Unusable` if the drawing cannot be on the map.
     """
     airspace, landmarks = _map_in(name, text)
-    if landmarks.plane is None:
-        raise Unusable(no_origin(drawing))
-    taken = _taken(drawing, landmarks.plane, closed=closed)
-    with_more = replace(
-        landmarks,
-        places=_merged(landmarks.places, taken.places),
-        zones=_merged(landmarks.zones, taken.zones),
-    )
+    with_more, taken = landmarks_with(landmarks, drawing, closed=closed)
     changed = with_landmarks(text, landmarks, with_more, airspace.size)
     if new := [area for area in taken.no_fly if area not in airspace.no_fly]:
         closed_areas = [[[*corner] for corner in area] for area in (*airspace.no_fly, *new)]
         changed = _with_no_fly(changed, closed_areas)
     _map_in(f"{name}, with what is drawn", changed)
     return changed, taken
+
+
+def landmarks_with(
+    landmarks: Landmarks, drawing: Drawing, *, closed: bool = False
+) -> tuple[Landmarks, Taken]:
+    """Return landmarks with the places and zones of a drawing, and all that is taken of it.
+
+    Raises `Unusable` if it cannot be on the map.
+    """
+    if landmarks.plane is None:
+        raise Unusable(no_origin(drawing))
+    taken = _taken(drawing, landmarks.plane, closed=closed)
+    places = _merged(landmarks.places, taken.places)
+    zones = _merged(landmarks.zones, taken.zones)
+    return replace(landmarks, places=places, zones=zones), taken
 
 
 def _map_in(name: str, text: str) -> tuple[Airspace, Landmarks]:

@@ -230,6 +230,16 @@ class Interface:
     def take_floor_plan(self, body: bytes, *, media: str, revision: int, name: str = "") -> MapData:
         """Take a picture as the floor plan."""
 
+    @operation(
+        "PUT",
+        "/api/map/drawing",
+        takes=(GEOJSON, KML, JSON, CSV),
+        stale=MapData,
+        impossible=400,
+    )
+    def take_drawing(self, body: str | bytes, *, revision: int, file: str = "") -> MapData:
+        """Keep the places and zones of another program's drawing; `said` is what that was."""
+
     @operation("POST", "/api/ways", role="watch", reads=True, impossible=400)
     def find_ways(self, *, ways: Annotated[list[list[Point]], Meta(max_length=500)]) -> Ways:
         """The ways that drones fly between pairs of places, around walls."""

@@ -634,7 +634,7 @@ class MapData(TypedDict):
     image: Picture | None
     writable: bool
     said: str
-    """Why nothing that is drawn can be kept; empty: it can."""
+    """Why nothing that is drawn can be kept, or else what the last drawing of another program has brought."""
 
 
 class Picture(TypedDict):

@@ -16,15 +16,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...files.areas import OF_LANES, read_lanes
+from ...files.drawings.feature import Unusable
+from ...files.drawn_map import landmarks_with
 from ...files.landmarks import KEYS, NO_LANDMARKS, Landmarks, Picture, read_landmarks
-from ...files.reading import Document, PlanTable, parsed, text_of
+from ...files.reading import Document, PlanTable, decoded, parsed, text_of
 from ...files.writing import landmark_tables, with_landmarks
 from ...process.whole_file import write_whole
 from ...shared.alone.files import read_map
 from ...shared.domain import values
 from ...shared.domain.airspace import EPSILON, distance, inside
 from ...shared.domain.errors import BadInput, PlutoError
-from ...shared.domain.text import printable
+from ...shared.domain.text import counted, printable
 from ...shared.fleet.reach import flight_seconds
 from .pictures import floor_plan, safe_name
 
@@ -362,6 +364,8 @@ class DrawnMap:
         self._airspace, self._file = airspace, MapFile(file)
         self.revision = round(now() * 1000)  # from the clock: after a restart it is another
         self.image: Path | None = None
+        self._said = ""
+        """What the last drawing has brought."""
         self.changed: Callable[[], object] = _ignore
         self._one_at_a_time = asyncio.Lock()
         self._file.read()
@@ -384,7 +388,7 @@ class DrawnMap:
             "plane": plane_of(self.landmarks),
             "image": picture_of(picture, self.address) if picture and shown else None,
             "writable": not why_not,
-            "said": why_not,
+            "said": why_not or self._said,
         }
 
     @property
@@ -405,6 +409,7 @@ class DrawnMap:
         async with self._one_at_a_time:
             await self._check_current(revision)
             await self._keep(landmarks_from(given, self.landmarks, self._airspace))
+            self._said = ""
 
     async def take_picture(self, revision: int, name: str, content: bytes) -> None:
         """Take a picture as the floor plan, as large as the map until it is laid where it belongs.
@@ -430,6 +435,17 @@ class DrawnMap:
                 why = error.strerror or error
                 raise BadInput(f"the floor plan cannot be kept: {why}") from None
 
+    async def take_drawing(self, revision: int, name: str, content: bytes) -> None:
+        """Take the places and zones of another program's drawing; `said` is then what that was.
+
+        Raises as `change` does, also for a file that is no such drawing.
+        """
+        async with self._one_at_a_time:
+            await self._check_current(revision)
+            landmarks, said = await asyncio.to_thread(_drawn_onto, self.landmarks, name, content)
+            await self._keep(landmarks)
+            self._said = said
+
     async def _check_current(self, revision: int) -> None:
         if await asyncio.to_thread(self._file.read):
             self._announce()
@@ -453,6 +469,28 @@ class DrawnMap:
                 BadInput
             ):  # it was taken away: a station begins only with one that is there
                 self.image = floor_plan(self._file.folder, picture.file)
+
+
+def _drawn_onto(landmarks: Landmarks, name: str, content: bytes) -> tuple[Landmarks, str]:
+    """Return landmarks with those of a drawing, and what that was, in lines."""
+    drawing = parsed(name, decoded(content, name)).drawing
+    if drawing is None:
+        raise BadInput(
+            f"{name}: is a plan of Pluto, and here a drawing of another program is wanted"
+        )
+    try:
+        changed, taken = landmarks_with(landmarks, drawing)
+    except Unusable as error:
+        raise BadInput(f"{name}: {error}") from None
+    notes = [*taken.notes]
+    if taken.no_fly:
+        count = len(taken.no_fly)
+        areas = f"{counted(count, 'no-fly area')} {'is' if count == 1 else 'are'} left out"
+        notes.append(
+            f"{areas}: put into the fleet file by pluto-fleet map, before a station begins"
+        )
+        taken.no_fly.clear()
+    return changed, values.shortened([f"{name}: {taken.sentence}", *notes])
 
 
 def _ignore() -> None:

@@ -346,7 +346,7 @@ export interface MapData {
   plane: Plane | null;
   image: Picture | null;
   writable: boolean;
-  /** Why nothing that is drawn can be kept; empty: it can. */
+  /** Why nothing that is drawn can be kept, or else what the last drawing of another program has brought. */
   said: string;
 }
 

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 DESCRIPTION = Path(__file__).parent.parent / "openapi.json"
 """The description of the interface, which is made of its declaration."""
 MISSIONS_FILE = "missions.toml"
+_DRAWING = "the drawing"
 _LONGEST_NAME = 80
 
 
@@ -190,6 +191,12 @@ async def take_floor_plan(asked: Asked, revision: int, name: str) -> None:
     await asked.station.map.take_picture(revision, name, asked.body)
 
 
+async def take_drawing(asked: Asked, revision: int, file: str) -> None:
+    """Take what another program has drawn."""
+    name = cut_off(printable(file.strip()), _LONGEST_NAME) or _DRAWING
+    await asked.station.map.take_drawing(revision, name, asked.body)
+
+
 async def find_ways(asked: Asked, ways: list[Any]) -> Response:
     """Answer with the ways between pairs of places."""
     return json_reply(await asked.station.ways.ways(ways))
@@ -297,7 +304,7 @@ HANDLERS: Mapping[str, Handler] = {
         for one in (
             *(app, description, plan, plan_file, replace_plan, import_plan, add_example),
             *(saved_plans, save_plan, delete_plan, restore_plan, open_plan, preflight),
-            *(map_data, change_map, take_floor_plan, find_ways, sweep_area),
+            *(map_data, change_map, take_floor_plan, take_drawing, find_ways, sweep_area),
             *(mcap, console, pictures, photo),
         )
     },

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.files.fleet import load_fleet
+from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
@@ -145,6 +146,44 @@ def test_without_a_fleet_file_the_station_keeps_it(tmp_path: Path) -> None:
     again = DrawnMap(Airspace(), tmp_path / "map.toml")
     assert again.landmarks == drawn.landmarks
     assert again.image == drawn.image != None
+
+
+def test_what_another_program_has_drawn_is_taken_and_told(tmp_path: Path) -> None:
+    """Places and zones; that a no-fly area is left out is said, and what is no drawing changes nothing."""
+    origin = "{ latitude = 47.0, longitude = 8.0, altitude = 400 }"
+    on_earth = FLEET.replace("[map]\n", f"[map]\norigin = {origin}\n")
+    drawn = ward(tmp_path, on_earth)
+    plane = LocalPlane(47.0, 8.0, 400.0)
+
+    def at(x: float, y: float) -> list[float]:
+        latitude, longitude, _ = plane.to_degrees((x, y, 0.0))
+        return [longitude, latitude]
+
+    area = [at(2, 2), at(8, 2), at(8, 6), at(2, 2)]
+    features = [
+        {"geometry": {"type": "Point", "coordinates": at(3, 4)}, "properties": {"name": "Well"}},
+        {"geometry": {"type": "Polygon", "coordinates": [area]}, "properties": {"name": "Beds"}},
+        {"geometry": {"type": "Polygon", "coordinates": [area]}, "properties": {"no_fly": True}},
+    ]
+    text_of_it = json.dumps(
+        {
+            "type": "FeatureCollection",
+            "features": [{"type": "Feature", **one} for one in features],
+        }
+    )
+    asyncio.run(drawn.take_drawing(drawn.revision, "field.geojson", text_of_it.encode()))
+    told = drawn.data()
+    assert [one["name"] for one in told["places"]] == ["Bed 1", "Well"]
+    assert [one["name"] for one in told["zones"]] == ["Beds"]
+    assert told["said"].startswith("field.geojson: 1 place, 1 zone\n1 no-fly area is left out")
+    kept = text(tmp_path)
+    with pytest.raises(BadInput, match="is a plan of Pluto"):
+        asyncio.run(drawn.take_drawing(drawn.revision, "plan.toml", b"[[mission]]\n"))
+    outside = text_of_it.replace("8.0", "8.1")
+    with pytest.raises(BadInput):
+        asyncio.run(drawn.take_drawing(drawn.revision, "far.geojson", outside.encode()))
+    assert text(tmp_path) == kept
+    assert change(drawn, north=0)["said"] == ""
 
 
 def test_a_floor_plan_lies_where_it_was_laid(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 
 import { effect, signal } from "@preact/signals";
 import { get, ofStation, send } from "./api.js";
+import { typeOf } from "./drawings.js";
 import { degrees } from "./earth.js";
 import { number, t } from "./i18n.js";
 import { tell, tellError, world } from "./station.js";
@@ -53,6 +54,12 @@ export async function changeMap(change) {
 export function uploadPlan(file) {
   const query = new URLSearchParams({ revision: String(landmarks.peek()?.revision ?? 0), name: file.name });
   return sent(() => send("PUT", `/api/map/image?${query}`, file, { type: file.type, timeout: 60000 }));
+}
+
+/** Take the places and zones of another program's drawing. @param {File} file */
+export function uploadDrawing(file) {
+  const query = new URLSearchParams({ revision: String(landmarks.peek()?.revision ?? 0), file: file.name });
+  return sent(() => send("PUT", `/api/map/drawing?${query}`, file, { type: typeOf(file.name) }));
 }
 
 /** @param {() => Promise<{ status: number, data: MapData }>} ask */

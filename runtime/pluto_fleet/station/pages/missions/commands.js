@@ -3,6 +3,7 @@
 
 import { signal } from "@preact/signals";
 import { send, StationError } from "../core/api.js";
+import { DRAWN, typeOf } from "../core/drawings.js";
 import { addMission, copyMission, moved, newKey, removeMission } from "../core/changes.js";
 import { many, t } from "../core/i18n.js";
 import { marking } from "../core/marking.js";
@@ -100,24 +101,10 @@ export async function take(ask, said) {
 export const example = () => take(
   (revision) => send("POST", "/api/plan/example", { revision }), t("missions.example-here"));
 
-/** The files that are taken, and their types. @type {Record<string, string>} */
-const TYPES = {
-  ".toml": "application/toml",
-  ".geojson": "application/geo+json",
-  ".json": "application/geo+json",
-  ".kml": "application/vnd.google-earth.kml+xml",
-  ".plan": "application/json",
-  ".waypoints": "text/csv",
-  ".csv": "text/csv",
-};
-
-/** @param {string} name */
-const typeOf = (name) => TYPES[name.slice(name.lastIndexOf(".")).toLowerCase()] ?? "application/toml";
-
 /** Ask for a file, and read it into the plan. */
 export function importFile() {
   const input = document.createElement("input");
-  Object.assign(input, { type: "file", accept: Object.keys(TYPES).join() });
+  Object.assign(input, { type: "file", accept: [".toml", ...DRAWN].join() });
   input.addEventListener("change", async () => {
     const file = input.files?.[0];
     if (!file) return;

@@ -4,8 +4,9 @@ import { signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { freeName } from "../core/changes.js";
+import { DRAWN } from "../core/drawings.js";
 import { number, t, typedNumber } from "../core/i18n.js";
-import { changeMap, landmarks, onEarth, uploadPlan } from "../core/landmarks.js";
+import { changeMap, landmarks, onEarth, uploadDrawing, uploadPlan } from "../core/landmarks.js";
 import { app, mayFly } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
@@ -71,7 +72,7 @@ export default function MapPage() {
       children: [h(Landmarks, { key: "landmarks" }), h(Homes, { key: "homes", app: shape }), h(Sketch, { key: "sketch" })],
     }),
     rail: h("div", { class: "rail-body stack" },
-      drawn && !drawn.writable && h("p", { class: "problem" }, h(Said, { text: drawn.said })),
+      drawn?.said && h("p", { class: drawn.writable ? "hint" : "problem" }, h(Said, { text: drawn.said })),
       can && h(Tools, null),
       drawn ? h(Lists, { drawn, can, onShow: (at) => camera.reveal(at.x, at.y) }) : h(Empty, null, t("loading"))),
   });
@@ -97,7 +98,22 @@ function Tools() {
     now === "place" && h(ByHand, { onDone: addPlace }),
     now === "zone" && h(ByHand, { onDone: (at) => { points.value = [...points.value, at]; } }),
     now === "zone" && h(Button, { kind: "primary", disabled: count < 3, onClick: closeZone }, t("map.zone-close")),
+    landmarks.value?.plane && h(DrawingTools, null),
     h(PlanTools, null));
+}
+
+/** Places and zones that another program has drawn. */
+function DrawingTools() {
+  const picked = useRef(/** @type {HTMLInputElement | null} */ (null));
+  const upload = async () => {
+    const input = /** @type {HTMLInputElement} */ (picked.current);
+    const [file] = input.files ?? [];
+    if (file) await uploadDrawing(file);
+    input.value = ""; // the same file may be taken again
+  };
+  return h("details", { class: "plan-tools" }, h("summary", null, t("map.drawing")), h("div", { class: "field" },
+    h("label", { for: "drawing-file" }, t("map.drawing-file")),
+    h("input", { id: "drawing-file", ref: picked, type: "file", accept: DRAWN.join(), onChange: upload })));
 }
 
 /** A point by its numbers, for those who do not point. @param {{ onDone: (at: At) => void }} props */

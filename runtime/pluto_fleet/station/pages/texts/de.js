@@ -225,6 +225,8 @@ const texts = {
   "map.changed-meanwhile": "Eine andere Seite hat die Karte inzwischen geändert: ansehen, und noch einmal machen.",
   "map.coordinate": "{name} in Metern",
   "map.corners": { one: "{n} Ecke", other: "{n} Ecken" },
+  "map.drawing": "Zeichnung eines anderen Programms",
+  "map.drawing-file": "Eine Datei mit Orten und Flächen: GeoJSON, KML, .plan, CSV",
   "map.drone": "{drone}: {status}, Akku {battery}",
   "map.floor-plan": "Grundriss und Norden",
   "map.home": "Heimplatz von {drone}",

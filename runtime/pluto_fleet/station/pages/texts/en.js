@@ -219,6 +219,8 @@ export default {
   "map.changed-meanwhile": "Another page has changed the map meanwhile: look at it, and do it again.",
   "map.coordinate": "{name} in metres",
   "map.corners": { one: "{n} corner", other: "{n} corners" },
+  "map.drawing": "Drawing of another program",
+  "map.drawing-file": "A file of places and areas: GeoJSON, KML, .plan, CSV",
   "map.drone": "{drone}: {status}, battery {battery}",
   "map.floor-plan": "Floor plan and north",
   "map.home": "Home of {drone}",

@@ -225,6 +225,8 @@ const texts = {
   "map.changed-meanwhile": "Un’altra pagina ha cambiato la mappa nel frattempo: guardarla, e rifare la modifica.",
   "map.coordinate": "{name} in metri",
   "map.corners": { one: "{n} angolo", other: "{n} angoli" },
+  "map.drawing": "Disegno di un altro programma",
+  "map.drawing-file": "Un file con luoghi e aree: GeoJSON, KML, .plan, CSV",
   "map.drone": "{drone}: {status}, batteria {battery}",
   "map.floor-plan": "Pianta e nord",
   "map.home": "Base di {drone}",
