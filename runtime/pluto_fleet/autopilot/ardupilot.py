@@ -76,7 +76,7 @@ class ArduPilot(Vehicle):
         self.mode = STABILIZE
         self._speed = limits.level
         self._armed_at = 0.0
-        self._beyond = False
+        self._beyond = self._lost = False
 
     @property
     def mode_number(self) -> int:
@@ -170,7 +170,8 @@ class ArduPilot(Vehicle):
         silent = self.now - self.heard
         act = {1: Doing.RETURN, 5: Doing.LAND}.get(int(self.value("FS_GCS_ENABLE")))
         # without a station that it ever heard there is nothing to lose
-        if act is not None and self.value("FS_GCS_TIMEOUT") < silent < 1e6:
+        was_lost, self._lost = self._lost, self.value("FS_GCS_TIMEOUT") < silent < 1e6
+        if act is not None and self._lost and not was_lost:
             self.fail_safe(act, "GCS Failsafe")
 
     # libraries/AC_Fence/AC_Fence.cpp, ArduCopter/fence.cpp

@@ -58,12 +58,7 @@ class StationLink:
             component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
             for component in (AUTOPILOT, CAMERA)
         }
-        self._every: dict[int, float] = {}
-        """Seconds between two messages, by their number."""
-        if vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4:
-            self._every.update(_USUAL)
-        self._due = dict.fromkeys(self._every, 0.0)
-        self._beat = 0.0
+        self._begin()
         self._coming: list[tuple[float, float] | None] = []
         """The corners of a fence that is being sent."""
         self._make: dict[int, Callable[[], Any]] = {
@@ -76,12 +71,23 @@ class StationLink:
             mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION: self._version,
         }
 
+    def _begin(self) -> None:
+        """Tell as one does that was just switched on: what it was asked for is forgotten."""
+        px4 = self.vehicle.MAKE == mavlink.MAV_AUTOPILOT_PX4
+        self._every: dict[int, float] = dict(_USUAL) if px4 else {}
+        """Seconds between two messages, by their number."""
+        self._due = dict.fromkeys(self._every, 0.0)
+        self._beat = self._spoke = 0.0
+
     # Telling
 
     def speak(self) -> None:
         """Send what is due."""
         vehicle = self.vehicle
         now = vehicle.now
+        if now < self._spoke:
+            self._begin()
+        self._spoke = now
         if now >= self._beat:
             self._beat = now + 1.0
             self._heartbeats()

@@ -11,8 +11,7 @@ import inspect
 from collections.abc import AsyncIterator, Coroutine, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field, replace
-from itertools import cycle
-from math import dist, isfinite
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar, cast
 
@@ -30,35 +29,31 @@ from ..drones.real_fleet import RealDrone, RealFleet, real_fleet
 from ..drones.team import make_one
 from ..files.addresses import which
 from ..files.fleet import (
-    APART,
     CRAZYFLIE,
     MAVLINK,
     OWN,
-    fleet_of,
     load_fleet,
     navigation_by,
     not_real,
 )
-from ..files.reading import near, parsed
-from ..files.toml import toml_value
+from ..files.reading import near
 from ..gateway.drone_lock import DroneInUse, lock_drones
 from ..journal.place import folder_of
 from ..mavlink.needs import require as require_mavsdk
 from ..process.text import of
 from ..report.terminal import table
 from ..shared import output
-from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number, percent, place, printable, quoted
 from ..shared.domain.trace import dumped
-from .written import refuse_if_there, write_new
+from .draft_fleet import write_fleet
+from .written import refuse_if_there
 
 if TYPE_CHECKING:
     from ..app import App
     from ..drones.protocol import DroneNavigation, DroneTelemetry
     from ..files.fleet import FleetFile, Options
-    from ..geodesy import LocalPlane
-    from ..shared.domain.airspace import Corner
+    from ..geodesy import Degrees, LocalPlane
     from ..shared.domain.model import Point
     from .options import Options as Command
 
@@ -84,7 +79,8 @@ def drones(app: App, options: Command) -> int:
     else:
         _say(told)
     if options.save is not None:
-        write_fleet(app, options.save, told, options.navigation)
+        answered = [(one, there) for one in told if (there := heard(one)) is not None]
+        write_fleet(app, options.save, answered, options.navigation)
     return 0 if told and not any(one.problems for one in told) else NOT_READY
 
 
@@ -266,73 +262,6 @@ def _state(telemetry: DroneTelemetry | None) -> tuple[str, str]:
     return battery, place((round(x, 2), round(y, 2), z))
 
 
-# A fleet file of those that answer: a draft, to be checked before anything flies
-
-
-_ORIGIN = 0.05
-"""Metres from (0, 0): a drone that reports to be so near has just been switched on, and has no fix."""
-
-
-def write_fleet(app: App, path: Path, told: Sequence[DroneAnswer], navigation: str | None) -> None:
-    """Write a fleet file of the drones that have answered; never overwrites a file."""
-    there = [answer for answer in told if heard(answer) is not None]
-    if not there:
-        raise BadInput(f"{path}: not written, for no drone has answered")
-    content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
-    fleet_of(parsed(str(path), content), app)  # check that it is valid
-    write_new(path, content, "the fleet")
-    output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
-
-
-def _file(app: App, path: Path, there: Sequence[DroneAnswer], navigation: str) -> Iterator[str]:
-    airspace = Airspace()
-    yield f"# Written by: {app.name} drones --save {printable(str(path))}"
-    yield "# Say below how large the room is, and see whether each drone has its home and category."
-    yield ""
-    yield "[map]"
-    yield f"size = {toml_value([*airspace.size])}  # metres, from the place where positions are (0, 0)"
-    yield f"ceiling = {number(airspace.ceiling)}  # nothing flies higher"
-    if navigation != CRAZYFLIE:
-        yield ""
-        yield "[fleet]"
-        yield f"navigation = {toml_value(navigation)}"
-    categories = cycle(category.name for category in app.categories)
-    taken: list[Corner] = []
-    for index, (answer, category) in enumerate(zip(there, categories, strict=False), start=1):
-        yield ""
-        yield "[[drone]]"
-        yield f'id = "cf{index}"'
-        yield f"category = {toml_value(category)}{_choice(app)}"
-        yield _home(answer, airspace, taken)
-        if answer.asked.uri is not None:
-            yield f"uri = {toml_value(answer.asked.uri)}"
-
-
-def _choice(app: App) -> str:
-    names = [category.name for category in app.categories]
-    return f"  # one of: {', '.join(names)}" if len(names) > 1 else ""
-
-
-def _home(answer: DroneAnswer, airspace: Airspace, taken: list[Corner]) -> str:
-    """Return the line of a drone's home: its reported position, or the next free place of a row."""
-
-    def is_free(spot: Corner) -> bool:
-        apart = all(dist(spot, other) >= APART for other in taken)
-        return apart and airspace.problem((*spot, 0.0)) is None
-
-    telemetry = heard(answer)
-    x, y, _ = telemetry.position if telemetry is not None else (0.0, 0.0, 0.0)
-    said = round(x, 2) + 0.0, round(y, 2) + 0.0
-    if dist(said, (0.0, 0.0)) > _ORIGIN and is_free(said):
-        taken.append(said)
-        return f"home = {toml_value([*said])}  # where it stood"
-    width, depth = airspace.size
-    row = ((float(x), y + 0.5) for y in range(int(depth)) for x in range(1, int(width)))
-    free = next(filter(is_free, row))
-    taken.append(free)
-    return f"home = {toml_value([*free])}  # put it there: it said {place((*said, 0.0))}"
-
-
 # Asking them
 
 
@@ -378,6 +307,8 @@ class DroneAnswer:
     telemetry: DroneTelemetry | None = None
     """None: it has sent none."""
     facts: Mapping[str, str] = field(default_factory=dict)
+    degrees: Degrees | None = None
+    """Where it stands on the Earth, if it tells that."""
 
 
 class _Silent(Exception):
@@ -492,6 +423,7 @@ async def _ask(answer: DroneAnswer, navigation: DroneNavigation) -> None:
         facts = await _within(ANSWER_WITHIN, cast(Tells, navigation).facts())
         answer.facts = {str(name): str(fact) for name, fact in facts.items()}
     answer.telemetry = navigation.telemetry
+    answer.degrees = getattr(navigation, "degrees", None)
 
 
 async def _set(asked: DroneQuery, navigation: DroneNavigation) -> AsyncIterator[str]:

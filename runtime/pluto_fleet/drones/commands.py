@@ -150,6 +150,8 @@ async def go_to(vehicle: Vehicle, command: GoTo, turns: bool = False) -> None:
             if not flies.done():
                 flies.cancel()
                 await asyncio.wait((flies,))
+            if not flies.cancelled():
+                flies.exception()  # who was cancelled asks for it no more
         if not turned.done() or (not flies.cancelled() and flies.exception() is not None):
             return flies.result()
         command = turned.result()

@@ -8,12 +8,12 @@ from math import ceil
 from typing import Any
 
 from ..extras import has
-from ..geodesy import LocalPlane
+from ..geodesy import Degrees, LocalPlane
 from ..shared.alone.files import read_map
 from ..shared.domain import values
 from ..shared.domain.airspace import Airspace, Corner, Polygon
 from ..shared.domain.text import counted, number
-from .drawings.feature import Drawing, Feature, Kind, Spot, Unusable
+from .drawings.feature import Drawing, Feature, Kind, Unusable
 from .drawings.on_map import metres_of
 from .drawn_missions import no_origin
 from .landmarks import MOST_CORNERS, Landmarks, NamedPlace, Zone, read_landmarks
@@ -23,7 +23,7 @@ from .writing import with_landmarks
 
 MARGIN = 20.0
 """Metres around what is drawn, on a map that is made for it."""
-_CRUISE, _CEILING = 20.0, 120.0
+CRUISE, _CEILING = 20.0, 120.0
 """How high drones fly on such a map, and at most, in metres: in many countries nothing may fly higher."""
 _TOLERANCES = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 """By how many metres an edge may move, so that it has fewer corners."""
@@ -61,24 +61,29 @@ def map_for(drawing: Drawing) -> str:
     spots = [spot for feature in drawing.features for spot in feature.spots]
     if not spots:
         raise Unusable(f"is {drawing.what}, and has no places and no areas")
-    origin = _corner(spots, MARGIN)
+    origin, size = plane_around([(one.latitude, one.longitude, 0.0) for one in spots])
+    at = {"latitude": origin.latitude, "longitude": origin.longitude, "altitude": 0.0}
+    keys = {"size": size, "origin": at, "cruise_height": CRUISE, "ceiling": _CEILING}
+    return "\n".join(["[map]", *(f"{key} = {toml_value(one)}" for key, one in keys.items()), ""])
+
+
+def plane_around(places: Sequence[Degrees]) -> tuple[LocalPlane, list[float]]:
+    """Return the plane at the south-western corner of a map around places, and the sides of that map, in metres.
+
+    Raises `Unusable` if they are too far from each other.
+    """
+    south = min(latitude for latitude, _, _ in places)
+    west = min(longitude for _, longitude, _ in places)
+    latitude, longitude, _ = LocalPlane(south, west).to_degrees((-MARGIN, -MARGIN, 0.0))
+    origin = LocalPlane(round(latitude, 6), round(longitude, 6))
     try:
-        far = [origin.to_metres((one.latitude, one.longitude, 0.0)) for one in spots]
+        far = [origin.to_metres((latitude, longitude, 0.0)) for latitude, longitude, _ in places]
     except ValueError:
         raise Unusable(_TOO_WIDE) from None
     size = [_ROUND * ceil((max(at[axis] for at in far) + MARGIN) / _ROUND) for axis in (0, 1)]
     if max(size) > values.SIDE.most:
         raise Unusable(_TOO_WIDE)
-    at = {"latitude": origin.latitude, "longitude": origin.longitude, "altitude": 0.0}
-    keys = {"size": size, "origin": at, "cruise_height": _CRUISE, "ceiling": _CEILING}
-    return "\n".join(["[map]", *(f"{key} = {toml_value(one)}" for key, one in keys.items()), ""])
-
-
-def _corner(spots: Sequence[Spot], margin: float) -> LocalPlane:
-    """Return the plane at the south-western corner of places, and a margin more."""
-    south, west = min(one.latitude for one in spots), min(one.longitude for one in spots)
-    latitude, longitude, _ = LocalPlane(south, west).to_degrees((-margin, -margin, 0.0))
-    return LocalPlane(round(latitude, 6), round(longitude, 6))
+    return origin, size
 
 
 def with_drawing(name: str, text: str, drawing: Drawing, *, closed: bool) -> tuple[str, Taken]:

@@ -295,14 +295,17 @@ async def _run(out: int) -> None:
             task.add_done_callback(doing.discard)
 
 
+def _is_noise(level: LogLevel, _: str, file: str | None, __: int) -> bool:
+    """Return whether a line of MAVSDK's log would only fill the gateway's: parameters are tried by either type."""
+    return level < LogLevel.WARN or "param" in (file or "")
+
+
 def main(_: Sequence[str]) -> int:
     """Serve the gateway until it has enough, or says nothing; never returns, as to destroy MAVSDK may abort."""
     out = os.dup(1)
     os.dup2(2, 1)  # where MAVSDK and its wrappers print
     code = 0
-    log_subscribe(
-        lambda level, *_: level < LogLevel.WARN
-    )  # the others would fill the gateway's log
+    log_subscribe(_is_noise)
     try:
         asyncio.run(_run(out))
     except TimeoutError:

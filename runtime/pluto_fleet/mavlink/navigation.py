@@ -26,6 +26,7 @@ from ..drones.protocol import (
 )
 from ..drones.telemetry import Reports
 from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
+from ..geodesy import Degrees
 from ..shared.domain.actions import PHOTO, Plain
 from ..shared.domain.model import Item, Photo, Point
 from ..shared.domain.text import number
@@ -462,6 +463,11 @@ class MavlinkVehicle:
             await self._ask("write", _ANSWER, name=name, value=value)
         except Rejected as error:
             raise Rejected(f"{self._id}: {name} was not set: {error}") from None
+
+    @property
+    def degrees(self) -> Degrees | None:
+        """Where it is: latitude, longitude, and altitude above sea level."""
+        return self._state.degrees
 
     async def facts(self) -> Mapping[str, str]:
         make = self._known_make

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from math import hypot, isfinite, pi, radians
 from typing import Any
 
-from ..geodesy import LocalPlane
+from ..geodesy import Degrees, LocalPlane
 from ..shared.domain.model import Point
 from .makes import Place
 from .twins import Twins
@@ -35,6 +35,8 @@ class VehicleState:
     """None: the map is where the vehicle is first heard of."""
     ground: float
     """The height of its home on the map, in metres."""
+    degrees: Degrees | None = None
+    """Its latitude, longitude, and altitude above sea level."""
     position: Point | None = None
     twins: Twins = field(default_factory=Twins)
     astray: str = ""
@@ -101,6 +103,7 @@ class VehicleState:
 
     def _position(self, facts: Mapping[str, Any]) -> None:
         absolute, relative = facts["heights"]
+        self.degrees = (*facts["place"], absolute)
         if self.plane is None:
             latitude, longitude = facts["place"]
             self.plane = LocalPlane(latitude, longitude, absolute)

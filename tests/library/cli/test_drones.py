@@ -9,11 +9,14 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.cli import drones as drones_command
+from pluto_fleet.cli.draft_fleet import write_fleet
 from pluto_fleet.drones import localization
+from pluto_fleet.files.fleet import load_fleet, not_real
 from pluto_fleet.gateway.drone_lock import lock_drones
 from tests.library.cli import fake_drones
 from tests.library.cli.conftest import Command
 from tests.library.cli.fake_drones import ASKED, RECORD, THERE, at
+from tests.library.files.an_app import APP
 
 FAKE = f"{fake_drones.__name__}:Fake"
 
@@ -69,6 +72,24 @@ def test_drones_are_told_where_they_are_meanwhile(
     assert ("fake://1", "locate") in RECORD
     assert ("fake://4", "locate") not in RECORD
     assert (code, f"no position from {fake_drones.__name__}:Mocap" in out) == (1, True)
+
+
+def test_what_knows_its_degrees_is_saved_with_a_map_on_the_earth(tmp_path: Path) -> None:
+    """As large as where they stand, and each with its home there."""
+    there = []
+    for number, place in enumerate(((47.0, 8.0, 412.0), (47.0005, 8.001, 411.5)), 1):
+        uri = f"mavlink+udp://:14540?system={number}"
+        query = drones_command.DroneQuery(id=uri, uri=uri, navigation="mavlink", options={})
+        there.append((drones_command.DroneAnswer(asked=query, degrees=place), at((0.0, 0.0, 0.0))))
+    write_fleet(APP, tmp_path / "f.toml", there, "mavlink")
+    fleet = load_fleet(tmp_path / "f.toml", APP)
+    assert (fleet.plane.altitude if fleet.plane else None) == 411.5
+    assert fleet.airspace.size == (120.0, 100.0)
+    assert [one.home for one in fleet.drones] == [
+        pytest.approx((20.0, 20.0, 0.0), abs=0.2),
+        pytest.approx((96.1, 75.6, 0.0), abs=0.2),
+    ]
+    assert not_real(fleet) is None
 
 
 def test_nothing_is_saved_where_no_drone_answers(tmp_path: Path, command: Command) -> None:
