@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import cycle
 from math import dist
 from pathlib import Path
@@ -21,10 +22,9 @@ from .written import write_new
 
 if TYPE_CHECKING:
     from ..app import App
-    from ..drones.protocol import DroneTelemetry
     from ..geodesy import Degrees
     from ..shared.domain.airspace import Corner
-    from .drones import DroneAnswer
+    from ..shared.domain.model import Point
 
 _APART_OUTDOORS = 4.0
 """Metres between drones whose places by satellites are metres off."""
@@ -32,19 +32,26 @@ _ORIGIN = 0.05
 """Metres from (0, 0): a drone that reports to be so near has just been switched on, and has no fix."""
 
 
-Answered = tuple["DroneAnswer", "DroneTelemetry"]
-"""A drone, and what it has told."""
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """A drone that has answered."""
+
+    uri: str | None
+    position: Point
+    degrees: Degrees | None = None
+    """Where it stands on the Earth, if it tells that."""
 
 
 def write_fleet(app: App, path: Path, there: Sequence[Answered], navigation: str | None) -> None:
     """Write a fleet file of the drones that have answered; never overwrites a file."""
     if not there:
         raise BadInput(f"{path}: not written, for no drone has answered")
-    places = [one.degrees for one, _ in there if one.degrees is not None]
+    places = [one.degrees for one in there if one.degrees is not None]
     if len(places) == len(there):
-        content = "\n".join(_file_on_earth(app, path, there, places)) + "\n"
+        lines = _file_on_earth(app, path, there, places)
     else:
-        content = "\n".join(_file(app, path, there, navigation or CRAZYFLIE)) + "\n"
+        lines = _file(app, path, there, navigation or CRAZYFLIE)
+    content = "\n".join(lines) + "\n"
     fleet_of(parsed(str(path), content), app)  # check that it is valid
     write_new(path, content, "the fleet")
     output.tell(f"{path}: {counted(len(there), 'drone')}; look at each home before anything flies")
@@ -75,7 +82,7 @@ def _file_on_earth(
     yield "[fleet]"
     yield f"apart = {number(_APART_OUTDOORS)}  # metres"
     categories = cycle(category.name for category in app.categories)
-    for index, ((answer, _), (latitude, longitude, _), category) in enumerate(
+    for index, (one, (latitude, longitude, _), category) in enumerate(
         zip(there, places, categories, strict=False), start=1
     ):
         x, y, _ = plane.to_metres((latitude, longitude, 0.0))
@@ -84,7 +91,7 @@ def _file_on_earth(
         yield f'id = "m{index}"'
         yield f"category = {toml_value(category)}{_choice(app)}"
         yield f"home = {toml_value([round(x, 1), round(y, 1)])}  # where it stood"
-        yield f"uri = {toml_value(answer.asked.uri)}"
+        yield f"uri = {toml_value(one.uri)}"
 
 
 def _file(app: App, path: Path, there: Sequence[Answered], navigation: str) -> Iterator[str]:
@@ -101,16 +108,14 @@ def _file(app: App, path: Path, there: Sequence[Answered], navigation: str) -> I
         yield f"navigation = {toml_value(navigation)}"
     categories = cycle(category.name for category in app.categories)
     taken: list[Corner] = []
-    for index, ((answer, telemetry), category) in enumerate(
-        zip(there, categories, strict=False), start=1
-    ):
+    for index, (one, category) in enumerate(zip(there, categories, strict=False), start=1):
         yield ""
         yield "[[drone]]"
         yield f'id = "cf{index}"'
         yield f"category = {toml_value(category)}{_choice(app)}"
-        yield _home(telemetry, airspace, taken)
-        if answer.asked.uri is not None:
-            yield f"uri = {toml_value(answer.asked.uri)}"
+        yield _home(one.position, airspace, taken)
+        if one.uri is not None:
+            yield f"uri = {toml_value(one.uri)}"
 
 
 def _choice(app: App) -> str:
@@ -118,14 +123,14 @@ def _choice(app: App) -> str:
     return f"  # one of: {', '.join(names)}" if len(names) > 1 else ""
 
 
-def _home(telemetry: DroneTelemetry, airspace: Airspace, taken: list[Corner]) -> str:
+def _home(position: Point, airspace: Airspace, taken: list[Corner]) -> str:
     """Return the line of a drone's home: its reported position, or the next free place of a row."""
 
     def is_free(spot: Corner) -> bool:
         apart = all(dist(spot, other) >= APART for other in taken)
         return apart and airspace.problem((*spot, 0.0)) is None
 
-    x, y, _ = telemetry.position
+    x, y, _ = position
     said = round(x, 2) + 0.0, round(y, 2) + 0.0
     if dist(said, (0.0, 0.0)) > _ORIGIN and is_free(said):
         taken.append(said)

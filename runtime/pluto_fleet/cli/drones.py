@@ -46,7 +46,7 @@ from ..shared import output
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number, percent, place, printable, quoted
 from ..shared.domain.trace import dumped
-from .draft_fleet import write_fleet
+from .draft_fleet import Answered, write_fleet
 from .written import refuse_if_there
 
 if TYPE_CHECKING:
@@ -79,8 +79,12 @@ def drones(app: App, options: Command) -> int:
     else:
         _say(told)
     if options.save is not None:
-        answered = [(one, there) for one in told if (there := heard(one)) is not None]
-        write_fleet(app, options.save, answered, options.navigation)
+        there = [
+            Answered(one.asked.uri, known.position, one.degrees)
+            for one in told
+            if (known := heard(one)) is not None
+        ]
+        write_fleet(app, options.save, there, options.navigation)
     return 0 if told and not any(one.problems for one in told) else NOT_READY
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from pluto_fleet.cli import drones as drones_command
-from pluto_fleet.cli.draft_fleet import write_fleet
+from pluto_fleet.cli.draft_fleet import Answered, write_fleet
 from pluto_fleet.drones import localization
 from pluto_fleet.files.fleet import load_fleet, not_real
 from pluto_fleet.gateway.drone_lock import lock_drones
@@ -79,8 +79,7 @@ def test_what_knows_its_degrees_is_saved_with_a_map_on_the_earth(tmp_path: Path)
     there = []
     for number, place in enumerate(((47.0, 8.0, 412.0), (47.0005, 8.001, 411.5)), 1):
         uri = f"mavlink+udp://:14540?system={number}"
-        query = drones_command.DroneQuery(id=uri, uri=uri, navigation="mavlink", options={})
-        there.append((drones_command.DroneAnswer(asked=query, degrees=place), at((0.0, 0.0, 0.0))))
+        there.append(Answered(uri, (0.0, 0.0, 0.0), place))
     write_fleet(APP, tmp_path / "f.toml", there, "mavlink")
     fleet = load_fleet(tmp_path / "f.toml", APP)
     assert (fleet.plane.altitude if fleet.plane else None) == 411.5
