@@ -61,6 +61,8 @@ class StationLink:
         self._begin()
         self._coming: list[tuple[float, float] | None] = []
         """The corners of a fence that is being sent."""
+        self._captured = 0.0
+        """The number of the last capture that was asked for."""
         self._make: dict[int, Callable[[], Any]] = {
             mavlink.MAVLINK_MSG_ID_SYS_STATUS: self._status,
             mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: self._battery,
@@ -244,7 +246,10 @@ class StationLink:
             )
             self._put(answer, component)
         if asked.command == mavlink.MAV_CMD_IMAGE_START_CAPTURE and result == ACCEPTED:
-            self._put(self._picture(), CAMERA)
+            number = asked.values[3]  # of the capture: a command that comes again has the same
+            if not number or number != self._captured:
+                self._put(self._picture(), CAMERA)
+            self._captured = number
 
     def _of_autopilot(self, asked: Asked) -> int | None:
         number = int(asked.values[0]) if isfinite(asked.values[0]) else -1

@@ -94,6 +94,14 @@ class MavsdkClient:
             await asyncio.sleep(_BEAT)
 
     async def _hear(self, process: asyncio.subprocess.Process) -> None:
+        """Take what the process tells, until it ends; if that raises, all vehicles must know that they are not heard."""
+        try:
+            await self._take(process)
+        finally:
+            if self._process is process:
+                self._gone()
+
+    async def _take(self, process: asyncio.subprocess.Process) -> None:
         assert process.stdout is not None
         while line := await process.stdout.readline():
             message = json.loads(line)
@@ -109,12 +117,10 @@ class MavsdkClient:
                 answer.set_exception(Rejected(message["error"]))
             else:
                 answer.set_result(message["value"])
-        self._gone(process)
 
-    def _gone(self, process: asyncio.subprocess.Process) -> None:
+    def _gone(self) -> None:
         """Fail what waits for the process; the next request starts another one."""
-        if self._process is process:
-            self._process = None
+        self._process = None
         for task in self._tasks:
             if task is not asyncio.current_task():
                 task.cancel()

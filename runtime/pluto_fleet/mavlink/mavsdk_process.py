@@ -93,9 +93,11 @@ class Desk:
         )
         self._open[number] = opened
         self._follow(number, opened, TelemetryAsync(found))
-        await asyncio.gather(
-            *(self._ask_for(opened, system, kind, rate) for kind, rate in RATES.items())
-        )
+        for (
+            kind,
+            rate,
+        ) in RATES.items():  # one by one: an answer says which command, and not which of several
+            await self._ask_for(opened, system, kind, rate)
         make = await found.autopilot_type()
         return {"make": Autopilot(make).name.lower()}
 

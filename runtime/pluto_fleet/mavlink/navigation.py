@@ -54,7 +54,7 @@ _CAMERA_ON_THE_WAY = 4.0
 _RESTS = 0.5
 """Seconds for which it must stay at its target, to have arrived."""
 _SETTLES = 2.0
-"""Seconds in which its mode may be another one than what it was told to do."""
+"""Seconds in which it must take a mode of what it was told to do; one that it leaves again is noticed at once."""
 _LONGEST = 3600.0
 _LANDING = 600.0
 _HOLDING = 30.0
@@ -80,8 +80,8 @@ class MavlinkVehicle:
         self._photos: deque[asyncio.Future[Mapping[str, Any]]] = deque()
         """Those that were asked for, in their order."""
         self._crashed, self._cut = "", False
-        self._order_given, self._agreed = "", 0.0
-        """What it was told last, and when its mode was last one of that."""
+        self._order_given, self._agreed, self._obeys = "", 0.0, False
+        """What it was told last, when its mode was last one of that, and whether it has been since."""
         self._by_itself = ""
         """What it does by itself, if it does."""
         self._fence_given, self._mixed = False, False
@@ -96,7 +96,7 @@ class MavlinkVehicle:
         """Find its autopilot, and wait until it has told where it is and how it is."""
         await self._part()
         self._state = VehicleState(self._setup.plane, self._setup.home[2])
-        self._mixed = False
+        self._make, self._mixed = None, False
         address = self._address
         self._parameters, self._fence_given = {}, False
         self._client = client()
@@ -114,15 +114,13 @@ class MavlinkVehicle:
         wanted = self._options.autopilot
         if wanted is not None and wanted != found["make"]:
             raise NotReady(f"{self._id}: its autopilot is {self._make.name}, and not {wanted}")
-        began = time.monotonic()
-        while not self._state.is_known:
+        began, state = time.monotonic(), self._state
+        while not state.is_known:
             if time.monotonic() - began > _KNOWN:
                 raise LinkLost(f"{self._id} answers, and does not tell {self._untold()}")
             await asyncio.sleep(0.05)
-        while not self._state.is_well and time.monotonic() - began < _KNOWN:
-            await asyncio.sleep(
-                0.05
-            )  # MAVSDK begins with a bad health, and hears of it once a second
+        while time.monotonic() - began < _KNOWN and not (state.is_well and state.cameras):
+            await asyncio.sleep(0.05)  # its health is told once a second, and its camera asked for
         self._tell()
 
     @property
@@ -175,6 +173,8 @@ class MavlinkVehicle:
             self._photos.popleft().set_result(facts)
         flew, mode = state.flying, state.mode
         state.hear(told, facts)
+        if self._make is None:
+            return  # a slow one tells before it is known whose it is
         if flew and not state.flying:
             self._came_down(mode)
         if told == "beat":
@@ -222,7 +222,7 @@ class MavlinkVehicle:
         """
         self._refuse_if_by_itself()
         began = time.monotonic()
-        self._order_given, self._agreed = what, began
+        self._order_given, self._agreed, self._obeys = what, began, False
         for order in orders:
             try:
                 result = await self._ask(
@@ -252,6 +252,8 @@ class MavlinkVehicle:
             return [f"{self._id} is not connected"]
         if self._state.flying:
             return []
+        if self._crashed:
+            return [f"{self._crashed}, and nobody has looked after it since"]
         await self._read_failsafes()
         most = own_failsafes.fastest(self._known_make.name, self._parameters)
         if most is not None and self._setup.speed > most:
@@ -370,12 +372,12 @@ class MavlinkVehicle:
         modes = self._known_make.modes
         if not state.flying:
             self._order_given, self._by_itself = "", ""
-            self._agreed = now
+            self._agreed, self._obeys = now, False
         # one that flew before it was connected to may have been told anything
         told = (self._order_given,) if self._order_given else ("rise", "go", "hold", "land")
         if any(state.mode in modes[what] for what in told):
-            self._agreed = now
-        elif now - self._agreed > _SETTLES and not self._by_itself:
+            self._agreed, self._obeys = now, True
+        elif (self._obeys or now - self._agreed > _SETTLES) and not self._by_itself:
             said = state.since(now - _RECENTLY)
             mode = self._known_make.mode_name(state.mode)
             self._by_itself = f"it is in the mode {mode}{f' ({said})' if said else ''}"

@@ -14,6 +14,7 @@ from pluto_fleet.autopilot.server import Server, let
 from pluto_fleet.autopilot.vehicle import Build, Vehicle
 from pluto_fleet.drones.protocol import (
     ActionNotDone,
+    Crashed,
     DroneSetup,
     LinkLost,
     NotReady,
@@ -148,6 +149,30 @@ async def on_the_way(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     await going
 
 
+async def restarted(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """One that fell does not take off before somebody has looked after it, even if it says that it is well."""
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "reboot", True)
+    with pytest.raises(Crashed, match="its motors stopped"):
+        await going
+    while vehicle.high:
+        await asyncio.sleep(0.1)
+    with pytest.raises(NotReady, match="nobody has looked after it"):
+        await flies.takeoff(3.0, 1.0)
+    assert not vehicle.armed
+    await flies.looked_after()
+    assert await flies.preflight() == []
+
+
+async def slow(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """One that is heard late, as by a telemetry radio, flies, and keeps nobody else from being heard."""
+    let(vehicle, "late", 0.3)
+    await flies.connect()
+    await flies.takeoff(3.0, 1.0)
+    await flies.go_to((8.0, 5.0, 3.0), 3.0)
+    assert vehicle.body.at[0] == pytest.approx(3.0, abs=0.6)
+
+
 async def twin(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     """Where two tell that they are one, neither takes off: nobody could say which flies where."""
     await flies.connect()
@@ -167,6 +192,8 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     other_make: {"autopilot": "ardupilot"},
     silent: {},
     beyond: {},
+    slow: {},
+    restarted: {},
     twin: {},
     on_the_way: {},
     beyond_ardupilot: {"autopilot": "ardupilot"},
