@@ -173,6 +173,16 @@ def test_a_drone_meets_what_moves_and_has_it_on_its_picture() -> None:
     assert "person" in photo["sees"]
 
 
+def test_time_does_not_go_back_for_what_has_moved_while_no_drone_flew() -> None:
+    async def late(run: Run[Any]) -> Status:
+        await run.core.kernel.sleep(60.0)
+        return await flow(run)
+
+    outcome = flown([following()], walker((8.0, 8.0), (2.0, 2.0), speed=0.1), flow=late)
+    times = [event["t"] for event in outcome.events]
+    assert times == sorted(times)
+
+
 def test_one_that_turns_is_pursued_again() -> None:
     mover = walker((8.0, 8.0), (6.0, 8.0), (6.0, 2.0), (19.0, 2.0), speed=0.4)
     outcome = flown([following()], mover)
