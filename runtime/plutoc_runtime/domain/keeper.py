@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import Context, ContextVar, copy_context
+from dataclasses import fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
@@ -18,9 +19,12 @@ from .plain import plain_of
 from .text import bounded, class_of, shown
 
 if TYPE_CHECKING:
+    from dataclasses import Field as DataclassField
+
     from .fields import Field
 
 T = TypeVar("T")
+K = TypeVar("K", bound="Kept")
 
 FieldsOf = Mapping[tuple[type, str], "Field"]
 """The fields of an app's missions and trips, by class and name."""
@@ -33,6 +37,29 @@ def put(of: Kept, **facts: object) -> None:
     """Set attributes as the runtime does, without the checks of what hooks write."""
     for name, value in facts.items():
         _set(of, name, value)
+
+
+def put_anew(of: Kept) -> None:
+    """Put what a new one has of the runtime: what a hook has written there before it gave it away counts for nothing."""
+    put(of, **{each.name: each.default for each in _fields(of) if not each.init})
+
+
+def settled(of: K) -> K:
+    """Return one without what a hook has written of it that runs still."""
+    keeper = of._keeper
+    if keeper is None or not keeper.before:
+        return of
+    was = {name: value for (one, name), value in keeper.before.items() if one is of}
+    if not was:
+        return of
+    copy = type(of).__new__(type(of))
+    put(copy, **{each.name: getattr(of, each.name) for each in _fields(of)})
+    put(copy, **was)
+    return copy
+
+
+def _fields(of: Any) -> tuple[DataclassField[Any], ...]:
+    return fields(of)
 
 
 def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:

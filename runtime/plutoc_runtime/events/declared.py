@@ -146,17 +146,21 @@ class EventsDeclared(PartOf):
             found.append({"id": f"world/{number}", **facts, **when})
         return tuple(found)
 
+    def entries(self) -> tuple[str, ...]:
+        """Return the blocks of creators: a mission that one has made begins there."""
+        return tuple(one.block for one in self.creators)
+
     def about(self) -> dict[str, Any]:
         """Return them as plain data: all that a library knows of them."""
         events = [
             {
                 "name": one.name,
                 "parameters": parameters_data(one.fields),
-                "creates": any(creator.event == one.name for creator in self.creators),
             }
             for one in self.types
         ]
-        return {"events": events}
+        creators = [{"event": one.event, "block": one.block} for one in self.creators]
+        return {"events": events, "creators": creators}
 
 
 class TracksDeclared(PartOf):

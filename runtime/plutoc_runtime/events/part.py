@@ -30,6 +30,10 @@ class PartOf:
         """Return what happens in the simulated world, as its `[world]` says."""
         return ()
 
+    def entries(self) -> tuple[str, ...]:
+        """Return the blocks at which its missions enter the graph."""
+        return ()
+
     def __call__(self, engine: Any) -> Any:
         """Return it in a running app: a `Part` of flow/mission.py."""
         raise NotImplementedError
