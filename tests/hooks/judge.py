@@ -66,16 +66,7 @@ def hanging(events: Sequence[Event], until: float) -> Iterator[str]:
     yield from (f"{one} hangs" for one, when in launched.items() if when < until / 2)
 
 
-def disturbed(mission: str, events: Sequence[Event]) -> bool:
-    """Return whether an event that another mission has raised broke a flight of this one off."""
-    others = {
-        event["id"]
-        for event in events
-        if event["event"] == "event.raised" and event.get("mission", mission) != mission
-    }
-    return any(
-        event["event"] == "trip.interrupted"
-        and event["mission"] == mission
-        and event.get("by") in others
-        for event in events
-    )
+def broken_off(events: Sequence[Event]) -> set[object]:
+    """Return the missions of which an event broke a flight off."""
+    off = (event for event in events if event["event"] == "trip.interrupted" and "by" in event)
+    return {event["mission"] for event in off}
