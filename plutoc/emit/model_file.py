@@ -103,7 +103,7 @@ def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     if any(isinstance(field, AlongField) for field in fields):
         imports += names("._runtime.events.declared", "Along", "AlongField")
     if any(isinstance(field, TrackField) for field in fields):
-        imports += names("._runtime.events.declared", "TrackField")
+        imports += names("._runtime.events.declared", "LimitField", "TrackField")
         imports += names("._runtime.domain.quantities", "Type")
     if any(isinstance(field, OwnField) for field in fields):
         imports += names("._runtime.domain.own_fields", "OwnField")

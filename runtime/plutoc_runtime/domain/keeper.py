@@ -15,7 +15,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from .errors import MissionFailed
-from .plain import plain_of
 from .text import bounded, class_of, shown
 
 if TYPE_CHECKING:
@@ -63,14 +62,25 @@ def _fields(of: Any) -> tuple[DataclassField[Any], ...]:
 
 
 def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return a copy of values by name that hooks can only read."""
-    lists = {name: tuple(one) for name, one in values.items() if type(one) is list}
-    return MappingProxyType({**values, **lists})
+    """Return a copy of values by name that hooks can only read, what is inside included."""
+    return MappingProxyType({name: _read_only(one) for name, one in values.items()})
+
+
+def _read_only(value: Any) -> Any:
+    if type(value) is list:
+        return tuple(value)
+    return read_only(value) if type(value) is dict else value
 
 
 def plain_again(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the same as plain data."""
-    return {name: list(one) if type(one) is tuple else one for name, one in values.items()}
+    return {name: _plain_again(one) for name, one in values.items()}
+
+
+def _plain_again(value: Any) -> Any:
+    if type(value) is tuple:
+        return list(value)
+    return plain_again(value) if type(value) is MappingProxyType else value
 
 
 def hand_to(keeper: Keeper, of: Kept) -> None:
@@ -201,7 +211,7 @@ class Keeper:
                 raise AttributeError(f"{what} cannot be set here: that is for {who}, while it runs")
             if wanted := field.wanted(value, self._evaluators):
                 raise TypeError(f"{what} must be {wanted}, not {bounded(shown(value), 100)}")
-            value = plain_of(value)
+            value = field.kept(value)
         elif name not in of._edited:
             raise AttributeError(f"{what} is set by the app alone{_INSTEAD.get(name, '')}")
         else:

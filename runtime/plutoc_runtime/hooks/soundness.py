@@ -42,6 +42,7 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
             or _wrong_place(airspace, trip)
             or _wrong_item(trip)
             or wrong_field(app.fields, Entity.TRIP, trip, app.evaluators)
+            or next(filter(None, (part.wrong(app, trip) for part in app.parts)), None)
         )
     except BaseException as error:  # noqa: BLE001 - what a hook has put there may be of any class
         unless_by_a_person(error)
