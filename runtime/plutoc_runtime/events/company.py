@@ -114,12 +114,15 @@ class Company(Part):
         return {**flight.order, "company": True} if is_accompanied else flight.order
 
     def _aim(self, flight: Flight, id: str) -> None:
-        """Aim a trip at where its drone will meet what it follows."""
+        """Aim a trip at where its drone will meet what it follows; no report of that yet: above its target."""
         tracks: Tracks = self._core.parts[Tracks]
         track = tracks.known.get(id)
+        height = self._core.airspace.cruise_height
+        x, y, z = flight.trip.target
+        target = (x, y, max(z, height))
         if track is not None:
-            height = self._core.airspace.cruise_height
-            put(flight.trip, target=tracks.meeting(track, flight.flier, height))
+            target = tracks.meeting(track, flight.flier, height)
+        put(flight.trip, target=target)
 
     def _begin(self, state: MissionState, flight: Flight, recorded: Awaitable[None] | None) -> bool:
         """Begin what goes on beside a flight; return whether anything does.

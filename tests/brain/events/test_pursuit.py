@@ -201,6 +201,14 @@ def test_time_does_not_go_back_for_what_has_moved_while_no_drone_flew() -> None:
     assert times == sorted(times)
 
 
+def test_a_drone_flies_above_what_there_is_no_report_of_yet() -> None:
+    """A camera says where it is on the ground; a real drone would not fly there."""
+    trip = Trip(name="p", action="take_photo", target=(4.0, 4.0, 0.0), track="t1", lost_after=9.0)
+    outcome = flown([trip], walker((8.0, 8.0), (2.0, 2.0), starts=60.0), until=1.0)
+    (launched,) = outcome.standing["missions"]["m0"]["todo"]
+    assert launched["target"] == [4.0, 4.0, 1.2]
+
+
 def test_one_that_turns_is_pursued_again() -> None:
     mover = walker((8.0, 8.0), (6.0, 8.0), (6.0, 2.0), (19.0, 2.0), speed=0.4)
     outcome = flown([following()], mover)
