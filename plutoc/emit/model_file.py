@@ -103,7 +103,7 @@ def _imports(fields: tuple[Field, ...], policies: bool) -> list[Import]:
     if any(isinstance(field, AlongField) for field in fields):
         imports += names("._runtime.events.declared", "Along", "AlongField")
     if any(isinstance(field, TrackField) for field in fields):
-        imports += names("._runtime.events.declared", "LimitField", "TrackField")
+        imports += names("._runtime.events.declared", "TrackField")
         imports += names("._runtime.domain.quantities", "Type")
     if any(isinstance(field, OwnField) for field in fields):
         imports += names("._runtime.domain.own_fields", "OwnField")
@@ -231,7 +231,7 @@ def python_type(field: Field) -> str:
     """Return the annotation of a field."""
     if isinstance(field, AlongField):
         return "Along | None"
-    if isinstance(field, TrackField):
+    if isinstance(field, TrackField) and field.type is Type.TEXT:
         return "str | None"
     if isinstance(field.type, Type):
         return OWN_PYTHON[field.type]

@@ -18,8 +18,6 @@ from .errors import MissionFailed
 from .text import bounded, class_of, shown
 
 if TYPE_CHECKING:
-    from dataclasses import Field as DataclassField
-
     from .fields import Field
 
 T = TypeVar("T")
@@ -40,7 +38,7 @@ def put(of: Kept, **facts: object) -> None:
 
 def put_anew(of: Kept) -> None:
     """Put what a new one has of the runtime: what a hook has written there before it gave it away counts for nothing."""
-    put(of, **{each.name: each.default for each in _fields(of) if not each.init})
+    put(of, **{each.name: each.default for each in fields(of) if not each.init})
 
 
 def settled(of: K) -> K:
@@ -49,16 +47,10 @@ def settled(of: K) -> K:
     if keeper is None or not keeper.before:
         return of
     was = {name: value for (one, name), value in keeper.before.items() if one is of}
-    if not was:
-        return of
     copy = type(of).__new__(type(of))
-    put(copy, **{each.name: getattr(of, each.name) for each in _fields(of)})
+    put(copy, **{each.name: getattr(of, each.name) for each in fields(of)})
     put(copy, **was)
     return copy
-
-
-def _fields(of: Any) -> tuple[DataclassField[Any], ...]:
-    return fields(of)
 
 
 def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -110,6 +102,7 @@ class Kept:
 
     __slots__ = ("_keeper",)
 
+    __dataclass_fields__: ClassVar[dict[str, Any]]
     _keeper: Keeper | None
     _called: ClassVar[str]
     """What it is to a person."""

@@ -184,19 +184,12 @@ class TracksDeclared(PartOf):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrackField(Field):
-    """The field of a trip with the track that it follows."""
+    """A field of a trip about what it follows: the track, or a limit."""
 
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
-        return "" if value is None or type(value) is str else "the id of a track"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LimitField(Field):
-    """A field with a number that is above 0."""
-
-    def wanted(self, value: object, evaluators: Container[str]) -> str:
-        """Return what a value must be that a hook has set, if it is not that."""
+        if self.type is Type.TEXT:
+            return "" if value is None or type(value) is str else "the id of a track"
         number = number_of(value)
         return "" if number is not None and number > 0.0 else "a number above 0"
 
@@ -209,7 +202,7 @@ TRIP_FIELDS = (
         label="Follows the track",
         doc="What moves, and it follows; None: its target stands.",
     ),
-    LimitField(
+    TrackField(
         name="reach",
         on=Entity.TRIP,
         type=Type.LENGTH,
@@ -217,7 +210,7 @@ TRIP_FIELDS = (
         default=0.5,
         doc="Metres within which what it follows is reached.",
     ),
-    LimitField(
+    TrackField(
         name="lost_after",
         on=Entity.TRIP,
         type=Type.TIME,

@@ -11,7 +11,7 @@ from ._runtime.domain.actions import Parameter
 from ._runtime.domain.fields import Entity, Field, FieldType
 from ._runtime.domain.model import Category
 from ._runtime.domain.quantities import Type
-from ._runtime.events.declared import Along, AlongField, Event, EventType, LimitField, TrackField
+from ._runtime.events.declared import Along, AlongField, Event, EventType, TrackField
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -59,8 +59,8 @@ EVENTS = (
 
 FIELDS: tuple[Field, ...] = (
     TrackField(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
-    LimitField(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
-    LimitField(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
+    TrackField(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
+    TrackField(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
     AlongField(
         name="along", on=Entity.TRIP, type=FieldType.ALONG, label="On the way", actions=("look",)
     ),
