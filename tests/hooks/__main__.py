@@ -28,12 +28,11 @@ from pluto_fleet.shared.domain.trace import Event
 from pluto_fleet.shared.events.declared import AlongField, TrackField
 from pluto_fleet.shared.events.world import Mover
 from pluto_fleet.shared.flow import asking
-from pluto_fleet.trials.rules import ENDS
 from plutoc.compile import analyse, planned
 from plutoc.diagnostic import Rejected
 from plutoc.source import Source
 from tests.equivalence.flows import Package, packaged
-from tests.hooks.judge import broken_off, hanging, outlived, wrong
+from tests.hooks.judge import broken_off, ended_as, hanging, outlived, wrong
 from tests.hooks.vandals import EVENTS, Vandals
 from tests.kit import apps
 from tests.kit.campaign import Campaign
@@ -149,9 +148,8 @@ def _flown(
     said += outlived(vandals.looked, events)
     # one that is bad may wait for ever: its hooks say for what
     said += [one for one in hanging(events, LONGEST) if not (active and one.startswith("bad"))]
-    end = next((one.status.value, one.reason) for one in ended if one.name == "good")
-    is_alone = "good" not in broken_off(events) and NO_DRONE not in end[1]
-    return Good(end if end[0] in ENDS else ("", ""), is_alone)
+    end = ended_as("good", events)
+    return Good(end, "good" not in broken_off(events) and NO_DRONE not in end[1])
 
 
 def _told(package: Package, rng: Random) -> list[tuple[float, str, dict[str, Any]]]:
