@@ -329,7 +329,7 @@ def read_again(actions: Mapping[str, Action], along: Mapping[Any, Any]) -> Along
         given[name] = _plain_by_name(one) if is_several else plain_of(one)
     table = Table(given)
     keys = {"action": partial(one_of, actions)}
-    read = table.read(keys, {**SPACINGS, "parameters": None})
+    read = table.read(keys, {**SPACINGS, "metres": OF_LINES, "parameters": None})
     return _complete(actions, table, read, "metres or seconds")
 
 
@@ -373,6 +373,8 @@ SPACINGS = {
     "seconds": Quantity(Type.TIME, 0.1, 3600.0),
 }
 """How far apart something is done on the way."""
+OF_LINES = Quantity(Type.LENGTH, 0.001, 10_000.0)
+"""The same in metres, of the lines of an area, whose overlap says it."""
 
 
 def _spacing(value: object) -> dict[str, float]:

@@ -391,7 +391,7 @@ def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
 
 
 def test_the_picture_at_the_end_of_a_line_is_not_taken_twice() -> None:
-    for metres in (1.0, 1.143, 1.333, 1.6):
+    for metres in (0.05, 1.0, 1.143, 1.333, 1.6):
         assert len(photos(flown([line(metres=metres)]))) == round(8.0 / metres) + 1
 
 
