@@ -14,7 +14,8 @@ from __future__ import annotations
 import argparse
 import asyncio
 import sys
-from collections.abc import Sequence
+from collections.abc import AsyncIterator, Callable, Sequence
+from contextlib import asynccontextmanager
 from dataclasses import dataclass, field
 from math import dist
 from pathlib import Path
@@ -24,6 +25,7 @@ from tempfile import TemporaryDirectory
 sys.path[:0] = [str(Path(__file__).parents[1])]
 
 import tests  # noqa: F401  # first: all that follows shares one brain
+from pluto_fleet.crtp.body import Body
 from pluto_fleet.crtp.drone import Build
 from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.server import Server
@@ -31,7 +33,7 @@ from pluto_fleet.drones.team import Team
 from pluto_fleet.gateway.gateway import Gateway
 from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.airspace import Airspace, Corner
-from pluto_fleet.shared.domain.model import Category
+from pluto_fleet.shared.domain.model import Category, Point
 from pluto_fleet.shared.domain.motion import CRAZYFLIE
 from pluto_fleet.shared.events.world import Mover
 from tests.kit.unthreaded import in_virtual_time, the_air
@@ -59,10 +61,28 @@ class Figures:
     paces: list[float] = field(default_factory=list)
 
 
-async def followed(speed: float, folder: Path) -> Figures:
-    """Follow somebody at this speed."""
-    walks = Mover(name="t1", kind="person", path=(*PATH,), speed=speed, repeat=True)
-    build = Build(id="cf1", home=(2.0, 7.0, 0.0))
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Flying:
+    """A simulated Crazyflie in the air behind a gateway, and who commands it."""
+
+    asked: Asked
+    link: Commander
+    body: Body
+    clock: Callable[[], float]
+
+    def go(
+        self, number: int, stop: Point, seconds: float, over: Callable[[object], object]
+    ) -> None:
+        """Tell it where to be in so many seconds, 0: as soon as it can; `over` is called with what came of it."""
+        self.link._reports[number] = over
+        order = {"do": "go", "id": number, "drone": "cf1", "stops": [stop], "seconds": seconds}
+        self.asked.kernel.post(self.link.link.send, order)
+
+
+@asynccontextmanager
+async def flying(home: Point, folder: Path) -> AsyncIterator[Flying]:
+    """Have one Crazyflie hover where it was asked to fly first, and land it at the end."""
+    build = Build(id="cf1", home=home)
     server = Server([build], FlightLog())
     await server.start()
     asked = Asked()
@@ -75,8 +95,25 @@ async def followed(speed: float, folder: Path) -> Figures:
     team.begin()
     link = Commander(gateway.link(1))
     await asked.do(link.fleet_report())
-    await asked.do(link.goes("cf1", (*PATH[0], 1.2)))
-    body = server.drones["cf1"].body
+    try:
+        yield Flying(asked=asked, link=link, body=server.drones["cf1"].body, clock=clock)
+    finally:
+        await team.close()
+        await asyncio.sleep(0)
+        await server.close()
+
+
+async def followed(speed: float, folder: Path) -> Figures:
+    """Follow somebody at this speed."""
+    walks = Mover(name="t1", kind="person", path=(*PATH,), speed=speed, repeat=True)
+    async with flying((2.0, 7.0, 0.0), folder) as drone:
+        await drone.asked.do(drone.link.goes("cf1", (*PATH[0], 1.2)))
+        return await _followed(drone, walks)
+
+
+async def _followed(drone: Flying, walks: Mover) -> Figures:
+    clock = drone.clock
+    body = drone.body
     figures = Figures()
     began = clock()
 
@@ -85,26 +122,18 @@ async def followed(speed: float, folder: Path) -> Figures:
         assert at is not None
         return at
 
-    def tell(number: int) -> None:
+    for number in range(1000, 1000 + round(LASTS / AGAIN)):
         before = place(clock() - AGAIN)
         here = place(clock())
         x, y = (b + AHEAD * (b - a) / AGAIN for a, b in zip(before, here, strict=True))
         stop = min(max(x, 0.0), 12.0), min(max(y, 0.0), 8.0), 1.2
-        order = {"do": "go", "id": number, "drone": "cf1", "stops": [stop], "seconds": AHEAD}
-        link.link.send(order)
-
-    for number in range(1000, 1000 + round(LASTS / AGAIN)):
-        link._reports[number] = lambda _: None
-        asked.kernel.post(tell, number)
+        drone.go(number, stop, AHEAD, lambda _: None)
         for _ in range(round(AGAIN / LOOK)):
             before = body.position[:2]
             await asyncio.sleep(LOOK)
             if clock() - began > CATCHES_UP:
                 figures.away.append(dist(body.position[:2], place(clock())))
                 figures.paces.append(dist(body.position[:2], before) / LOOK)
-    await team.close()
-    await asyncio.sleep(0)
-    await server.close()
     return figures
 
 

@@ -231,7 +231,7 @@ def python_type(field: Field) -> str:
     """Return the annotation of a field."""
     if isinstance(field, AlongField):
         return "Along | None"
-    if isinstance(field, TrackField):
+    if isinstance(field, TrackField) and field.type is Type.TEXT:
         return "str | None"
     if isinstance(field.type, Type):
         return OWN_PYTHON[field.type]

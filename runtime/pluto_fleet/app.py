@@ -148,11 +148,7 @@ def _parts(about: Mapping[str, Any]) -> tuple[PartOf, ...]:
         EventType(name=one["name"], fields=_parameters(one["parameters"]))
         for one in about["events"]
     )
-    creators = tuple(
-        Creator(event=one["name"], block="", hook=_nobody)
-        for one in about["events"]
-        if one["creates"]
-    )
+    creators = tuple(Creator(**one, hook=_nobody) for one in about["creators"])
     own = tuple(
         AlongAction(name=one["name"], parameters=_parameters(one["parameters"]))
         for one in about["along"]

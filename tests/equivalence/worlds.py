@@ -151,6 +151,8 @@ def random_world(rng: Random, graph: Graph, times: Sequence[float] = TIMES) -> W
     )
 
 
+FOLLOWED = (4.0, 4.0, 400.0)
+"""Seconds for which something is followed: the last one is more than a battery lasts."""
 OWN_VALUES: dict[object, tuple[Plain, ...]] = {
     Type.TEXT: ("", "a text"),
     Type.INT: (0, 3),
@@ -225,7 +227,7 @@ class _World:
         if name == "measure":
             return {"quantity": "temperature"}
         if name == "follow":
-            return {"for": 4.0, "every": 1.0}
+            return {"for": self.rng.choice(FOLLOWED), "every": 4.0}
         declared = [
             p for action in self.graph.actions if action.name == name for p in action.parameters
         ]

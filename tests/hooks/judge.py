@@ -64,3 +64,17 @@ def hanging(events: Sequence[Event], until: float) -> Iterator[str]:
             case {"event": "mission.ended" | "mission.uncertain", "mission": mission}:
                 launched[mission] = until  # or a person is asked
     yield from (f"{one} hangs" for one, when in launched.items() if when < until / 2)
+
+
+def ended_as(mission: object, events: Sequence[Event]) -> tuple[str, str]:
+    """Return the status with which a mission ended, and why; empty: it has not."""
+    for event in events:
+        if event["event"] == "mission.ended" and event["mission"] == mission:
+            return event["status"], event["reason"]
+    return "", ""
+
+
+def broken_off(events: Sequence[Event]) -> set[object]:
+    """Return the missions of which an event broke a flight off."""
+    off = (event for event in events if event["event"] == "trip.interrupted" and "by" in event)
+    return {event["mission"] for event in off}

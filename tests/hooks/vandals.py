@@ -26,6 +26,11 @@ LOOKS = 12
 """Times that an action on the way goes on: not all flights last as long."""
 PLACES = (1.0, 2.0, 1.2), (2, 3), [4.0, 4.0], (1e9, 0.0), (float("nan"), 1.0)
 NUMBERS = -5, 0, 3, 10**30, 2.5, float("nan"), float("inf"), True
+ALONG = (
+    *({"action": "take_photo"}, {"action": "take_photo", "seconds": 0.0}),
+    *({"action": "look", "metres": float("nan")}, {"action": "take_photo", "metres": "2 m"}),
+    *({"action": "look", "parameters": 3}, {"action": "take_photo", "seconds": 2.0}),
+)
 VALUES: tuple[object, ...] = (
     *PLACES,
     *NUMBERS,
@@ -217,6 +222,9 @@ class Vandals:
             here["dose"] = value
         else:
             name = chance.choice(_names(here) or ["new"])
+            if hasattr(here, "along") and chance.random() < 0.1:
+                name = "along"
+                value = chance.choice(ALONG)
             if chance.random() < 0.15:
                 delattr(here, name)
             elif name == "reset" and chance.random() < 0.8:

@@ -184,6 +184,11 @@ class Living:
         self.gateway.cut()
         self._brain.kill()
 
+    @property
+    def lives(self) -> bool:
+        """Whether a brain lives."""
+        return self._brain.alive
+
     def live_on(self, app: App | None = None) -> None:
         """Begin another life, of the same app or of one that was changed."""
         self.app = app or self.app

@@ -114,10 +114,12 @@ def thesis_graphs() -> dict[str, App]:
     """Return the graphs of the thesis by name, always in the same order: our examples, and what else it draws."""
     examples = sorted(EXAMPLES.glob("*/app.pluto"))
     drawn = sorted(Path(__file__).with_name("graphs").glob("*.pluto"))
-    return {
+    graphs = {
         **{path.parent.name: read(path.read_text(encoding="utf-8")) for path in examples},
         **{path.stem: read(path.read_text(encoding="utf-8")) for path in drawn},
     }
+    assert len(graphs) == len(examples) + len(drawn), "two graphs have one name"
+    return graphs
 
 
 def takes(app: App) -> dict[Arrow, tuple[Status, ...]]:

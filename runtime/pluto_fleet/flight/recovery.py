@@ -145,7 +145,7 @@ class Recovery:
     def _why_held(self, name: str, record: Record) -> str | None:
         if name in self._unfit:
             return self._unfit[name]
-        at, points = record["at"], self._app.resumes
+        at, points = record["at"], self._app.entries
         if at is None or at in points or (at == record["accepted"] and points):
             return None
         return f"it stopped at block {at}, which the app has no more as a place to go on"

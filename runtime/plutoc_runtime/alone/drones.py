@@ -7,7 +7,7 @@ left to chance is drawn by `seed/flight/leg`, so it depends on no other flight a
 from __future__ import annotations
 
 from collections.abc import Generator, Mapping, Sequence
-from math import dist, inf
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 from ..domain.actions import BUILT_IN, MEASURE, PHOTO, PICK, USUAL_QUANTITY
@@ -16,7 +16,7 @@ from ..domain.errors import Failure, FlightFailed
 from ..domain.motion import varied, varies
 from ..domain.text import place
 from ..fleet.reach import docked, flight_seconds, grip_problem
-from ..fleet.telemetry import Charge, KnownState, Leg, place_on, resting
+from ..fleet.telemetry import MOMENT, Charge, KnownState, Leg, place_on, resting
 from ..hooks.plain_data import item_of, point_of, value_data
 from .world import BEFALL, CARRYING_HOME, OUTAGE, Faults, World, draw
 
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from ..domain.trace import Clock
 
 
-MOMENT = 0.001
-"""Seconds by which sums of floats may be off, and more."""
+COASTS = 0.5
+"""Seconds for which a drone that is told to hover on its way still has the speed to go on with."""
 
 
 class Body(KnownState):
@@ -53,8 +53,8 @@ class Body(KnownState):
         self._drawn: Mapping[Failure, float] = {}
         self._began = 0.0
         self._flown = 0.0
-        self._cut_at = -inf
-        """When it was told to hover while it was on its way, the last time."""
+        self._cut = (-inf, (0.0, 0.0, 0.0))
+        """When it was told to hover on its way, the last time, and how fast it was."""
         self.stand(home, 1.0)
 
     def stand(self, at: Point, level: float) -> None:
@@ -95,7 +95,7 @@ class Body(KnownState):
         self.check()
         now = self._clock.now
         motion = self.motion
-        moves = self._moves_at(now)
+        velocity = self._velocity(now)
         rises = self._landed
         if rises:  # the battery drains from now on, and faults are due
             self._charge = self._charge.changing(
@@ -112,10 +112,12 @@ class Body(KnownState):
             x, y, z = there
             factor = varies(motion.spread, f"{self._flight}/{x:.2f}/{y:.2f}/{z:.2f}")
             leaves = now + factor * before
-            goes_on = moves and there[:2] != here[:2]
-            if goes_on:
-                seconds = motion.at_speed(dist(here, there), speed)
-                moves = False  # it rests at the end of this leg
+            goes_on = False
+            if velocity is not None and there[:2] != here[:2]:
+                seconds = motion.sent_on(velocity, here, there, speed)
+                after = motion.stops(speed)
+                goes_on = True
+                velocity = None  # it rests at the end of this leg
             smooth = motion.smooth and not goes_on
             legs.append(Leg(here, there, leaves, leaves + factor * seconds, smooth))
             here = there
@@ -127,17 +129,21 @@ class Body(KnownState):
         """Hover where it is, if it still takes commands."""
         self.settle()
         if not self._landed and self.down is None:
-            if self._moves_at(self._clock.now):
-                self._cut_at = self._clock.now
-            self.turn([resting(self.location, self._clock.now)], self._clock.now)
+            now = self._clock.now
+            velocity = self._velocity(now)
+            if velocity is not None:
+                self._cut = now, velocity
+            self.turn([resting(self.location, now)], now)
 
-    def _moves_at(self, now: float) -> bool:
-        """Return whether it is on its way, or was until this very instant: then it need not start from rest."""
+    def _velocity(self, now: float) -> Point | None:
+        """Return how fast it is on its way, or was until just now; None: it starts from rest."""
         if self._landed:
-            return False
-        return self._cut_at == now or any(
-            leg.leaves < now < leg.arrives - MOMENT and leg.start != leg.end for leg in self._legs
-        )
+            return None
+        for leg in self._legs:
+            if leg.leaves < now < leg.arrives - MOMENT and leg.start != leg.end:
+                return leg.velocity(now)
+        since, velocity = self._cut
+        return velocity if now - since <= COASTS else None
 
     def touch_down(self, now: float) -> None:
         """Put it on the ground below; in its dock it is charged from its touch-down on."""

@@ -46,6 +46,11 @@ class App:
     parts: tuple[Any, ...] = ()
     """What this app has beside missions and drones, such as events: each a `PartOf`."""
 
+    @property
+    def entries(self) -> tuple[str, ...]:
+        """The blocks at which `flow` can be entered: where missions go on, and where events' missions begin."""
+        return (*self.resumes, *(block for part in self.parts for block in part.entries()))
+
 
 def needs_library(what: str, extra: str = "") -> str:
     """Say how to install what a package alone cannot do."""

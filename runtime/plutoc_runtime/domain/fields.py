@@ -47,12 +47,17 @@ class Field:
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
         plain = plain_of(value)
-        if value is None or (type(plain) is bool and self.type is FieldType.ROUNDS):
+        is_left_out = value is None and self.default is None
+        if is_left_out or (type(plain) is bool and self.type is FieldType.ROUNDS):
             return ""
         if self.type is FieldType.EVALUATOR:
             is_right = type(plain) is str and plain in evaluators
             return "" if is_right else "an evaluator's name"
         return "" if number_of(value) is not None else "a number"
+
+    def kept(self, value: object) -> object:
+        """Return a value as it is kept that a hook has set: as plain data."""
+        return plain_of(value)
 
 
 def wrong_field(

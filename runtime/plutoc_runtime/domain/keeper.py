@@ -10,17 +10,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import Context, ContextVar, copy_context
+from dataclasses import fields
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Self, TypeVar
 
 from .errors import MissionFailed
-from .plain import plain_of
 from .text import bounded, class_of, shown
 
 if TYPE_CHECKING:
     from .fields import Field
 
 T = TypeVar("T")
+K = TypeVar("K", bound="Kept")
 
 FieldsOf = Mapping[tuple[type, str], "Field"]
 """The fields of an app's missions and trips, by class and name."""
@@ -35,15 +36,43 @@ def put(of: Kept, **facts: object) -> None:
         _set(of, name, value)
 
 
+def put_anew(of: Kept) -> None:
+    """Put what a new one has of the runtime: what a hook has written there before it gave it away counts for nothing."""
+    put(of, **{each.name: each.default for each in fields(of) if not each.init})
+
+
+def settled(of: K) -> K:
+    """Return one without what a hook has written of it that runs still."""
+    keeper = of._keeper
+    if keeper is None or not keeper.before:
+        return of
+    was = {name: value for (one, name), value in keeper.before.items() if one is of}
+    copy = type(of).__new__(type(of))
+    put(copy, **{each.name: getattr(of, each.name) for each in fields(of)})
+    put(copy, **was)
+    return copy
+
+
 def read_only(values: Mapping[str, Any]) -> Mapping[str, Any]:
-    """Return a copy of values by name that hooks can only read."""
-    lists = {name: tuple(one) for name, one in values.items() if type(one) is list}
-    return MappingProxyType({**values, **lists})
+    """Return a copy of values by name that hooks can only read, what is inside included."""
+    return MappingProxyType({name: _read_only(one) for name, one in values.items()})
+
+
+def _read_only(value: Any) -> Any:
+    if type(value) is list:
+        return tuple(value)
+    return read_only(value) if type(value) is dict else value
 
 
 def plain_again(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return the same as plain data."""
-    return {name: list(one) if type(one) is tuple else one for name, one in values.items()}
+    return {name: _plain_again(one) for name, one in values.items()}
+
+
+def _plain_again(value: Any) -> Any:
+    if type(value) is tuple:
+        return list(value)
+    return plain_again(value) if type(value) is MappingProxyType else value
 
 
 def hand_to(keeper: Keeper, of: Kept) -> None:
@@ -73,6 +102,7 @@ class Kept:
 
     __slots__ = ("_keeper",)
 
+    __dataclass_fields__: ClassVar[dict[str, Any]]
     _keeper: Keeper | None
     _called: ClassVar[str]
     """What it is to a person."""
@@ -174,7 +204,7 @@ class Keeper:
                 raise AttributeError(f"{what} cannot be set here: that is for {who}, while it runs")
             if wanted := field.wanted(value, self._evaluators):
                 raise TypeError(f"{what} must be {wanted}, not {bounded(shown(value), 100)}")
-            value = plain_of(value)
+            value = field.kept(value)
         elif name not in of._edited:
             raise AttributeError(f"{what} is set by the app alone{_INSTEAD.get(name, '')}")
         else:

@@ -16,11 +16,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from .model import Point
+
 CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
 """Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
 SHORTEST = 1.0  # seconds of a smooth leg at least: 3 m in half a second have flipped a drone
+TURNS = 1.0  # metres a second by which its velocity changes in a second, on its way from one leg to another
+STOPS = 0.8  # seconds in which a drone that comes at its speed comes to rest
 SINKS = 0.5  # the share of its limit up to which a drone lands closely enough to touch down
 _TAIL = 3.0  # standard deviations within which all durations lie
 _TAKE_OFFS = 10.0  # how much more what a take-off takes besides its climb varies than all else
@@ -110,8 +114,27 @@ class Motion:
         return metres / speed + speed / self.acceleration
 
     def at_speed(self, metres: float, speed: float) -> float:
-        """Return the seconds of a leg on which a drone sets out at its speed, and not from rest."""
+        """Return the seconds in which a drone flies so far without a stop."""
         return self.pace * metres / min(speed, self.limit)
+
+    def sent_on(self, velocity: Point, here: Point, there: Point, speed: float) -> float:
+        """Return the seconds of a leg on which a drone on its way is sent elsewhere, and its autopilot turns it."""
+        metres = dist(here, there)
+        seconds = self.at_speed(metres, speed)
+        rate = TURNS if self.smooth else 2 * self.acceleration
+        if not rate:
+            return seconds
+        ahead = (
+            min(speed, self.limit) * (b - a) / metres for a, b in zip(here, there, strict=True)
+        )
+        return seconds + self.pace * dist(velocity, tuple(ahead)) / rate
+
+    def stops(self, speed: float) -> float:
+        """Return the seconds after a leg that was flown at speed, and not from rest, until a drone hovers."""
+        if self.smooth:
+            return self.pace * STOPS
+        rate = 2 * self.acceleration
+        return self.settles + (self.pace * min(speed, self.limit) / rate if rate else 0.0)
 
     def stages(
         self, way: Sequence[tuple[float, float, float]], speed: float, rises: bool, lands: bool

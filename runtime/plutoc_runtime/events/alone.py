@@ -31,7 +31,10 @@ class EventDrones(IdealDrones):
     def due(self) -> float:
         """When something happens next; infinite: only an order can make it happen."""
         due = super().due
-        return min(due, self._seen + TRACKED) if self.world.movers and due < inf else due
+        if not self.world.movers or due == inf:
+            return due
+        # nobody looks while no drone does anything: the next look may be overdue
+        return min(due, max(self._clock.now, self._seen + TRACKED))
 
     def advance(self) -> dict[str, Any]:
         """Let the next thing happen that is due, and return what there is to tell of it."""

@@ -7,7 +7,7 @@ from functools import partial
 from math import dist
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ..domain.errors import ActionFailed, Cancelled, FlightFailed
+from ..domain.errors import ActionFailed, Cancelled, FlightFailed, HookFault
 from ..domain.guard import NOT_ITS_OWN
 from ..domain.keeper import put
 from ..domain.model import NO_RESULT, Sighting
@@ -19,11 +19,12 @@ from ..hooks.context import Context, LiveDrone
 from ..hooks.plain_data import keepable, point_of
 from ..time.kernel import Future, mission_key
 from .changes import keep
-from .declared import CompanyDeclared
+from .declared import CompanyDeclared, along_of, read_again
 from .part import Part
 from .tracks import Tracks
 
 if TYPE_CHECKING:
+    from ..domain.actions import Action
     from ..domain.model import Drone, Mission, Point, Trip
     from ..flow.engine import Engine
     from ..flow.flight import Flight
@@ -58,7 +59,7 @@ class CompanyOf(CompanyDeclared):
 
     def __call__(self, engine: Engine) -> Company:
         """Return what sees to it in a running app."""
-        return Company(engine, self.own)
+        return Company(engine, self.own, self.actions(engine.core.app))
 
 
 class Failed(NamedTuple):
@@ -72,13 +73,19 @@ class Failed(NamedTuple):
 class Company(Part):
     """What goes on beside the flights of one running app."""
 
-    def __init__(self, engine: Engine, own: Sequence[AlongAction]) -> None:
+    def __init__(
+        self, engine: Engine, own: Sequence[AlongAction], actions: Mapping[str, Action]
+    ) -> None:
+        """`own` are the app's own among the `actions` that can be done along the way."""
         self._core = engine.core
         self._engine = engine
         self._own = {action.name: action for action in own}
+        self._actions = actions
         self._core.accompany = self.accompany
         self._arrivals: dict[str, Future[None]] = {}
         """By their ids, of the flights that something goes on beside: set at the end of the last leg."""
+        self.margins: dict[Flight, float] = {}
+        """The flights that are to be relieved, with what more than the way home their batteries hold then."""
         self.relieving: dict[Flight, Drone] = {}
         """The drones that are about to take flights over."""
         self._live: dict[Flight, FlyingDrone] = {}
@@ -107,12 +114,15 @@ class Company(Part):
         return {**flight.order, "company": True} if is_accompanied else flight.order
 
     def _aim(self, flight: Flight, id: str) -> None:
-        """Aim a trip at where its drone will meet what it follows."""
+        """Aim a trip at where its drone will meet what it follows; no report of that yet: above its target."""
         tracks: Tracks = self._core.parts[Tracks]
         track = tracks.known.get(id)
+        height = self._core.airspace.cruise_height
+        x, y, z = flight.trip.target
+        target = (x, y, max(z, height))
         if track is not None:
-            height = self._core.airspace.cruise_height
-            put(flight.trip, target=tracks.meeting(track, flight.flier, height))
+            target = tracks.meeting(track, flight.flier, height)
+        put(flight.trip, target=target)
 
     def _begin(self, state: MissionState, flight: Flight, recorded: Awaitable[None] | None) -> bool:
         """Begin what goes on beside a flight; return whether anything does.
@@ -121,14 +131,8 @@ class Company(Part):
         """
         trip = flight.trip
         works: dict[str, Coroutine[Any, Any, Failed | None]] = {}
-        if given := along_of(trip):
-            name = given["action"]
-            own = self._own.get(name)
-            works[f"{name} along"] = (
-                self._repeat(state, flight, given)
-                if own is None
-                else self._call(state, flight, own, given, recorded)
-            )
+        if along := along_of(trip):
+            works["what is along"] = self._along(state, flight, along, recorded)
         if track := track_of(trip):
             works[f"pursuit of {track}"] = self._pursue(state, flight)
         if not works:
@@ -156,6 +160,23 @@ class Company(Part):
             self._live[flight].change_to(drone)
 
     # Along the way
+
+    def _along(
+        self,
+        state: MissionState,
+        flight: Flight,
+        along: Along,
+        recorded: Awaitable[None] | None,
+    ) -> Coroutine[Any, Any, Failed | None]:
+        """Return what is done along the way; a hook may have written what cannot be."""
+        try:
+            given = read_again(self._actions, along)
+        except ValueError as error:
+            return _refused(f"trip {flight.trip.name}: its along {error}")
+        own = self._own.get(given["action"])
+        if own is None:
+            return self._repeat(state, flight, given)
+        return self._call(state, flight, own, given, recorded)
 
     async def _call(
         self,
@@ -322,10 +343,8 @@ MOMENT = 0.1
 """Seconds between two looks at where a drone is."""
 
 
-def along_of(trip: Trip) -> Along | None:
-    """Return what is done along a trip's way."""
-    along: Along | None = getattr(trip, "along", None)  # not every app has this field
-    return along
+async def _refused(why: str) -> Failed:
+    return Failed(why, mends=False)
 
 
 def track_of(trip: Trip) -> str | None:
@@ -338,8 +357,13 @@ def _end(state: MissionState, flight: Flight, task: Task[Failed | None]) -> None
     """Fail a flight that is under way if what went on beside it has failed."""
     if isinstance(task.error, Cancelled):
         return
-    failed = task.result()
     under_way = state.flight is flight and not flight.is_set and flight.called_off is None
+    if isinstance(task.error, HookFault):  # what it has left behind cannot be flown
+        failed: Failed | None = Failed(str(task.error), mends=False)
+        if not under_way:
+            state.end(str(task.error))
+    else:
+        failed = task.result()
     if failed is not None and under_way:
         state.break_off(flight)
         state.fail(flight, failed.reason, mends=failed.mends)

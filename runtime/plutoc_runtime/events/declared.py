@@ -13,7 +13,8 @@ from ..domain.actions import Action, Parameter, Plain
 from ..domain.app import parameters_data
 from ..domain.errors import BadInput
 from ..domain.fields import Entity, Field, FieldType
-from ..domain.plain import plain_of
+from ..domain.keeper import put, read_only
+from ..domain.plain import number_of, plain_of
 from ..domain.quantities import Type
 from ..domain.text import quoted
 from ..domain.values import Quantity, Table, one_of, read_parameters
@@ -23,7 +24,7 @@ from .world import Mover, read_movers
 if TYPE_CHECKING:
     from ..alone.drones import IdealDrones
     from ..domain.app import App
-    from ..domain.model import Point
+    from ..domain.model import Point, Trip
 
 LATE = "late"
 """Happens when a promise of a mission is broken."""
@@ -146,17 +147,21 @@ class EventsDeclared(PartOf):
             found.append({"id": f"world/{number}", **facts, **when})
         return tuple(found)
 
+    def entries(self) -> tuple[str, ...]:
+        """Return the blocks of creators: a mission that one has made begins there."""
+        return tuple(one.block for one in self.creators)
+
     def about(self) -> dict[str, Any]:
         """Return them as plain data: all that a library knows of them."""
         events = [
             {
                 "name": one.name,
                 "parameters": parameters_data(one.fields),
-                "creates": any(creator.event == one.name for creator in self.creators),
             }
             for one in self.types
         ]
-        return {"events": events}
+        creators = [{"event": one.event, "block": one.block} for one in self.creators]
+        return {"events": events, "creators": creators}
 
 
 class TracksDeclared(PartOf):
@@ -179,11 +184,14 @@ class TracksDeclared(PartOf):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrackField(Field):
-    """The field of a trip with the track that it follows."""
+    """A field of a trip about what it follows: the track, or a limit."""
 
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
-        return "" if value is None or type(value) is str else "the id of a track"
+        if self.type is Type.TEXT:
+            return "" if value is None or type(value) is str else "the id of a track"
+        number = number_of(value)
+        return "" if number is not None and number > 0.0 else "a number above 0"
 
 
 TRIP_FIELDS = (
@@ -194,7 +202,7 @@ TRIP_FIELDS = (
         label="Follows the track",
         doc="What moves, and it follows; None: its target stands.",
     ),
-    Field(
+    TrackField(
         name="reach",
         on=Entity.TRIP,
         type=Type.LENGTH,
@@ -202,7 +210,7 @@ TRIP_FIELDS = (
         default=0.5,
         doc="Metres within which what it follows is reached.",
     ),
-    Field(
+    TrackField(
         name="lost_after",
         on=Entity.TRIP,
         type=Type.TIME,
@@ -249,9 +257,13 @@ class AlongField(Field):
 
     def wanted(self, value: object, evaluators: Container[str]) -> str:
         """Return what a value must be that a hook has set, if it is not that."""
-        if value is None or (type(value) is dict and value.get("action") in self.actions):
+        if value is None or (isinstance(value, Mapping) and value.get("action") in self.actions):
             return ""
         return f'an Along, such as {{"action": "{self.actions[0]}"}}'
+
+    def kept(self, value: object) -> object:
+        """Return a value as it is kept that a hook has set: a copy, which is read when its trip is taken over."""
+        return read_only(value) if isinstance(value, Mapping) else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -270,10 +282,24 @@ class CompanyDeclared(PartOf):
 
     def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
         """Return how the action along a trip's way is read."""
+        return {FieldType.ALONG: partial(_read_along, self.actions(app))}
+
+    def actions(self, app: App) -> Mapping[str, Action]:
+        """Return what can be done along a trip's way."""
         named = [field for field in app.fields if isinstance(field, AlongField)]
-        names = [name for field in named for name in field.actions]
-        actions = {**app.actions, **{action.name: action for action in self.own}}
-        return {FieldType.ALONG: partial(_read_along, {name: actions[name] for name in names})}
+        known = {**app.actions, **{action.name: action for action in self.own}}
+        return {name: known[name] for field in named for name in field.actions if name in known}
+
+    def wrong(self, app: App, trip: Trip) -> str | None:
+        """Return what is wrong with what a hook wants done along a trip's way; else it is kept as it is read."""
+        along = along_of(trip)
+        if along is None:
+            return None
+        try:
+            put(trip, along=read_only(read_again(self.actions(app), along)))
+        except ValueError as error:
+            return f"its along {error}"
+        return None
 
     def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
         """Take a target that moves apart: `target = { track = "t7" }`; where it is, is known later."""
@@ -289,32 +315,71 @@ OF_TARGET = ("track", "reach", "lost_after")
 """What a target says that moves, which are fields of its trip."""
 
 
+def along_of(trip: Trip) -> Along | None:
+    """Return what is done along a trip's way."""
+    along: Along | None = getattr(trip, "along", None)  # not every app has this field
+    return along
+
+
+def read_again(actions: Mapping[str, Action], along: Mapping[Any, Any]) -> Along:
+    """Return what is done on the way, read as a hook has written it; raise `ValueError`."""
+    given = {str(name): one for name, one in along.items() if one is not None}
+    for name, one in given.items():
+        is_several = isinstance(one, Mapping)
+        given[name] = _plain_by_name(one) if is_several else plain_of(one)
+    table = Table(given)
+    keys = {"action": partial(one_of, actions)}
+    read = table.read(keys, {**SPACINGS, "metres": OF_LINES, "parameters": None})
+    return _complete(actions, table, read, "metres or seconds")
+
+
+def _plain_by_name(values: Mapping[Any, Any]) -> dict[str, Any]:
+    return {str(name): plain_of(one) for name, one in values.items()}
+
+
 def _read_along(actions: Mapping[str, Action], value: object) -> Along:
     """Read `"look"`, or `{ action = "take_photo", every = "2 m" }`; raise `ValueError`."""
     table = Table(value if isinstance(value, dict) else {"action": value})
     read = table.read({"action": partial(one_of, actions)}, {"every": _spacing, "parameters": None})
+    every = read.pop("every", {})
+    wanted = 'every, such as every = "2 m" or every = "1 s"'
+    return _complete(actions, table, {**read, **every}, wanted)
+
+
+def _complete(
+    actions: Mapping[str, Action], table: Table, read: dict[str, Any], spacing: str
+) -> Along:
+    """Return what is done on the way with its parameters; raise `ValueError` with what is wrong.
+
+    `spacing` says how one writes that.
+    """
     action = actions.get(str(read.get("action")))
     if action is not None:
         read["parameters"] = read_parameters(table.table("parameters"), action.parameters)
         goes_on = isinstance(action, AlongAction)
-        if goes_on and "every" in table.data:
+        is_spaced = not {"every", *SPACINGS}.isdisjoint(table.data)
+        if goes_on and is_spaced:
             table.problem(f"{action.name} goes on all the way, and takes no every")
-        elif not goes_on and "every" not in table.data:
-            table.problem(f'{action.name} needs every, such as every = "2 m" or every = "1 s"')
+        elif not goes_on and not is_spaced:
+            table.problem(f"{action.name} needs {spacing}")
     if table.problems:
         raise ValueError(f"is wrong: {table.problems[0].sentence}")
-    every = read.pop("every", {})
-    found: Any = {**read, **every}
+    found: Any = read
     return cast("Along", found)
+
+
+SPACINGS = {
+    "metres": Quantity(Type.LENGTH, 0.1, 1000.0),
+    "seconds": Quantity(Type.TIME, 0.1, 3600.0),
+}
+"""How far apart something is done on the way."""
+OF_LINES = Quantity(Type.LENGTH, 0.001, 10_000.0)
+"""The same in metres, of the lines of an area, whose overlap says it."""
 
 
 def _spacing(value: object) -> dict[str, float]:
     """Read how far apart, in metres or in seconds, something is done."""
-    kinds = {
-        "metres": Quantity(Type.LENGTH, 0.1, 1000.0),
-        "seconds": Quantity(Type.TIME, 0.1, 3600.0),
-    }
-    for name, read in kinds.items():
+    for name, read in SPACINGS.items():
         with suppress(ValueError):
             if isinstance(value, str):
                 return {name: read(value)}

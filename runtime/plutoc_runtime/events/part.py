@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from ..alone.drones import IdealDrones
     from ..domain.app import App
     from ..domain.fields import FieldType
+    from ..domain.model import Trip
     from ..domain.quantities import Type
     from ..domain.trace import Row
     from ..domain.values import Table
@@ -30,6 +31,10 @@ class PartOf:
         """Return what happens in the simulated world, as its `[world]` says."""
         return ()
 
+    def entries(self) -> tuple[str, ...]:
+        """Return the blocks at which its missions enter the graph."""
+        return ()
+
     def __call__(self, engine: Any) -> Any:
         """Return it in a running app: a `Part` of flow/mission.py."""
         raise NotImplementedError
@@ -41,6 +46,10 @@ class PartOf:
     def readers(self, app: App) -> Mapping[FieldType | Type, Callable[[Any], Any]]:
         """Return how fields of the types are read that only this part knows."""
         return {}
+
+    def wrong(self, app: App, trip: Trip) -> str | None:
+        """Return what is wrong with what a trip of a hook has for it."""
+        return None
 
     def prepared(self, trip: Mapping[str, Any]) -> Mapping[str, Any]:
         """Return what trips have for what is written of one."""

@@ -12,13 +12,14 @@ from typing import TYPE_CHECKING, Any
 
 from ..domain.errors import BadInput, HookFault
 from ..domain.guard import NOT_ITS_OWN
-from ..domain.keeper import put, reading
+from ..domain.keeper import put, put_anew, reading, trips_of
 from ..domain.status import DroneStatus, Status
 from ..domain.text import LONGEST_REASON, bounded, duration, quoted
 from ..domain.values import point, point_on
 from ..flow.own_action import while_it_suffices
 from ..hooks.calls import call_hook, fault_of, hook_name
 from ..hooks.plain_data import keepable
+from ..hooks.soundness import taken_in
 from ..time.kernel import FLEET, EventKind, Future
 from .changes import keep
 from .context import Context, Outside
@@ -82,7 +83,6 @@ class Events(Part):
         """By the names of their events, and of their blocks."""
         for creator in creators:
             self._creators.setdefault(creator.event, {})[creator.block] = creator
-            engine.entries.append(creator.block)
         self.happenings: dict[str, Happening] = {}
         """By their ids."""
         self._unasked: list[Happening] = []
@@ -344,10 +344,17 @@ class Events(Part):
             raise fault_of(hook, error) from error
         if made is None:
             return None
-        if (wrong := wrong_mission(core, made)) is not None:
+        if (wrong := wrong_mission(core, made) or self._take_in(made)) is not None:
             raise HookFault(f"creator {hook_name(hook)} made a mission that cannot be: {wrong}")
         put(made, index=self._next_index(), name=self._free_name(made.name))
         return made  # type: ignore[no-any-return]  # its class was checked
+
+    def _take_in(self, made: Mission[Any]) -> str | None:
+        """Make a creator's mission one of the app, with trips of its own; return why that cannot be."""
+        put_anew(made)
+        self._engine.keep(made, ())
+        whys = (taken_in(made, trip, added=False) for trip in trips_of(made))
+        return next(filter(None, whys), None)
 
     def _next_index(self) -> int:
         states = self._engine.states.values()

@@ -37,18 +37,24 @@ def relieve_at(run: Run[Any], level: float) -> None:
     """Have the flight of this moment taken over once its battery holds only the way home and this."""
     state = run.state
     flight = state.flight
-    if flight is not None and not flight.is_set:
-        work = _relieve(state, flight, level)
-        task = state.spawn(work, f"{state.mission.name}: relief")
-        flight.company += (task,)
-        flight.watch(lambda _: task.cancel())
+    if flight is None or flight.is_set:
+        return
+    margins = run.core.parts[Company].margins
+    is_watched = flight in margins  # by another monitor of the same flight
+    margins[flight] = max(level, margins.get(flight, level))
+    if is_watched:
+        return
+    task = state.spawn(_relieve(state, flight), f"{state.mission.name}: relief")
+    flight.company += (task,)
+    flight.watch(lambda _: task.cancel())
+    flight.watch(margins.pop)
 
 
-async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
+async def _relieve(state: MissionState, flight: Flight) -> None:
     """Have one drone after the other take over, as long as the flight lasts."""
     core = state.core
     while not flight.is_set:
-        await _until_low(state, flight, margin)
+        await _until_low(state, flight)
         if flight.own_action is not None and not isinstance(flight.action, FollowAction):
             return  # what has begun is done by the drone that began it
         request = core.queue.enter(state.mission, nearest, URGENT)
@@ -73,10 +79,11 @@ async def _relieve(state: MissionState, flight: Flight, margin: float) -> None:
         await core.kernel.sleep(LOOK, key=state.key)
 
 
-async def _until_low(state: MissionState, flight: Flight, margin: float) -> None:
+async def _until_low(state: MissionState, flight: Flight) -> None:
     """Wait until the battery holds only so much more than the way home and its reserve take."""
     kernel = state.core.kernel
-    while _spare(state, flight) > margin:
+    company: Company = state.core.parts[Company]
+    while _spare(state, flight) > company.margins[flight]:
         await kernel.sleep(LOOK, EventKind.CLOCK, state.key)
 
 

@@ -169,8 +169,8 @@ class Tracks(Part):
         if way is None:
             return inf
         metres = sum(starmap(dist, pairwise((drone.location, *way))))
-        stops = STOPS if category.motion.smooth else 0.0
-        return category.motion.at_speed(metres, category.speed) + stops
+        motion = category.motion
+        return motion.at_speed(metres, category.speed) + motion.stops(category.speed)
 
     def _above(self, track: Track, height: float, when: float) -> Point:
         """Return the point above an object at a time, on the map."""
@@ -189,8 +189,6 @@ SOONEST = 0.1
 """Seconds to which a meeting is reckoned exactly."""
 HELD_UP = 0.1
 """Seconds by which a timer may be late, before it is asked whether something was told meanwhile."""
-STOPS = 1.0
-"""Seconds more in which a drone on smooth legs comes to rest from its speed."""
 AHEAD = 1.0
 """Seconds in which a drone that follows is to be where the object will be, at least."""
 TRIES = 50

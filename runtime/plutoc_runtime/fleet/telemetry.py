@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from ..domain.trace import Clock
 
 
+MOMENT = 0.001
+"""Seconds by which sums of floats may be off, and more."""
+
+
 @dataclass(frozen=True, slots=True)
 class Leg:
     """A straight way between two points, with the times at its ends; `smooth`: at rest there."""
@@ -39,6 +43,12 @@ class Leg:
         x, y, z = self.start
         end_x, end_y, end_z = self.end
         return x + part * (end_x - x), y + part * (end_y - y), z + part * (end_z - z)
+
+    def velocity(self, now: float) -> Point:
+        """Return the metres per second at a time."""
+        then = now - MOMENT
+        x, y, z = ((b - a) / MOMENT for a, b in zip(self.at(then), self.at(now), strict=True))
+        return x, y, z
 
     def length(self, now: float) -> float:
         """Return the metres flown at a time."""

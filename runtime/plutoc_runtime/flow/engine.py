@@ -34,8 +34,6 @@ class Engine:
         self._fields = {(kinds[field.on], field.name): field for field in core.app.fields}
         self.promises = Promises(core, states, self.look_for_the_end)
         self._begun = 0  # how many missions are on their way through their graphs
-        self.entries = [*core.app.resumes]
-        """The blocks at which missions can enter the graph."""
         self._expected = 0  # what may begin more of them
         self.ended_at: float | None = None
         """When the last mission on its way ended, or was suspended; None: not yet."""
@@ -206,8 +204,9 @@ class Engine:
             state.keep_carrier(state.carrier)
         if state.doom is not None:  # it is to be ended at once
             return
-        if state.at is not None and state.at not in self.entries and self.entries:
-            state.at = self.entries[0]  # a person has said so
+        entries = core.app.entries
+        if state.at is not None and state.at not in entries and entries:
+            state.at = entries[0]  # a person has said so
         status = STANDBY if mission.attempts or state.interrupted else UNEXECUTED
         if not state.goes_on:
             put(mission, status=status, reason="")

@@ -12,7 +12,15 @@ from dataclasses import fields as dataclass_fields
 from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.fields import Entity
-from ..domain.keeper import keep, keeper_of, plain_again, put, put_trips, trips_of
+from ..domain.keeper import (
+    keep,
+    keeper_of,
+    plain_again,
+    put,
+    put_trips,
+    settled,
+    trips_of,
+)
 from ..domain.model import Result
 from ..domain.status import Status, TripStatus
 from ..fleet.fleet import Loss
@@ -133,7 +141,7 @@ def mission_row(app: App, state: MissionState) -> Data:
     row: Data = {fact: getattr(state, fact) for fact in _FACTS}
     row.update(
         index=mission.index,
-        fields=fields_of(app, Entity.MISSION, mission),
+        fields=fields_of(app, Entity.MISSION, settled(mission)),
         round=mission.round,
         attempts=mission.attempts,
         status=mission.status.value,
@@ -298,16 +306,17 @@ def _flight_of(
 
 def trip_row(app: App, trip: Trip, gone: Mapping[Trip, int]) -> Data:
     """Return the row of a trip, without the values that every new trip has."""
-    row = trip_data(app, trip)
+    now = settled(trip)
+    row = trip_data(app, now)
     if trip.number:
         row["number"] = trip.number
         row["rank"] = trip.rank
-    if trip.drone is not None:
-        row["drone"] = trip.drone.id
-    if trip.start_time is not None:
-        row["start_time"] = trip.start_time
-    if trip.end_time is not None:
-        row["end_time"] = trip.end_time
+    if now.drone is not None:
+        row["drone"] = now.drone.id
+    if now.start_time is not None:
+        row["start_time"] = now.start_time
+    if now.end_time is not None:
+        row["end_time"] = now.end_time
     if trip.reason:
         row["reason"] = trip.reason
     if trip in gone:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, cast
 
 from ..domain.errors import ANY_ERROR
 from ..domain.fields import Entity
 from ..domain.guard import unless_by_a_person
-from ..domain.keeper import plain_again, put
+from ..domain.keeper import plain_again, put, read_only
 from ..domain.model import Item, Photo, Sighting
 from ..domain.plain import MOST_BITS, plain_of
 from ..domain.status import TripStatus
@@ -63,8 +64,9 @@ def _plain(value: object) -> object:
     """Return a field's value, as text if a hook set it to something that is not plain data."""
     if value is None or type(value) in _AS_IT_IS or (type(value) is int and abs(value) < _SMALL):
         return value
-    if type(value) is dict:
-        return {str(_plain(name)): _plain(each) for name, each in value.items()}
+    if type(value) in _BY_NAME:
+        named = cast("Mapping[object, object]", value)
+        return {str(_plain(name)): _plain(each) for name, each in named.items()}
     plain = plain_of(value)
     is_long = type(plain) is int and plain.bit_length() > MOST_BITS
     is_odd = plain is None or (type(plain) is float and not isfinite(plain))
@@ -72,6 +74,7 @@ def _plain(value: object) -> object:
 
 
 _AS_IT_IS = (float, str, bool)
+_BY_NAME = (dict, MappingProxyType)
 _SMALL = 2**53
 
 
@@ -125,13 +128,13 @@ def trip_of(
 _LEAST = frozenset({"name", "action", "target", "index"})
 
 
-def known_fields(app: App, entity: Entity, data: Mapping[str, Any]) -> Data:
-    """Return the fields that the app has."""
+def known_fields(app: App, entity: Entity, data: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the fields that the app has, for hooks to read."""
     given = data.get("fields")
     if not given:
         return {}
     names = [field.name for field in app.fields if field.on is entity]
-    return {name: given[name] for name in names if name in given}
+    return read_only({name: given[name] for name in names if name in given})
 
 
 def point_of(data: Sequence[float]) -> Point:

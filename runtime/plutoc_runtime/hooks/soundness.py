@@ -8,10 +8,9 @@ from typing import TYPE_CHECKING, cast
 from ..domain.actions import PICK, RELEASE
 from ..domain.fields import Entity, wrong_field
 from ..domain.guard import unless_by_a_person
-from ..domain.keeper import keep, keeper_of, put, read_only
+from ..domain.keeper import keep, keeper_of, put, put_anew, read_only
 from ..domain.model import Item
 from ..domain.plain import number_of, plain_of
-from ..domain.status import TripStatus
 from ..domain.text import class_of, said, shown
 from ..domain.values import LONGEST_NAME, Table, read_parameters
 from .plain_data import keepable
@@ -43,6 +42,7 @@ def unsound(app: App, airspace: Airspace, trip: object) -> str | None:
             or _wrong_place(airspace, trip)
             or _wrong_item(trip)
             or wrong_field(app.fields, Entity.TRIP, trip, app.evaluators)
+            or next(filter(None, (part.wrong(app, trip) for part in app.parts)), None)
         )
     except BaseException as error:  # noqa: BLE001 - what a hook has put there may be of any class
         unless_by_a_person(error)
@@ -62,16 +62,8 @@ def taken_in(mission: Mission[Any], trip: Trip, *, added: bool) -> str | None:
     while trip.name in keeper.names:
         keeper.names[name] += 1
         put(trip, name=f"{name} {keeper.names[name]}")
-    put(
-        trip,
-        status=TripStatus.WAITING,
-        attempt=1,
-        reason="",
-        added=added,
-        drone=None,
-        start_time=None,
-        end_time=None,
-    )
+    put_anew(trip)
+    put(trip, added=added)
     keep(keeper, mission, (trip,))
     return None
 

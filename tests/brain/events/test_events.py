@@ -192,6 +192,37 @@ def test_what_a_creator_makes_is_checked(made: Callable[..., object], wrong: str
     assert not brain.standing()["missions"]
 
 
+def test_what_is_the_runtimes_is_new_of_each_mission_that_a_creator_makes() -> None:
+    """A hook may write all of one that is not the app's yet: a count that is none would end the app."""
+
+    def two_alike(*_: object) -> Any:
+        made: Any = apps.mission("m", apps.trip("t", 3.0), apps.trip("t", 4.0))
+        made.attempts = "many"
+        made.completed_trips = (made.trips[0],)
+        made.trips[0].attempt = made.trips[0].number = 7
+        return made
+
+    brain = charged(app=app_with(two_alike))
+    raised(brain, 1.0, at=[4.0, 2.0])
+    (fly,) = settled(brain, 1.0)
+    assert fly["flight"] == "m/t/0/1"
+    row = brain.mission("m")
+    assert (row["attempts"], row["done"]) == (1, [])
+    assert [one["name"] for one in row["todo"]] == ["t", "t 2"]
+
+
+def test_a_creator_cannot_give_away_the_trip_of_another_mission() -> None:
+    def thief(_: Event, context: Any) -> Any:
+        return apps.Mission(name="m", trips=[context.missions[0].trips[0]])
+
+    brain = charged(app=app_with(thief))
+    brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)
+    settled(brain, 0.0)
+    raised(brain, 1.0, at=[4.0, 2.0])
+    settled(brain, 1.0)
+    assert "has been used already" in brain.standing()["happenings"]["intruder-1"]["why"]
+
+
 def test_an_own_event_breaks_a_flight_off_and_charges_no_attempt() -> None:
     brain = charged(app=app_with(lambda *_: None))
     brain.begin([{"name": "patrol", "trips": [trip()]}], 0.0)

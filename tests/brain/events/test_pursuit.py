@@ -36,8 +36,9 @@ from pluto_fleet.shared.fleet.policies import nearest
 from pluto_fleet.shared.flow.run import Run
 from plutoc_blocks.drone_allocator.step import allocate_drone
 from plutoc_blocks.mission_creator.step import create_mission
+from plutoc_blocks.mission_modifier.step import modify_mission
 from plutoc_blocks.trip_launcher.step import launch_trip
-from plutoc_blocks.trip_monitor.relief import watch_relieved
+from plutoc_blocks.trip_monitor.relief import relieve, watch_relieved
 from plutoc_blocks.trip_monitor.step import watch_trip
 from tests.brain.hand import charged, settled
 from tests.kit import apps
@@ -95,6 +96,23 @@ async def untiring(run: Run[Any]) -> Status:
         status = await watch_trip(run, launch_trip(run, status))
         if status is Status.COMPLETED:
             return status
+
+
+def prepared(written: Mapping[str, Any], change: Any = lambda _: None) -> Any:
+    """Return create → modifier → allocate → launch → watch; the modifier writes this of the first trip."""
+
+    def hook(mission: apps.Mission, context: Any) -> None:
+        for name, value in written.items():
+            setattr(mission.trips[0], name, value)
+        change(mission)
+
+    async def whole(run: Run[Any]) -> Status:
+        status = create_mission(run, run.status)
+        status = await modify_mission(run, status, hook=hook)
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
+        return await watch_trip(run, launch_trip(run, status))
+
+    return whole
 
 
 def pursuing(
@@ -173,6 +191,24 @@ def test_a_drone_meets_what_moves_and_has_it_on_its_picture() -> None:
     assert "person" in photo["sees"]
 
 
+def test_time_does_not_go_back_for_what_has_moved_while_no_drone_flew() -> None:
+    async def late(run: Run[Any]) -> Status:
+        await run.core.kernel.sleep(60.0)
+        return await flow(run)
+
+    outcome = flown([following()], walker((8.0, 8.0), (2.0, 2.0), speed=0.1), flow=late)
+    times = [event["t"] for event in outcome.events]
+    assert times == sorted(times)
+
+
+def test_a_drone_flies_above_what_there_is_no_report_of_yet() -> None:
+    """A camera says where it is on the ground; a real drone would not fly there."""
+    trip = Trip(name="p", action="take_photo", target=(4.0, 4.0, 0.0), track="t1", lost_after=9.0)
+    outcome = flown([trip], walker((8.0, 8.0), (2.0, 2.0), starts=60.0), until=1.0)
+    (launched,) = outcome.standing["missions"]["m0"]["todo"]
+    assert launched["target"] == [4.0, 4.0, 1.2]
+
+
 def test_one_that_turns_is_pursued_again() -> None:
     mover = walker((8.0, 8.0), (6.0, 8.0), (6.0, 2.0), (19.0, 2.0), speed=0.4)
     outcome = flown([following()], mover)
@@ -221,6 +257,29 @@ def test_one_drone_after_the_other_follows_without_a_gap() -> None:
     for photo in taken:
         ((_, _, at),) = photo["tracks"]
         assert dist(photo["position"][:2], at[:2]) < 1.0
+
+
+def test_a_flight_that_two_monitors_watch_is_relieved_by_one_drone_at_a_time() -> None:
+    """One monitor's clone may have gone on, past a gate, to the other."""
+
+    async def twice(run: Run[Any]) -> Status:
+        status = create_mission(run, run.status)
+        status = await allocate_drone(run, status, block="allocate", policy=nearest)
+        launch_trip(run, status)
+        relieve(run, relief=0.2)
+        return await watch_relieved(run, status, relief=0.15)
+
+    weak = Category(name="scout", flight_time=120.0, charge_time=100.0)
+    trip = staying(100.0, every=1.0)
+    there = walker((2.0, 6.0), (8.0, 6.0), speed=0.02)
+    outcome = flown([trip], there, drones=4, flow=twice, category=weak)
+    assert outcome.standing["missions"]["m0"]["status"] == "COMPLETED"
+    on_their_way = 0
+    for event in outcome.events:
+        on_their_way += event["event"] == "trip.relieving"
+        on_their_way -= event["event"] == "trip.handed_over"
+        assert on_their_way <= 1
+    assert outcome.count("trip.handed_over") >= 1
 
 
 def test_without_relief_a_battery_ends_the_trip() -> None:
@@ -310,6 +369,21 @@ def line(*, metres: float, source: Point = (2.0, 4.0, 1.2), x: float = 10.0) -> 
     )
 
 
+@pytest.mark.parametrize("seconds", [0.5, 100.0])
+def test_what_an_action_along_the_way_leaves_behind_that_cannot_be_flown_ends_its_mission(
+    seconds: float,
+) -> None:
+    """When it returns, and when it is called off at the end of the leg."""
+
+    async def look(drone: Any, trip: Any, context: Any) -> None:
+        trip.along = {"action": "take_photo"}
+        await context.sleep(seconds)
+
+    trip = Trip(name="t", action="take_photo", target=(3.0, 0.5, 1.2), along={"action": "look"})
+    [mission] = flown([trip], look=look).standing["missions"].values()
+    assert "take_photo needs metres or seconds" in mission["reason"]
+
+
 def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
     taken = photos(flown([line(metres=2.0)]))
     xs = [photo["position"][0] for photo in taken]
@@ -317,7 +391,7 @@ def test_pictures_are_taken_on_the_way_by_their_spacing() -> None:
 
 
 def test_the_picture_at_the_end_of_a_line_is_not_taken_twice() -> None:
-    for metres in (1.0, 1.143, 1.333, 1.6):
+    for metres in (0.05, 1.0, 1.143, 1.333, 1.6):
         assert len(photos(flown([line(metres=metres)]))) == round(8.0 / metres) + 1
 
 
@@ -330,3 +404,45 @@ def test_pictures_close_to_each_other_are_taken_one_by_one() -> None:
 def test_the_first_picture_is_not_taken_while_a_drone_rises_below_it() -> None:
     taken = photos(flown([line(metres=2.0, source=(1.0, 0.5, 1.2))]))
     assert taken[0]["position"][2] > 0.9
+
+
+@pytest.mark.parametrize(
+    ("written", "wrong"),
+    [
+        ({"along": {"action": "take_photo"}}, "take_photo needs metres or seconds"),
+        ({"along": {"action": "take_photo", "seconds": 0.0}}, "seconds 0.0 is not a time"),
+        ({"along": {"action": "look", "metres": 1.0}}, "look goes on all the way"),
+        ({"along": {"action": "look", "parameters": {"a": 1}}}, 'unknown key "a"'),
+        ({"lost_after": None}, "lost_after must be a number above 0, not None"),
+        ({"reach": 0.0}, "reach must be a number above 0, not 0.0"),
+    ],
+)
+def test_what_a_hook_has_done_on_the_way_can_be_done(written: Any, wrong: str) -> None:
+    """Else no time would pass from one photo to the next, or the app would end."""
+    outcome = flown([line(metres=2.0)], flow=prepared(written))
+    [mission] = outcome.standing["missions"].values()
+    assert mission["status"] == "FAILED" and wrong in mission["reason"], mission["reason"]
+
+
+def test_a_hook_has_photos_taken_on_the_way() -> None:
+    along = {"action": "take_photo", "metres": 4.0}
+    assert len(photos(flown([line(metres=2.0)], flow=prepared({"along": along})))) == 3
+
+
+def test_what_is_done_on_the_way_is_changed_by_no_hook_in_place() -> None:
+    """It could be that of another mission."""
+
+    def spoil(mission: apps.Mission) -> None:
+        mission.trips[0].along["action"] = "dance"  # type: ignore[attr-defined]
+
+    outcome = flown([line(metres=2.0)], flow=prepared({}, spoil))
+    [mission] = outcome.standing["missions"].values()
+    assert "does not support item assignment" in mission["reason"]
+
+
+def test_what_is_done_on_the_way_is_read_again_at_the_launch() -> None:
+    """A brain is told of trips that no file, and no hook of this app, has had."""
+    trip = Trip(name="t", action="take_photo", target=(3.0, 0.5, 1.2))
+    trip.along = {"action": "take_photo"}
+    [mission] = flown([trip]).standing["missions"].values()
+    assert "take_photo needs metres or seconds" in mission["reason"]

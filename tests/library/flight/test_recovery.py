@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
@@ -12,9 +13,12 @@ from pluto_fleet.jobs.reports import Down
 from pluto_fleet.shared.domain.model import Drone, Results, Trip
 from pluto_fleet.shared.domain.status import Status
 from pluto_fleet.shared.flow.own_action import OwnAction
+from pluto_fleet.shared.flow.run import Run
 from pluto_fleet.shared.hooks.context import Context, Verdict
+from plutoc_blocks.mission_creator.step import create_mission
 from tests.kit import apps
 from tests.kit.living import Living, enterable, names
+from tests.library.flight.test_kept_events import app as app_of_events
 
 HOMES = ((0.5, 0.5, 0.0), (1.5, 0.5, 0.0))
 
@@ -96,6 +100,39 @@ def test_what_a_hook_did_to_its_mission_is_remembered() -> None:
     living.crash(3.0)
     assert living.run() == ["COMPLETED"]
     assert names(living.named("trip.completed"), "trip") == ["1", "3"]
+
+
+def test_a_brain_that_dies_while_a_hook_runs_leaves_nothing_that_it_has_half_written() -> None:
+    """A target without a height gets one once the hook has ended: as it is written, no journal has it."""
+
+    async def lead_on(mission: apps.Mission, context: Context) -> None:
+        target: Any = (3.0, 3.0)
+        mission.trips[0].target = target
+        await context.sleep(5.0)
+
+    living = Living(enterable(prepare=lead_on), apps.mission("a", apps.trip("1", 9)))
+    living.crash(2.0)
+    living.run(2.5)
+    assert living.memory.standing().missions["a"]["todo"][0]["target"] == [9.0, 0.5, 1.2]
+    assert living.run() == ["COMPLETED"]
+
+
+def test_a_mission_of_an_event_goes_on_that_has_met_no_allocator_yet() -> None:
+    made = app_of_events()
+    flow = made.flow
+
+    async def after_a_while(run: Run[Any]) -> Status:
+        if run.at == "pursue":
+            create_mission(run, run.status)
+            await run.core.kernel.sleep(5.0, key=run.key)
+        return await flow(run)
+
+    slow = apps.changed(made, flow=after_a_while)
+    living = Living(slow, apps.mission("a", apps.trip("1", 9)), on=apps.fleet(*HOMES))
+    living.at(1.0, lambda: living.life.control.raise_event("intruder", {"at": [4.0, 2.0]}))
+    living.at(2.0, lambda: None)  # by then it is written down
+    living.crash(3.0)
+    assert living.run() == ["COMPLETED", "COMPLETED"]
 
 
 def test_a_mission_whose_block_is_gone_is_held_and_goes_on_when_told() -> None:

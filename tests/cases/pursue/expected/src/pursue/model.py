@@ -59,8 +59,8 @@ EVENTS = (
 
 FIELDS: tuple[Field, ...] = (
     TrackField(name="track", on=Entity.TRIP, type=Type.TEXT, label="Follows the track"),
-    Field(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
-    Field(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
+    TrackField(name="reach", on=Entity.TRIP, type=Type.LENGTH, label="Within", default=0.5),
+    TrackField(name="lost_after", on=Entity.TRIP, type=Type.TIME, label="Lost after", default=2.0),
     AlongField(
         name="along", on=Entity.TRIP, type=FieldType.ALONG, label="On the way", actions=("look",)
     ),
