@@ -19,7 +19,7 @@ _TAKES_MODE = 1
 _ABOVE_SEA, _ABOVE_HOME = 5, 3
 """MAV_FRAME_GLOBAL_INT, metres above sea level, as both makes take it; MAV_FRAME_GLOBAL_RELATIVE_ALT."""
 
-ACCEPTED = 0
+ACCEPTED, IN_PROGRESS = 0, 5
 ANSWERS = {
     1: "it rejects that for now",
     2: "it denies that",

@@ -13,10 +13,12 @@ import asyncio
 import json
 import os
 import sys
+import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import count
 from typing import Any
 
 from mavsdk.asyncio import Configuration, Mavsdk
@@ -45,6 +47,7 @@ RATES = {33: 10.0, 245: 5.0, 1: 1.0, 147: 1.0, 242: 0.5}
 """How often a second these are to be told: GLOBAL_POSITION_INT, EXTENDED_SYS_STATE, SYS_STATUS, BATTERY_STATUS,
 HOME_POSITION. An ArduPilot tells none of them unasked."""
 _SET_INTERVAL = 511
+_CAPTURE = 2000
 _NO_HEADING = 65535
 
 Message = Mapping[str, Any]
@@ -69,6 +72,8 @@ class Desk:
         self._tell = tell
         self._links: dict[str, asyncio.Task[Any]] = {}
         self._open: dict[int, Opened] = {}
+        self._captures = count(int(time.time()) % 1_000_000 + 1)
+        """Numbers of pictures, others than before a restart."""
 
     async def answer(self, asked: Message) -> None:
         """Do it, and tell what came of it."""
@@ -201,8 +206,21 @@ class Desk:
         opened = self._open[asked["vehicle"]]
         return await _command(opened, asked["system"], asked["message"], asked["fields"])
 
-    async def do_photo(self, asked: Message) -> None:
-        await self._open[asked["vehicle"]].cameras.take_photo(asked["camera"])
+    async def do_photo(self, asked: Message) -> int:
+        """Have a camera take a picture, once, however often it is told; return the answer, a MAV_RESULT.
+
+        MAVSDK's own call numbers its first capture 0, which cameras take for none.
+        """
+        fields = {
+            "command": _CAPTURE,
+            "target_component": asked["camera"],
+            "param1": 0,
+            "param2": 0,
+            "param3": 1,
+            "param4": next(self._captures),
+        }
+        opened = self._open[asked["vehicle"]]
+        return await _command(opened, asked["system"], "COMMAND_LONG", fields)
 
     async def do_fence(self, asked: Message) -> None:
         """Give it a fence in place of its own: it must stay within these corners."""
@@ -238,8 +256,9 @@ async def _command(opened: Opened, system: int, message: str, fields: Message) -
         whole |= {"confirmation": 0, **{f"param{number}": None for number in range(1, 8)}}
     else:
         whole |= {"current": 0, "autocontinue": 0, "param3": 0, "param4": None}
-    text = json.dumps({**whole, **fields})  # null is a number that is not given
-    asked = MavlinkMessage(message, 0, 0, system, _AUTOPILOT, text)
+    whole |= fields
+    text = json.dumps(whole)  # null is a number that is not given
+    asked = MavlinkMessage(message, 0, 0, system, whole["target_component"], text)
     told = await opened.direct.send_command(asked)
     return int(json.loads(told.fields_json)["result"])
 

@@ -32,7 +32,16 @@ from ..shared.domain.model import Item, Photo, Point
 from ..shared.domain.text import number
 from . import own_failsafes
 from .fence import fence_of, settings
-from .makes import ACCEPTED, ANSWERS, CUT_MOTORS, LAND_HERE, MAKES, Make, Order
+from .makes import (
+    ACCEPTED,
+    ANSWERS,
+    CUT_MOTORS,
+    IN_PROGRESS,
+    LAND_HERE,
+    MAKES,
+    Make,
+    Order,
+)
 from .mavsdk_client import ENDED, MavsdkClient, client
 from .options import options_of
 from .preflight import TWINS, problems
@@ -438,7 +447,11 @@ class MavlinkVehicle:
         self._photos.append(coming)
         try:
             async with asyncio.timeout(seconds):
-                await self._ask("photo", seconds, camera=lens["component"])
+                result = await self._ask(
+                    "photo", seconds, camera=lens["component"], system=self._address.system
+                )
+                if result not in (ACCEPTED, IN_PROGRESS):
+                    raise Rejected(ANSWERS.get(result, f"it answers {result}"))
                 taken = await coming
         except (TimeoutError, Rejected) as error:
             said = f": {error}" if isinstance(error, Rejected) else " of no picture"

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    from .model import Point
+    Point = tuple[float, float, float]
 
 CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
