@@ -13,6 +13,7 @@ import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor, MapSplit } from "../map/floor.js";
 import { landmarkNames, Landmarks, middle, North } from "../map/ground.js";
+import { Gap, useLongList } from "../ui/long_list.js";
 import { Button, Empty, IconButton, Input, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
 
@@ -180,23 +181,37 @@ function Northern() {
 function Lists({ drawn: { places, zones }, can, onShow }) {
   return h("div", { class: "stack" },
     h("h2", null, t("map.places")),
-    places.length ? h("ul", { class: "landmark-list" }, places.map((place, at) => h(Item, {
-      key: at, can, name: place.name, said: [t("map.at", { x: number(place.x), y: number(place.y) }), onEarth([place.x, place.y])].filter(Boolean).join(" · "),
-      onShow: () => onShow(place),
-      onName: (name) => changeMap((map) => ({ places: map.places.with(at, { ...map.places[at], name }) })),
-      onRemove: () => changeMap((map) => ({ places: map.places.toSpliced(at, 1) })),
-    }))) : h(Empty, null, t("map.no-places")),
+    places.length ? h(Places, { places, can, onShow }) : h(Empty, null, t("map.no-places")),
     h("h2", null, t("map.zones")),
     zones.length ? h("ul", { class: "landmark-list" }, zones.map((zone, at) => h(Item, {
-      key: at, can, name: zone.name, said: t("map.corners", { n: zone.corners.length }),
+      key: at, at, count: zones.length, can, name: zone.name, said: t("map.corners", { n: zone.corners.length }),
       onShow: () => onShow(middle(zone.corners)),
       onName: (name) => changeMap((map) => ({ zones: map.zones.with(at, { ...map.zones[at], name }) })),
       onRemove: () => changeMap((map) => ({ zones: map.zones.toSpliced(at, 1) })),
     }))) : h(Empty, null, t("map.no-zones")));
 }
 
-/** @param {{ name: string, said: string, can: boolean, onShow: () => void, onName: (name: string) => void, onRemove: () => void }} props */
-const Item = ({ name, said, can, onShow, onName, onRemove }) => h("li", { class: "row" },
+const HEIGHT = 48; // pixels of a place in the list
+
+/** @param {{ places: Place[], can: boolean, onShow: (at: At) => void }} props */
+function Places({ places, can, onShow }) {
+  const list = useRef(/** @type {HTMLUListElement | null} */ (null));
+  const parts = useLongList(list, places.length);
+  return h("ul", { ref: list, class: "landmark-list" }, parts.map(({ at, gap }) => {
+    if (gap) return h(Gap, { key: `gap ${at}`, at, gap, height: HEIGHT });
+    const place = places[at];
+    return h(Item, {
+      key: at, at, count: places.length, can, name: place.name,
+      said: [t("map.at", { x: number(place.x), y: number(place.y) }), onEarth([place.x, place.y])].filter(Boolean).join(" · "),
+      onShow: () => onShow(place),
+      onName: (name) => changeMap((map) => ({ places: map.places.with(at, { ...map.places[at], name }) })),
+      onRemove: () => changeMap((map) => ({ places: map.places.toSpliced(at, 1) })),
+    });
+  }));
+}
+
+/** @param {{ at: number, count: number, name: string, said: string, can: boolean, onShow: () => void, onName: (name: string) => void, onRemove: () => void }} props at: its place among so many */
+const Item = ({ at, count, name, said, can, onShow, onName, onRemove }) => h("li", { class: "row", "data-at": at, "aria-posinset": at + 1, "aria-setsize": count },
   can ? h("input", {
     class: "input", "aria-label": t("map.name-of", { name }), value: name, maxlength: 80,
     onChange: (/** @type {Event} */ event) => onName(/** @type {HTMLInputElement} */ (event.target).value.trim()),
