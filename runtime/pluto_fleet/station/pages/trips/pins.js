@@ -59,6 +59,7 @@ export function Pins({ onOpen, onRemoved }) {
       h(Pin, { about, isBeside: beside.includes(about), onOpen, onRemoved }))));
 }
 
+const WITHIN = 21; // pixels of a disc for its number
 const MEANT = 14; // pixels from a dot
 
 /** The key of the trip of which a dot was pressed. @param {At} at @param {number} scale */
@@ -152,7 +153,8 @@ function Pin({ about, isBeside, onOpen, onRemoved }) {
     onPointerDown: take, onPointerMove: drag, onPointerUp: () => letGo(true),
     onPointerCancel: () => letGo(false), onLostPointerCapture: () => letGo(false), onKeyDown,
   },
-  h("circle", { class: "halo", r: 20 }), h("circle", { class: "disc", r: 12.5 }), h("text", { y: 4.5 }, number),
+  h("circle", { class: "halo", r: 20 }), h("circle", { class: "disc", r: 12.5 }),
+  h("text", { y: 4.5, textLength: number > 99 ? WITHIN : undefined, lengthAdjust: "spacingAndGlyphs" }, number),
   problems.length > 0 && h("path", { class: "pin-sign", d: "M11 -20L19 -5H3ZM11 -15v5M11 -8v.5" }));
 }
 
