@@ -7,7 +7,7 @@ import { freeName } from "../core/changes.js";
 import { DRAWN } from "../core/drawings.js";
 import { number, t, typedNumber } from "../core/i18n.js";
 import { changeMap, landmarks, onEarth, uploadDrawing, uploadPlan } from "../core/landmarks.js";
-import { app, mayFly } from "../core/station.js";
+import { app, mayFly, tell } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
@@ -16,6 +16,7 @@ import { landmarkNames, Landmarks, middle, North } from "../map/ground.js";
 import { Gap, useLongList } from "../ui/long_list.js";
 import { Button, Empty, IconButton, Input, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
+import { isWorldFile, placed, toMap } from "./world_file.js";
 
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */
 const STEP = 0.1; // metres to which what is drawn snaps
@@ -135,6 +136,15 @@ function ByHand({ onDone }) {
     h(Button, { type: "submit", small: true }, t("map.apply")));
 }
 
+/** Where a picture lies by its world file, in degrees where the map lies on the Earth, else in metres of the map. @param {File} file @param {File} beside */
+async function lying(file, beside) {
+  try {
+    return placed(await beside.text(), await createImageBitmap(file), toMap(landmarks.peek()?.plane ?? null));
+  } catch {
+    return null; // a drawing has no pixels
+  }
+}
+
 function PlanTools() {
   const picked = useRef(/** @type {HTMLInputElement | null} */ (null));
   const [length, setLength] = useState("");
@@ -147,12 +157,20 @@ function PlanTools() {
     take("scale");
   }
   const upload = async () => {
-    const file = picked.current?.files?.[0];
-    if (file && await uploadPlan(file)) location.reload(); // the picture is fetched once
+    const files = [...picked.current?.files ?? []];
+    const beside = files.find(({ name }) => isWorldFile(name));
+    const file = files.find((one) => one !== beside);
+    if (!file) return;
+    const place = beside ? await lying(file, beside) : null;
+    if (beside && !place) tell(t("map.world-file-wrong"), { bad: true });
+    else if (await uploadPlan(file)) {
+      if (place) await changeMap((map) => ({ image: map.image && { ...map.image, ...place } }));
+      location.reload(); // the picture is fetched once
+    }
   };
   return h("details", { class: "plan-tools" }, h("summary", null, t("map.floor-plan")), h("div", { class: "stack" },
     h("div", { class: "field" }, h("label", { for: "plan-file" }, t("map.plan-file")),
-      h("input", { id: "plan-file", ref: picked, type: "file", accept: "image/png,image/jpeg,image/webp,image/svg+xml", onChange: upload })),
+      h("input", { id: "plan-file", ref: picked, type: "file", multiple: true, accept: "image/png,image/jpeg,image/webp,image/svg+xml,.pgw,.jgw,.wld,.pngw,.jpgw", onChange: upload })),
     image && h(Button, { pressed: tool.value === "scale", onClick: () => take("scale") }, t("map.calibrate")),
     image && tool.value === "scale" && h("form", {
       class: "row", onSubmit: (/** @type {SubmitEvent} */ event) => {
