@@ -6,7 +6,7 @@ import struct
 import zlib
 
 import pytest
-from playwright.sync_api import expect
+from playwright.sync_api import FilePayload, expect
 
 from tests.kit.station import until
 from tests.library.station.browser.conftest import Serve, Visit
@@ -42,9 +42,9 @@ def test_a_picture_with_its_world_file_lies_where_that_says(serve: Serve, visit:
     open_page(page, "Map")
     page.get_by_text("Floor plan and north").click()
     chosen = page.get_by_label("A picture of the ground")
-    picture = {"name": "ward.png", "mimeType": "image/png", "buffer": png()}
+    picture = FilePayload(name="ward.png", mimeType="image/png", buffer=png())
     before = station.get("/api/map")["image"]
-    beside = {"name": "ward.pgw", "mimeType": "text/plain", "buffer": b"nothing"}
+    beside = FilePayload(name="ward.pgw", mimeType="text/plain", buffer=b"nothing")
     chosen.set_input_files([beside, picture])
     expect(page.get_by_text("does not say where the picture lies")).to_be_visible()
     assert station.get("/api/map")["image"] == before
