@@ -76,6 +76,7 @@ MEASURES = (
     "python benchmarks/choosing.py",
     "python benchmarks/traffic.py",
     "python benchmarks/station.py",
+    "python benchmarks/large_plan.py",
     "python benchmarks/journal.py",
     "python benchmarks/crazyflie.py",
     "python benchmarks/invariants.py",

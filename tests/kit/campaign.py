@@ -19,6 +19,7 @@ from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
+from importlib import import_module
 from itertools import count, islice, takewhile
 from multiprocessing import get_context
 from time import monotonic
@@ -119,7 +120,7 @@ class Campaign:
         ends = self._began + 60 * minutes if minutes is not None else float("inf")
         begun = takewhile(lambda _: monotonic() < ends and self.findings < ENOUGH, cases)
         told = self._began
-        for case, came, raised in self._all(partial(_tried, one), begun, threads):
+        for case, came, raised in self._all(partial(_tried, _by_its_name(one)), begun, threads):
             self._tried += 1
             if raised is None:
                 yield case, came
@@ -158,6 +159,15 @@ class Campaign:
     def _so_far(self) -> str:
         seconds = monotonic() - self._began
         return f"{self._tried} {self.unit}s in {seconds:.0f} s, {self.findings} findings"
+
+
+def _by_its_name(one: Callable[[Case], Came]) -> Callable[[Case], Came]:
+    """Return a function of the script that runs as one that other processes find, too: they run no package's script."""
+    script = sys.modules["__main__"].__spec__
+    if script is None or getattr(one, "__module__", "") != "__main__":
+        return one
+    found: Callable[[Case], Came] = getattr(import_module(script.name), one.__name__)
+    return found
 
 
 def _tried(one: Callable[[Case], Came], case: Case) -> Tried[Case]:

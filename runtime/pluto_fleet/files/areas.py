@@ -131,11 +131,13 @@ def read_lanes(
         flown = [stops(lane) for lane in places]
     each = [line for lane in flown for line in lane]
     way = [point for line in each for point in (line.start, line.end)]
+    flown_way = [*way[:1], *chain.from_iterable(_route(airspace, a, b) for a, b in pairwise(way))]
     made = MadeOfArea(
         who=table.who,
         trips=len(each),
         places=len(found.places),
-        metres=sum(_metres(airspace, a, b) for a, b in pairwise(way)),
+        metres=sum(dist(a, b) for a, b in pairwise(flown_way)),
+        outside=found.outside([(x, y) for x, y, _ in flown_way]),
         forbidden=found.forbidden,
     )
     document.areas.append(made)
@@ -187,10 +189,9 @@ def _swept(
     return found
 
 
-def _metres(airspace: Airspace, start: Point, end: Point) -> float:
-    """Return how long the way is from one place to the next; straight, if there is none."""
-    route = airspace.route(start, end) or (end,)
-    return sum(map(dist, (start, *route), route))
+def _route(airspace: Airspace, start: Point, end: Point) -> Sequence[Point]:
+    """Return the way from one place to the next, without the first; straight, if there is none."""
+    return airspace.route(start, end) or (end,)
 
 
 def _corners(document: Document, value: object) -> Polygon:

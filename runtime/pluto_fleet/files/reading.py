@@ -45,6 +45,10 @@ _UNREADABLE: dict[type[Exception], str] = {
 }
 
 
+LEAST_TOLD = 0.5
+"""Metres that a way leads over what is not of its area."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MadeOfArea:
     """What an area has become."""
@@ -55,6 +59,8 @@ class MadeOfArea:
     """At which its action is done; more than trips, if that is done on the way."""
     metres: float
     """The way from the first place to the last."""
+    outside: float
+    """Of that, what is not over the area."""
     forbidden: float
     """The share of the area that may not be flown over."""
 
@@ -65,6 +71,8 @@ class MadeOfArea:
         if self.places > self.trips:
             trips += f" with {self.places} places on the way"
         way = f"{trips}, {number(round(self.metres, 1))} m from the first to the last"
+        if self.outside >= LEAST_TOLD:
+            way += f", {number(round(self.outside, 1))} m of them not over the area"
         out = f"; {percent(self.forbidden)} of it may not be flown over"
         return f"{self.who}: {way}" + (out if self.forbidden >= 0.005 else "")
 

@@ -10,15 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
-from math import ceil, dist, floor
+from math import ceil, floor
 from typing import Any
 
 import shapely
-from shapely.geometry import Polygon, box
+from shapely.geometry import LineString, Polygon, box
 from shapely.ops import nearest_points
 
 from ..shared.domain.airspace import Airspace, Corner
 from ..shared.domain.text import place
+from .cells import ordered
 
 MOST = 2_000
 """The most places of one area."""
@@ -49,11 +50,17 @@ class Sweep:
     """The places of each lane, in the order in which they are flown to; empty: none of the area may be flown over."""
     forbidden: float
     """The share of the area that may not be flown over."""
+    field: Any
+    """What is of the area, and how far places may lie beside it."""
 
     @property
     def places(self) -> Sequence[Corner]:
         """All places, in the order in which they are flown to."""
         return [*chain.from_iterable(self.lanes)]
+
+    def outside(self, way: Sequence[Corner]) -> float:
+        """Return how many metres of a way are not over the area."""
+        return _outside(self.field, way)
 
 
 def problem_of(corners: Sequence[Corner]) -> str | None:
@@ -84,7 +91,7 @@ def sweep(
     allowed = _permitted(whole, airspace)
     forbidden = 1.0 - sum(part.area for part in allowed) / whole.area
     if not allowed:
-        return Sweep((), 1.0)
+        return Sweep((), 1.0, whole)
     shape = shapely.union_all(allowed)
     x, y, most_x, most_y = shape.bounds
     is_wide = most_x - x >= most_y - y
@@ -99,7 +106,17 @@ def sweep(
         count += len(lane)
         if count > MOST:
             raise TooManyPlaces
-    return Sweep(_shortest([lane for lane in lanes if lane], before), max(0.0, forbidden))
+    along, side = (0, sides[0]) if is_wide else (1, sides[1])
+    field = whole.buffer(max(sides) / 2) if over_edges else whole
+    shapely.prepare(field)
+    made = [lane for lane in lanes if lane]
+    flown = ordered(made, along, side, before, lambda way: _outside(field, way))
+    return Sweep(flown, max(0.0, forbidden), field)
+
+
+def _outside(field: Any, way: Sequence[Corner]) -> float:
+    legs = (LineString(leg) for leg in pairwise(way))
+    return sum(float(leg.difference(field).length) for leg in legs if not field.covers(leg))
 
 
 def _permitted(area: Any, airspace: Airspace) -> list[Any]:
@@ -226,20 +243,3 @@ def _quarters(cell: Any) -> Iterator[Any]:
     for across in ((x, middle.x), (middle.x, most_x)):
         for up in ((y, middle.y), (middle.y, most_y)):
             yield box(across[0], up[0], across[1], up[1])
-
-
-def _shortest(
-    lanes: Sequence[Sequence[Corner]], before: Corner | None
-) -> Sequence[Sequence[Corner]]:
-    """Return the shortest of the four ways back and forth, each from another corner."""
-    ways = [
-        [lane[:: -1 if (n + turned) % 2 else 1] for n, lane in enumerate(order)]
-        for order in (lanes, lanes[::-1])
-        for turned in (0, 1)
-    ]
-    come = [] if before is None else [before]
-    return min(ways, key=lambda way: round(_length([*come, *chain.from_iterable(way)]), 3))
-
-
-def _length(way: Sequence[Corner]) -> float:
-    return sum(dist(a, b) for a, b in pairwise(way))

@@ -16,8 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
-    Point = tuple[float, float, float]
-
+Vector = tuple[float, float, float]
 CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
 PUSH, MOST = 7.52, 4.0
@@ -117,7 +116,7 @@ class Motion:
         """Return the seconds in which a drone flies so far without a stop."""
         return self.pace * metres / min(speed, self.limit)
 
-    def sent_on(self, velocity: Point, here: Point, there: Point, speed: float) -> float:
+    def sent_on(self, velocity: Vector, here: Vector, there: Vector, speed: float) -> float:
         """Return the seconds of a leg on which a drone on its way is sent elsewhere, and its autopilot turns it."""
         metres = dist(here, there)
         seconds = self.at_speed(metres, speed)
@@ -137,8 +136,8 @@ class Motion:
         return self.settles + (self.pace * min(speed, self.limit) / rate if rate else 0.0)
 
     def stages(
-        self, way: Sequence[tuple[float, float, float]], speed: float, rises: bool, lands: bool
-    ) -> Iterator[tuple[tuple[float, float, float], float, float, float]]:
+        self, way: Sequence[Vector], speed: float, rises: bool, lands: bool
+    ) -> Iterator[tuple[Vector, float, float, float]]:
         """Yield where each leg of a way ends, and the seconds before it, on it and after it.
 
         A drone that `rises` stands below the first point; one that `lands` comes down from the last.

@@ -11,7 +11,7 @@ import pytest
 
 from pluto_fleet.files import areas
 from pluto_fleet.files.missions import load_missions, missions_of
-from pluto_fleet.files.reading import read
+from pluto_fleet.files.reading import MadeOfArea, read
 from pluto_fleet.files.writing import missions_text
 from pluto_fleet.shared.domain.airspace import Airspace, Polygon
 from pluto_fleet.shared.domain.errors import BadInput
@@ -139,6 +139,38 @@ def test_what_it_has_become_is_known(tmp_path: Path) -> None:
     )
     assert second.sentence.startswith('mission "M", area "B": 1 trip, 0 m from the first')
     assert document.is_made
+
+
+U = "polygon = [[1, 1], [19, 1], [19, 11], [13, 11], [13, 4], [7, 4], [7, 11], [1, 11]]"
+COMB = (
+    "polygon = [[1, 1], [19, 1], [19, 11], [16, 11], [16, 4], [13, 4], [13, 11], [10, 11],"
+    " [10, 4], [6, 4], [6, 11], [1, 11]]"
+)
+
+
+def made(folder: Path, polygon: str) -> MadeOfArea:
+    """Return what has become of an area on a map without no-fly areas."""
+    file = folder / "m.toml"
+    text = f'{polygon}\naction = "take_photo"\nspacing = "1 m"\n'
+    file.write_text(mission(area(text)), encoding="utf-8")
+    document = read(file)
+    missions_of(document, APP, Airspace(size=(20.0, 12.0)))
+    [found] = document.areas
+    return found
+
+
+def test_an_area_like_a_u_is_flown_leg_by_leg_and_not_across_its_gap(tmp_path: Path) -> None:
+    """Lane by lane, seven lanes would cross the six metres of the gap."""
+    found = made(tmp_path, U)
+    assert found.places == 138
+    assert found.outside == 0.0
+    assert found.metres < 150.0
+
+
+def test_metres_that_are_not_over_an_area_are_told(tmp_path: Path) -> None:
+    """Teeth stand apart: from the end of one to the next the way is shorter over what is between them."""
+    assert "m of them not over the area" in made(tmp_path, COMB).sentence
+    assert "not over" not in made(tmp_path, U).sentence
 
 
 def test_they_are_written_as_plain_trips(tmp_path: Path) -> None:

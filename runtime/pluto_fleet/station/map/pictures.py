@@ -26,6 +26,7 @@ LARGEST = 20 * 1024 * 1024
 _SVG = "{http://www.w3.org/2000/svg}svg"
 _DECLARES = re.compile(rb"<!ENTITY", re.IGNORECASE)
 _LONGEST_STEM = 40
+_TIFF = (b"II*\0", b"MM\0*", b"II+\0", b"MM\0+")
 
 
 def floor_plan(folder: Path, name: str) -> Path:
@@ -59,6 +60,11 @@ def ending_of(content: bytes) -> str:
     if content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
         _check_drawing(content)
         return ".svg"
+    if content.startswith(_TIFF):
+        raise BadInput(
+            "browsers show no TIFF: make a PNG of it with its world file, on a map on the Earth in degrees,"
+            " as by gdalwarp -t_srs EPSG:4326 and then gdal_translate -of PNG -co WORLDFILE=YES"
+        )
     raise BadInput("this is no picture that can be shown: those are PNG, JPEG, WebP and SVG")
 
 

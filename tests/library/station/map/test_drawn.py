@@ -275,6 +275,11 @@ def test_anything_else_is_refused(content: bytes) -> None:
         ending_of(content)
 
 
+def test_of_a_tiff_it_is_said_how_to_make_what_is_shown() -> None:
+    with pytest.raises(BadInput, match="gdal_translate -of PNG -co WORLDFILE=YES"):
+        ending_of(b"II*\0...")
+
+
 @pytest.mark.parametrize("name", ["", "..", "/etc/passwd", "a/../b.png", "\0", "é" * 300, "C:\\x"])
 def test_a_name_leads_nowhere_else(name: str) -> None:
     """It is short, and has letters, digits and - alone."""

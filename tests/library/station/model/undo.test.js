@@ -135,3 +135,11 @@ test("what the station alone sets is no difference", () => {
   const mission = { key: "mission-1", name: "A", launched: false, ended: null, trips: [] };
   assert.equal(between([mission], [{ ...mission, launched: true, ended: "FAILED" }]), null);
 });
+
+test("a step remembers of a large mission what it has changed, and no more", () => {
+  const trips = Array.from({ length: 2000 }, (_, n) => ({ key: `t${n}`, action: "measure", target: [n, 1], parameters: {}, item: null }));
+  const before = /** @type {any[]} */ ([{ key: "m", name: "Survey", trips }]);
+  const step = between(before, inTrip("m", "t7", (one) => ({ ...one, target: [0, 0] }))(before));
+  const kept = /** @type {any} */ (step).after[0].trips.filter((/** @type {object} */ one) => Object.keys(one).length > 1);
+  assert.deepEqual(kept, [{ ...trips[7], target: [0, 0] }]);
+});

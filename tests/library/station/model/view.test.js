@@ -58,3 +58,19 @@ test("a floor plan becomes so large that two of its points are so far apart, and
   assert.deepEqual(now, { x: -1, y: 0, width: 20, height: 10, turn: 30 });
   assert.deepEqual(calibrated(now, first, { x: 9, y: 12 }, 5), laid);
 });
+
+const SEEN = { left: 0, bottom: 600, scale: 50 }; // 20 by 12 metres
+const at = (/** @type {number[]} */ place) => place;
+const square = Array.from({ length: 400 }, (_, n) => [n % 20 + 0.5, Math.floor(n / 20) + 0.5]);
+
+test("of many places those have marks that are in view, unless they are too many themselves", () => {
+  const few = square.slice(0, view.MOST_MARKS);
+  assert.equal(view.marksOf(few, at, { ...SEEN, left: -9000 }, BOX), few);
+  assert.deepEqual(view.marksOf(square, at, { ...SEEN, bottom: 300 }, BOX), square.filter(([, y]) => y < 7));
+  assert.deepEqual(view.marksOf(square, at, { ...SEEN, bottom: 900 }, BOX), []);
+});
+
+test("a press is meant for the nearest place, and for none if all are far", () => {
+  assert.equal(view.nearest(square, at, { x: 3.4, y: 2.7 }, 0.3), square[43]);
+  assert.equal(view.nearest(square, at, { x: 4, y: 3 }, 0.3), null);
+});

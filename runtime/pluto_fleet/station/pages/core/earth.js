@@ -29,6 +29,23 @@ export function degrees({ latitude, longitude, altitude, bearing }, [x, y]) {
   return [found[0] / DEGREE, found[1] / DEGREE];
 }
 
+/** Where on the map a latitude and a longitude are, in metres. @param {Plane} plane @param {readonly number[]} place in degrees @returns {[number, number]} */
+export function onMap({ latitude, longitude, altitude, bearing }, [toLatitude, toLongitude]) {
+  const from = centred(latitude * DEGREE, longitude * DEGREE, altitude);
+  const to = centred(toLatitude * DEGREE, toLongitude * DEGREE, altitude);
+  const [dx, dy, dz] = to.map((one, axis) => one - from[axis]);
+  const [lat, lon] = [latitude * DEGREE, longitude * DEGREE];
+  const east = dy * cos(lon) - dx * sin(lon);
+  const north = dz * cos(lat) - (dx * cos(lon) + dy * sin(lon)) * sin(lat);
+  return [east * cos(bearing) - north * sin(bearing), east * sin(bearing) + north * cos(bearing)];
+}
+
+/** @param {number} lat @param {number} lon @param {number} height */
+function centred(lat, lon, height) {
+  const across = EQUATOR / sqrt(1 - ECCENTRICITY * sin(lat) ** 2);
+  return [(across + height) * cos(lat) * cos(lon), (across + height) * cos(lat) * sin(lon), (across * (1 - ECCENTRICITY) + height) * sin(lat)];
+}
+
 /** Latitude, longitude and height of Earth-centred coordinates, by Bowring's formula. @param {number} x @param {number} y @param {number} z */
 function geodetic(x, y, z) {
   const fromAxis = hypot(x, y);

@@ -6,7 +6,7 @@ import { batch, signal } from "@preact/signals";
 import { leaves } from "./changes.js";
 
 /** @typedef {{ key: string, [field: string]: unknown }} Keyed */
-/** What a plan was and has become; of missions in which nothing differs only the keys. @typedef {{ before: Keyed[], after: Keyed[] }} Difference */
+/** What a plan was and has become; of missions and trips in which nothing differs only the keys. @typedef {{ before: Keyed[], after: Keyed[] }} Difference */
 
 const STATIONS_OWN = ["launched", "ended"]; // pages do not set them
 
@@ -25,17 +25,22 @@ const inOrder = (value) => {
 };
 
 /** @param {unknown} one @param {unknown} other */
-export const isSame = (one, other) => JSON.stringify(inOrder(one)) === JSON.stringify(inOrder(other));
+export const isSame = (one, other) => one === other || JSON.stringify(inOrder(one)) === JSON.stringify(inOrder(other));
 
 /** What differs; null: nothing. @param {PlanMission[]} before @param {PlanMission[]} after @returns {Difference | null} */
 export function between(before, after) {
   if (isSame(before, after)) return null;
-  /** @param {PlanMission[]} all @param {PlanMission[]} others @returns {Keyed[]} */
-  const differing = (all, others) => {
-    const by = byKey(others);
-    return all.map((one) => (isSame(one, by.get(one.key)) ? { key: one.key } : one));
-  };
   return { before: differing(before, after), after: differing(after, before) };
+}
+
+/** Of missions and of their trips that have stayed as they are only the keys. @param {readonly Keyed[]} all @param {readonly Keyed[]} others @returns {Keyed[]} */
+function differing(all, others) {
+  const by = byKey(others);
+  return all.map((one) => {
+    const other = by.get(one.key);
+    if (isSame(one, other)) return { key: one.key };
+    return isKeyed(one.trips) && isKeyed(other?.trips) ? { ...one, trips: differing(one.trips, other.trips) } : one;
+  });
 }
 
 /** @template {{ key: string }} Item @param {readonly Item[]} items */

@@ -100,7 +100,7 @@ function importance({ id, status, mission }, chosen) {
 
 /**
  * The drones' names, laid out anew a few times a second; those that are lost are always named.
- * @param {{ world: World, chosen: string | null, more?: Signal<Label[]> }} props more: names in metres of other things
+ * @param {{ world: World, chosen: string | null, more?: (view: View, box: Box) => Label[] }} props more: names in metres of other things
  */
 export function Names({ world, chosen, more }) {
   const camera = useCamera();
@@ -111,7 +111,7 @@ export function Names({ world, chosen, more }) {
       importance: importance(row, chosen), always: BAD.includes(row.status) || row.id === chosen,
       ...toPixels(view, row.x ?? 0, row.y ?? 0),
     }));
-    const others = [...more?.value ?? [], ...trackNames(world)].map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
+    const others = [...more?.(view, box) ?? [], ...trackNames(world)].map((label) => ({ ...label, ...toPixels(view, label.x, label.y) }));
     return { labels: [...drones, ...others], box, marks: drones.map(({ x, y }) => ({ x, y, r: 10 })) };
   }), [world, chosen, camera, more]);
   return h(Tags, useCalm(labels, LABELS_EVERY).value);

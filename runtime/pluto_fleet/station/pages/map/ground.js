@@ -1,14 +1,15 @@
 // What lies still on the map: paper, floor plan, grid, areas closed to drones, named places and zones, rulers, scale
 // and north.
 
-import { computed, effect, signal } from "@preact/signals";
+import { effect, signal } from "@preact/signals";
 import { h } from "preact";
 import { useEffect, useId, useRef } from "preact/hooks";
 import { fetchFile, token } from "../core/api.js";
 import { t } from "../core/i18n.js";
 import { landmarks } from "../core/landmarks.js";
 import { Mark, useCamera } from "./camera.js";
-import { lines, step } from "./view.js";
+import { Dots, useMarks } from "./many.js";
+import { lines, marksOf, MOST_MARKS, step } from "./view.js";
 
 /** @type {Map<string, Signal<string | null>>} by the picture's address */
 const pictures = new Map();
@@ -131,22 +132,25 @@ export const middle = (corners) => ({
   y: corners.reduce((sum, [, y]) => sum + y, 0) / corners.length,
 });
 
-/** Their names, in metres, to be laid out with others. */
-export const landmarkNames = computed(() => {
+/** @param {Place} place */
+const placeOf = ({ x, y }) => [x, y];
+
+/** Their names, in metres, to be laid out with others; dots have none. @param {View} view @param {Box} box @returns {Label[]} */
+export function landmarkNames(view, box) {
   const { places = [], zones = [] } = landmarks.value ?? {};
-  /** @type {Label[]} */
-  const labels = [
-    ...places.map(({ name, x, y }) => ({ key: `place ${name}`, text: name, x, y, importance: 0, gap: 8, kind: "place" })),
+  return [
+    ...marksOf(places, placeOf, view, box).map(({ name, x, y }) => ({ key: `place ${name}`, text: name, x, y, importance: 0, gap: 8, kind: "place" })),
     ...zones.map(({ name, corners }) => ({ key: `zone ${name}`, text: name, ...middle(corners), importance: -1, gap: 0, kind: "zone" })),
   ];
-  return labels;
-});
+}
 
 export function Landmarks() {
   const { places = [], zones = [] } = landmarks.value ?? {};
+  const marks = useMarks(places, placeOf);
   return h("g", { class: "layer landmarks" },
     zones.map(({ name, corners }) => h("polygon", { key: name, class: "zone", points: corners.join(" ") }, h("title", null, name))),
-    places.map(({ name, x, y }) => h(Mark, { key: name, x, y },
+    places.length > MOST_MARKS && h(Dots, { places: places.map(placeOf) }),
+    marks.map(({ name, x, y }) => h(Mark, { key: name, x, y },
       h("circle", { class: "place", r: 4 }, h("title", null, name)))));
 }
 

@@ -85,3 +85,31 @@ function isInside(x, y, corners) {
   });
   return within;
 }
+
+export const MOST_MARKS = 250;
+const AROUND = 60; // pixels around the map's box in which marks are there already, as it will be moved
+
+/**
+ * Which of many places have a mark of their own.
+ * @template Thing
+ * @param {readonly Thing[]} all @param {(one: Thing) => readonly number[]} at where one is, in metres
+ * @param {View} view @param {Box} box @returns {readonly Thing[]}
+ */
+export function marksOf(all, at, view, box) {
+  if (all.length <= MOST_MARKS) return all;
+  const near = all.filter((one) => {
+    const { x, y } = toPixels(view, at(one)[0], at(one)[1]);
+    return x > -AROUND && y > -AROUND && x < box.width + AROUND && y < box.height + AROUND;
+  });
+  return near.length <= MOST_MARKS ? near : [];
+}
+
+/** The one of many places that is nearest to a pressed one, if it is so near that it was meant. @template Thing @param {readonly Thing[]} all @param {(one: Thing) => readonly number[]} at @param {At} pressed @param {number} metres */
+export function nearest(all, at, { x, y }, metres) {
+  const far = (/** @type {Thing} */ one) => Math.hypot(at(one)[0] - x, at(one)[1] - y);
+  let [found, least] = [/** @type {Thing | null} */ (null), metres];
+  for (const one of all) {
+    if (far(one) <= least) [found, least] = [one, far(one)];
+  }
+  return found;
+}

@@ -7,6 +7,7 @@ import { capital, duration, inWords, isTranslated, number, plain, roughly, say, 
 import { app, mayFly, perform, plan, selectDrone, selection, selectMission } from "../core/station.js";
 import { hasEnded } from "../core/world.js";
 import { start } from "../start/commands.js";
+import { Gap, useLongList } from "../ui/long_list.js";
 import {
   Battery, Button, Chip, Empty, IconButton, Input, Said, Standing, SureButton, toneOf, walking,
 } from "../ui/parts.js";
@@ -142,9 +143,13 @@ function filled({ name, label, default: usual, units }, row) {
   return `${label ?? capital(name)}: ${said}`;
 }
 
+const HEIGHT = 48; // pixels of a trip in the list, about
+
 /** @param {{ world: World, row: MissionRow, live: boolean }} props */
 function Details({ world, row, live }) {
   const { fields } = /** @type {AppShape} */ (app.value);
+  const list = useRef(/** @type {HTMLOListElement | null} */ (null));
+  const parts = useLongList(list, row.trips.length);
   const { phase } = world.state.value;
   const can = live && mayFly.value;
   const isOver = hasEnded(row) || phase !== "flying";
@@ -153,10 +158,10 @@ function Details({ world, row, live }) {
   const send = (/** @type {string} */ name, more = {}) => { perform(name, { mission: row.name, ...more }); };
   return h("div", { class: "details" },
     own.length > 0 && h("p", { class: "hint" }, own.join(" · ")),
-    h("ol", { class: "trip-lines" }, row.trips.map((trip, index) => h(Trip, {
-      key: `${trip.name} ${index}`, trip, index, isCurrent: index === row.current && !hasEnded(row),
+    h("ol", { ref: list, class: "trip-lines" }, parts.map(({ at, gap }) => (gap ? h(Gap, { key: `gap ${at}`, at, gap, height: HEIGHT }) : h(Trip, {
+      key: `${row.trips[at].name} ${at}`, trip: row.trips[at], index: at, isCurrent: at === row.current && !hasEnded(row), count: row.trips.length,
       can: can && !isOver, send, hasPriority: fields.trip.some(({ name }) => name === "priority"),
-    }))),
+    })))),
     can && h("div", { class: "row" },
       !isOver && row.question === null && h(Button, {
         small: true, onClick: () => send(row.status === "PAUSED" ? "go-on" : "pause"),
@@ -168,13 +173,13 @@ function Details({ world, row, live }) {
         t("monitor.start-again"))));
 }
 
-/** @param {{ trip: TripRow, index: number, isCurrent: boolean, can: boolean, hasPriority: boolean, send: (name: string, more?: object) => void }} props */
-function Trip({ trip, index, isCurrent, can, hasPriority, send }) {
+/** @param {{ trip: TripRow, index: number, count: number, isCurrent: boolean, can: boolean, hasPriority: boolean, send: (name: string, more?: object) => void }} props */
+function Trip({ trip, index, count, isCurrent, can, hasPriority, send }) {
   const name = calledTrip(trip, index);
   const isOpen = can && trip.status !== "COMPLETED" && trip.status !== "SKIPPED";
   const priority = trip.priority ?? 1;
   const prioritise = (/** @type {number} */ by) => send("prioritise", { trip: trip.name, priority: priority + by });
-  return h("li", { "aria-current": isCurrent ? "step" : undefined },
+  return h("li", { "aria-current": isCurrent ? "step" : undefined, "data-at": index, "aria-posinset": index + 1, "aria-setsize": count },
     h("span", { class: "nth num" }, `${index + 1}.`),
     h("span", { class: "trip-words" }, h("span", { class: "called" }, name), h("small", null, done(trip))),
     h(Standing, { status: trip.status }),

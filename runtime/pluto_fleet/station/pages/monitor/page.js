@@ -11,7 +11,9 @@ import { Camera, Mark } from "../map/camera.js";
 import { Fleet, Homes, Names } from "../map/fleet.js";
 import { Floor, MapSplit } from "../map/floor.js";
 import { landmarkNames, Landmarks, North } from "../map/ground.js";
+import { Dots, Drawn, useMarks } from "../map/many.js";
 import { Tracks } from "../map/tracks.js";
+import { MOST_MARKS } from "../map/view.js";
 import { Button, Icon, SaidWords, SureButton, Tabs } from "../ui/parts.js";
 import { Console } from "./console.js";
 import { DroneCard, DroneList } from "./drones.js";
@@ -22,6 +24,9 @@ import { MissionList } from "./missions.js";
 /** Where a trip leads; what it follows may not be known any more. @param {World} world @param {TripRow} trip */
 const spot = (world, trip) => (trip.track ? world.tracks.get(trip.track) : trip);
 
+/** @param {{ x: number, y: number }} one */
+const placeOf = ({ x, y }) => [x, y];
+
 /** @param {{ world: World, chosen: string | null }} props */
 export function Targets({ world, chosen }) {
   const trips = world.missions.get(chosen)?.trips ?? [];
@@ -29,9 +34,12 @@ export function Targets({ world, chosen }) {
     const at = spot(world, trip);
     return at ? [{ x: at.x, y: at.y, status: trip.status }] : [];
   });
+  const legs = way.slice(1).map(({ x, y }, at) => `M${way[at].x} ${way[at].y}L${x} ${y}`);
+  const marks = useMarks(way, placeOf);
   return h("g", { class: "layer targets" },
-    way.length > 1 && h("polyline", { class: "way", points: way.map(({ x, y }) => `${x},${y}`).join(" ") }),
-    way.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
+    h(Drawn, { class: "way", parts: legs }),
+    way.length > MOST_MARKS && h(Dots, { places: way.map(placeOf) }),
+    marks.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
       h("circle", { class: `stop ${status === "COMPLETED" ? "done" : ""}`, r: 4 }))),
     world.missions.keys.value.map((name) => h(Target, { key: name, world, name, isChosen: name === chosen })));
 }

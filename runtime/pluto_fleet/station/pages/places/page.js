@@ -7,14 +7,16 @@ import { freeName } from "../core/changes.js";
 import { DRAWN } from "../core/drawings.js";
 import { number, t, typedNumber } from "../core/i18n.js";
 import { changeMap, landmarks, onEarth, uploadDrawing, uploadPlan } from "../core/landmarks.js";
-import { app, mayFly } from "../core/station.js";
+import { app, mayFly, tell } from "../core/station.js";
 import { World } from "../core/world.js";
 import { Camera, Mark } from "../map/camera.js";
 import { Homes, Names } from "../map/fleet.js";
 import { Floor, MapSplit } from "../map/floor.js";
 import { landmarkNames, Landmarks, middle, North } from "../map/ground.js";
+import { Gap, useLongList } from "../ui/long_list.js";
 import { Button, Empty, IconButton, Input, Said } from "../ui/parts.js";
 import { calibrated } from "./calibration.js";
+import { isWorldFile, placed, toMap } from "./world_file.js";
 
 /** @typedef {"look" | "place" | "zone" | "scale"} Tool */
 const STEP = 0.1; // metres to which what is drawn snaps
@@ -134,6 +136,15 @@ function ByHand({ onDone }) {
     h(Button, { type: "submit", small: true }, t("map.apply")));
 }
 
+/** Where a picture lies by its world file, in degrees where the map lies on the Earth, else in metres of the map. @param {File} file @param {File} beside */
+async function lying(file, beside) {
+  try {
+    return placed(await beside.text(), await createImageBitmap(file), toMap(landmarks.peek()?.plane ?? null));
+  } catch {
+    return null; // a drawing has no pixels
+  }
+}
+
 function PlanTools() {
   const picked = useRef(/** @type {HTMLInputElement | null} */ (null));
   const [length, setLength] = useState("");
@@ -146,12 +157,20 @@ function PlanTools() {
     take("scale");
   }
   const upload = async () => {
-    const file = picked.current?.files?.[0];
-    if (file && await uploadPlan(file)) location.reload(); // the picture is fetched once
+    const files = [...picked.current?.files ?? []];
+    const beside = files.find(({ name }) => isWorldFile(name));
+    const file = files.find((one) => one !== beside);
+    if (!file) return;
+    const place = beside ? await lying(file, beside) : null;
+    if (beside && !place) tell(t("map.world-file-wrong"), { bad: true });
+    else if (await uploadPlan(file)) {
+      if (place) await changeMap((map) => ({ image: map.image && { ...map.image, ...place } }));
+      location.reload(); // the picture is fetched once
+    }
   };
   return h("details", { class: "plan-tools" }, h("summary", null, t("map.floor-plan")), h("div", { class: "stack" },
     h("div", { class: "field" }, h("label", { for: "plan-file" }, t("map.plan-file")),
-      h("input", { id: "plan-file", ref: picked, type: "file", accept: "image/png,image/jpeg,image/webp,image/svg+xml", onChange: upload })),
+      h("input", { id: "plan-file", ref: picked, type: "file", multiple: true, accept: "image/png,image/jpeg,image/webp,image/svg+xml,.pgw,.jgw,.wld,.pngw,.jpgw", onChange: upload })),
     image && h(Button, { pressed: tool.value === "scale", onClick: () => take("scale") }, t("map.calibrate")),
     image && tool.value === "scale" && h("form", {
       class: "row", onSubmit: (/** @type {SubmitEvent} */ event) => {
@@ -180,23 +199,37 @@ function Northern() {
 function Lists({ drawn: { places, zones }, can, onShow }) {
   return h("div", { class: "stack" },
     h("h2", null, t("map.places")),
-    places.length ? h("ul", { class: "landmark-list" }, places.map((place, at) => h(Item, {
-      key: at, can, name: place.name, said: [t("map.at", { x: number(place.x), y: number(place.y) }), onEarth([place.x, place.y])].filter(Boolean).join(" · "),
-      onShow: () => onShow(place),
-      onName: (name) => changeMap((map) => ({ places: map.places.with(at, { ...map.places[at], name }) })),
-      onRemove: () => changeMap((map) => ({ places: map.places.toSpliced(at, 1) })),
-    }))) : h(Empty, null, t("map.no-places")),
+    places.length ? h(Places, { places, can, onShow }) : h(Empty, null, t("map.no-places")),
     h("h2", null, t("map.zones")),
     zones.length ? h("ul", { class: "landmark-list" }, zones.map((zone, at) => h(Item, {
-      key: at, can, name: zone.name, said: t("map.corners", { n: zone.corners.length }),
+      key: at, at, count: zones.length, can, name: zone.name, said: t("map.corners", { n: zone.corners.length }),
       onShow: () => onShow(middle(zone.corners)),
       onName: (name) => changeMap((map) => ({ zones: map.zones.with(at, { ...map.zones[at], name }) })),
       onRemove: () => changeMap((map) => ({ zones: map.zones.toSpliced(at, 1) })),
     }))) : h(Empty, null, t("map.no-zones")));
 }
 
-/** @param {{ name: string, said: string, can: boolean, onShow: () => void, onName: (name: string) => void, onRemove: () => void }} props */
-const Item = ({ name, said, can, onShow, onName, onRemove }) => h("li", { class: "row" },
+const HEIGHT = 48; // pixels of a place in the list
+
+/** @param {{ places: Place[], can: boolean, onShow: (at: At) => void }} props */
+function Places({ places, can, onShow }) {
+  const list = useRef(/** @type {HTMLUListElement | null} */ (null));
+  const parts = useLongList(list, places.length);
+  return h("ul", { ref: list, class: "landmark-list" }, parts.map(({ at, gap }) => {
+    if (gap) return h(Gap, { key: `gap ${at}`, at, gap, height: HEIGHT });
+    const place = places[at];
+    return h(Item, {
+      key: at, at, count: places.length, can, name: place.name,
+      said: [t("map.at", { x: number(place.x), y: number(place.y) }), onEarth([place.x, place.y])].filter(Boolean).join(" · "),
+      onShow: () => onShow(place),
+      onName: (name) => changeMap((map) => ({ places: map.places.with(at, { ...map.places[at], name }) })),
+      onRemove: () => changeMap((map) => ({ places: map.places.toSpliced(at, 1) })),
+    });
+  }));
+}
+
+/** @param {{ at: number, count: number, name: string, said: string, can: boolean, onShow: () => void, onName: (name: string) => void, onRemove: () => void }} props at: its place among so many */
+const Item = ({ at, count, name, said, can, onShow, onName, onRemove }) => h("li", { class: "row", "data-at": at, "aria-posinset": at + 1, "aria-setsize": count },
   can ? h("input", {
     class: "input", "aria-label": t("map.name-of", { name }), value: name, maxlength: 80,
     onChange: (/** @type {Event} */ event) => onName(/** @type {HTMLInputElement} */ (event.target).value.trim()),

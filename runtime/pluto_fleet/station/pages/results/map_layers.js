@@ -159,6 +159,7 @@ export function MapLabels({ model }) {
       importance: number?.value ?? 0, ...toPixels(view, x, y),
     };
   }));
-  const names = landmarkNames.value.map((label) => ({ ...label, ...toPixels(view, label.x, label.y), importance: Infinity }));
-  return h(Tags, { labels: [...names, ...values], box: camera.box.value });
+  const box = camera.box.value;
+  const names = landmarkNames(view, box).map((label) => ({ ...label, ...toPixels(view, label.x, label.y), importance: Infinity }));
+  return h(Tags, { labels: [...names, ...values], box });
 }

@@ -8,6 +8,7 @@ import { app, selected } from "../core/station.js";
 import { ownFirst } from "../missions/words.js";
 import { Field } from "../ui/field.js";
 import { useSortable } from "../ui/hooks.js";
+import { Gap, useLongList } from "../ui/long_list.js";
 import { ActionIcon, Button, Chip, Icon, Said } from "../ui/parts.js";
 import { Touching } from "../ui/people.js";
 import { RELEASE } from "./carried.js";
@@ -108,19 +109,29 @@ export function focusField(key, field = "x") {
   });
 }
 
+const HEIGHT = 50; // pixels of a card that is not drawn, about
+
 export function TripCards() {
   const all = abouts.value;
   const keys = all.map(({ key }) => key);
   const { order, dragged, hands } = useSortable(keys, move, isLocked.value);
   const by = new Map(all.map((about) => [about.key, about]));
-  return h("ol", { ...hands, class: "trip-cards", "aria-label": t("trips.list") }, order.map((key) => h(Card, {
-    key, about: /** @type {About} */ (by.get(key)), isDragged: key === dragged,
-    isChosen: marked.value.includes(key), isOpen: marked.value.length === 1 && marked.value[0] === key,
-  })));
+  const chosen = new Set(marked.value);
+  const [open] = chosen.size === 1 ? chosen : [null];
+  const kept = [open, dragged].flatMap((key) => (key && by.has(key) ? [order.indexOf(key)] : []));
+  const parts = useLongList(hands.ref, order.length, kept);
+  return h("ol", { ...hands, class: "trip-cards", "aria-label": t("trips.list") }, parts.map(({ at, gap }) => {
+    if (gap) return h(Gap, { key: `gap ${at}`, at, gap, height: HEIGHT });
+    const key = order[at];
+    return h(Card, {
+      key, about: /** @type {About} */ (by.get(key)), at, count: order.length, isDragged: key === dragged,
+      isChosen: chosen.has(key), isOpen: key === open,
+    });
+  }));
 }
 
-/** @param {{ about: About, isDragged: boolean, isChosen: boolean, isOpen: boolean }} props */
-function Card({ about, isDragged, isChosen, isOpen }) {
+/** @param {{ about: About, at: number, count: number, isDragged: boolean, isChosen: boolean, isOpen: boolean }} props at: its place among so many */
+function Card({ about, at, count, isDragged, isChosen, isOpen }) {
   const { key, trip, number, target, place, problems } = about;
   const id = useId();
   const element = useRef(/** @type {HTMLLIElement | null} */ (null));
@@ -148,6 +159,7 @@ function Card({ about, isDragged, isChosen, isOpen }) {
   const what = [capital(trip.action), ...(trip.name ? [trip.name] : [])].join(" · ");
   return h("li", {
     ref: element, class: `trip-card ${isChosen ? "chosen" : ""} ${isDragged ? "dragged" : ""}`, "data-key": key, onKeyDown,
+    "data-at": at, "aria-posinset": at + 1, "aria-setsize": count,
   },
   h("div", { class: "trip-line" },
     h("span", { class: "grip" }, h(Icon, { name: about.isFixed ? "lock" : "grip" })),

@@ -19,9 +19,9 @@ import { focusField, focusHead, SeveralTrips, TripCards } from "./cards.js";
 import { PICK } from "./carried.js";
 import { add } from "./commands.js";
 import { Palette, take } from "./palette.js";
-import { OtherTrips, Pins, TripLabels, Ways } from "./pins.js";
+import { dotAt, OtherTrips, Pins, TripLabels, Ways } from "./pins.js";
 import { snapped } from "./snapping.js";
-import { abouts, hovered, inHand, isLocked, marked, markOne, pattern, places, tool } from "./state.js";
+import { abouts, hovered, inHand, isLocked, marked, markOne, pattern, places, toggle, tool } from "./state.js";
 import { Drawing, Drawn, ToolButtons, ToolPanel } from "./tools.js";
 
 /** @import { Added } from "./palette.js" */
@@ -57,7 +57,9 @@ export default function Page() {
   function onPlace(at, event) {
     const action = inHand.peek();
     if (!action) {
-      if (marked.peek().length > 1) markOne(null);
+      const meant = dotAt(at, camera.view.peek().scale);
+      if (meant && (event.ctrlKey || event.metaKey)) toggle(meant);
+      else if (meant || marked.peek().length > 1) markOne(meant);
       return;
     }
     const [key] = add(action, [{ target: snapped(at, event.shiftKey, places.peek()) }]);

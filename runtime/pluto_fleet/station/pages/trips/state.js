@@ -47,7 +47,7 @@ export const isLocked = computed(() => {
 /** The names of the trips that fly or have flown, a line each, so that it is the same until one takes off. */
 const offLines = computed(() => (row.value?.trips ?? []).filter(({ status }, at) =>
   status !== "WAITING" || (at === row.value?.current && row.value.status === "RUNNING")).map(({ name }) => name).join("\n"));
-const offNames = computed(() => (offLines.value ? offLines.value.split("\n") : []));
+const offNames = computed(() => new Set(offLines.value ? offLines.value.split("\n") : []));
 
 /** The trips of the selected mission. */
 export const abouts = computed(() => {
@@ -81,7 +81,7 @@ function about(trip, at, wrong, pick) {
   return {
     key: trip.key, trip, number: at + 1, target, isHeld: drag !== undefined,
     place: target ? placeAt(target, places.value)?.name ?? "" : "",
-    isFixed: isLocked.value || offNames.value.includes(trip.name ?? String(at + 1)),
+    isFixed: isLocked.value || offNames.value.has(trip.name ?? String(at + 1)),
     problems, pickedIn: pick === undefined ? null : pick + 1,
   };
 }

@@ -47,11 +47,13 @@ export function useSortable(keys, onMove, locked = false) {
   function placeAt(key, y) {
     const items = /** @type {HTMLElement[]} */ ([...(list.current?.children ?? [])]).filter((item) => item.dataset.key);
     const others = items.filter((item) => item.dataset.key !== key);
-    const at = others.findIndex((item) => {
+    const next = others.find((item) => {
       const { top, height } = item.getBoundingClientRect();
       return y < top + height / 2;
     });
-    return at < 0 ? others.length : at;
+    const without = keys.filter((one) => one !== key);
+    const at = (/** @type {HTMLElement | undefined} */ item) => without.indexOf(item?.dataset.key ?? ""); // not all are drawn of a long list
+    return next ? at(next) : at(others.at(-1)) + 1;
   }
   const rest = keys.filter((key) => key !== drag?.key);
   return {
