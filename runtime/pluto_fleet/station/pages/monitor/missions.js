@@ -143,7 +143,7 @@ function filled({ name, label, default: usual, units }, row) {
   return `${label ?? capital(name)}: ${said}`;
 }
 
-const HEIGHT = 48; // pixels of a trip in the list, about
+const HEIGHT = 80; // pixels of a trip in the list, about
 
 /** @param {{ world: World, row: MissionRow, live: boolean }} props */
 function Details({ world, row, live }) {

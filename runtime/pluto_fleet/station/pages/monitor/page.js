@@ -27,6 +27,9 @@ const spot = (world, trip) => (trip.track ? world.tracks.get(trip.track) : trip)
 /** @param {{ x: number, y: number }} one */
 const placeOf = ({ x, y }) => [x, y];
 
+/** @param {{ status: string }} trip */
+const isDone = ({ status }) => status === "COMPLETED";
+
 /** @param {{ world: World, chosen: string | null }} props */
 export function Targets({ world, chosen }) {
   const trips = world.missions.get(chosen)?.trips ?? [];
@@ -37,10 +40,13 @@ export function Targets({ world, chosen }) {
   const legs = way.slice(1).map(({ x, y }, at) => `M${way[at].x} ${way[at].y}L${x} ${y}`);
   const marks = useMarks(way, placeOf);
   return h("g", { class: "layer targets" },
-    h(Drawn, { class: "way", parts: legs }),
-    way.length > MOST_MARKS && h(Dots, { places: way.map(placeOf) }),
+    h(Drawn, { class: `way ${legs.length < MOST_MARKS ? "" : "long"}`, parts: legs }), // so many dashes take long to be painted
+    way.length > MOST_MARKS && [
+      h(Dots, { key: "all", places: way.map(placeOf) }),
+      h(Dots, { key: "done", class: "done", places: way.filter(isDone).map(placeOf) }),
+    ],
     marks.map(({ x, y, status }, at) => h(Mark, { key: at, x, y },
-      h("circle", { class: `stop ${status === "COMPLETED" ? "done" : ""}`, r: 4 }))),
+      h("circle", { class: `stop ${isDone({ status }) ? "done" : ""}`, r: 4 }))),
     world.missions.keys.value.map((name) => h(Target, { key: name, world, name, isChosen: name === chosen })));
 }
 
