@@ -78,6 +78,7 @@ MEASURES = (
     "python benchmarks/crazyflie.py",
     "python benchmarks/invariants.py",
     "python benchmarks/following.py",
+    "python benchmarks/sent_on.py",
     "python benchmarks/pursuit.py",
     "python benchmarks/event_latency.py",
     "python benchmarks/pursuit_real_time.py",
