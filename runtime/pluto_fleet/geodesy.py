@@ -81,7 +81,8 @@ class LocalPlane:
     @cached_property
     def _axes(self) -> tuple[Metres, Metres, Metres]:
         """Where east, north and up are at the origin, in Earth-centred coordinates."""
-        of_lat, of_lon = radians(self.latitude), radians(self.longitude)
+        of_lat = radians(self.latitude)
+        of_lon = radians(self.longitude)
         return (
             (-sin(of_lon), cos(of_lon), 0.0),
             (-sin(of_lat) * cos(of_lon), -sin(of_lat) * sin(of_lon), cos(of_lat)),

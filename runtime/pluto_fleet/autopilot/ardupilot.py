@@ -23,7 +23,12 @@ from .vehicle import (
     Vehicle,
 )
 
-STABILIZE, GUIDED, LOITER, RTL, LAND, BRAKE = 0, 4, 5, 6, 9, 17
+STABILIZE = 0
+GUIDED = 4
+LOITER = 5
+RTL = 6
+LAND = 9
+BRAKE = 17
 """ArduCopter/mode.h."""
 _HOLDS = {STABILIZE: Doing.HOLD, GUIDED: Doing.GO, LOITER: Doing.HOLD, BRAKE: Doing.HOLD}
 _BY_NUMBER = {**_HOLDS, RTL: Doing.RETURN, LAND: Doing.LAND}
@@ -123,7 +128,8 @@ class ArduPilot(Vehicle):
             return FAILED
         if not self.flies:  # its guided target is set, and nothing moves before a take-off
             return ACCEPTED
-        self.mode, self.doing = GUIDED, Doing.GO
+        self.mode = GUIDED
+        self.doing = Doing.GO
         self.body.goal = self.goal_of(asked)
         return ACCEPTED
 
@@ -132,7 +138,8 @@ class ArduPilot(Vehicle):
         doing = _BY_NUMBER.get(number)
         if doing is None or (self.faults.blind and number not in (STABILIZE, LAND)):
             return FAILED
-        self.mode, self.doing = number, doing
+        self.mode = number
+        self.doing = doing
         if doing in (Doing.HOLD, Doing.GO):
             self.stop_here()
         return ACCEPTED
@@ -170,7 +177,8 @@ class ArduPilot(Vehicle):
         silent = self.now - self.heard
         act = {1: Doing.RETURN, 5: Doing.LAND}.get(int(self.value("FS_GCS_ENABLE")))
         # without a station that it ever heard there is nothing to lose
-        was_lost, self._lost = self._lost, self.value("FS_GCS_TIMEOUT") < silent < 1e6
+        was_lost = self._lost
+        self._lost = self.value("FS_GCS_TIMEOUT") < silent < 1e6
         if act is not None and self._lost and not was_lost:
             self.fail_safe(act, "GCS Failsafe")
 
@@ -189,7 +197,8 @@ class ArduPilot(Vehicle):
     def _watch_fence(self) -> None:
         acts = {1: Doing.RETURN, 2: Doing.LAND}
         act = acts.get(int(self.value("FENCE_ACTION")))
-        was_beyond, self._beyond = self._beyond, self._is_beyond(self.here)
+        was_beyond = self._beyond
+        self._beyond = self._is_beyond(self.here)
         if act is not None and self._beyond and not was_beyond:
             self.fail_safe(act, "Fence Breached")
 

@@ -167,7 +167,8 @@ class _Desk:
     """Serves requests of other processes, and keeps where the vehicles are."""
 
     def __init__(self, folder: Path) -> None:
-        self._folder, self.over = folder, asyncio.Event()
+        self._folder = folder
+        self.over = asyncio.Event()
         kept = _kept(folder)
         self.port = int(kept.get("port", 0))
         self.server = Server()

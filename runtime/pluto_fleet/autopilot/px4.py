@@ -170,12 +170,14 @@ class Px4(Vehicle):
     def _watch_fence(self) -> None:
         acts = {2: Doing.HOLD, 3: Doing.RETURN, 5: Doing.LAND}
         act = acts.get(int(self.value("GF_ACTION")))
-        was_beyond, self._beyond = self._beyond, self.is_beyond(self.here, self._highest)
+        was_beyond = self._beyond
+        self._beyond = self.is_beyond(self.here, self._highest)
         if act is not None and self._beyond and not was_beyond:
             self.fail_safe(act, "Failsafe activated: geofence breached")
 
     def _watch_battery(self) -> None:
-        act, left = self.value("COM_LOW_BAT_ACT"), self.charge
+        act = self.value("COM_LOW_BAT_ACT")
+        left = self.charge
         if act > 1 and left < self.value("BAT_EMERGEN_THR"):
             self.fail_safe(Doing.LAND, "Failsafe activated: emergency battery")
         elif act > 1 and left < self.value("BAT_CRIT_THR"):

@@ -24,7 +24,8 @@ from .vehicle import (
 )
 
 ARMED = mavlink.MAV_MODE_FLAG_SAFETY_ARMED | mavlink.MAV_MODE_FLAG_CUSTOM_MODE_ENABLED
-_WHOLE, _REAL = mavlink.MAV_PARAM_TYPE_INT32, mavlink.MAV_PARAM_TYPE_REAL32
+_WHOLE = mavlink.MAV_PARAM_TYPE_INT32
+_REAL = mavlink.MAV_PARAM_TYPE_REAL32
 _FENCE = mavlink.MAV_MISSION_TYPE_FENCE
 _BYTEWISE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
 _BY_VALUE = mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_C_CAST
@@ -44,7 +45,9 @@ _USUAL = {
     mavlink.MAVLINK_MSG_ID_HOME_POSITION: 2.0,
 }
 """Seconds between two messages of a PX4 that was not asked otherwise; an ArduPilot sends none of them then."""
-FOCAL, SENSOR, PIXELS = 4.5, (6.2, 4.65), (4000, 3000)
+FOCAL = 4.5
+SENSOR = (6.2, 4.65)
+PIXELS = (4000, 3000)
 """Millimetres of its camera, and the size of its pictures."""
 
 
@@ -52,7 +55,8 @@ class StationLink:
     """One vehicle's part of the protocol."""
 
     def __init__(self, vehicle: Vehicle, send: Callable[[bytes], object]) -> None:
-        self.vehicle, self._send = vehicle, send
+        self.vehicle = vehicle
+        self._send = send
         system = vehicle.build.system
         self._writers = {
             component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
@@ -131,7 +135,8 @@ class StationLink:
         vehicle = self.vehicle
         well = SENSORS | (0 if vehicle.faults.blind else SATELLITES)
         well |= 0 if vehicle.problem else READY
-        volts, left = round(vehicle.volts * 1000), round(vehicle.charge * 100)
+        volts = round(vehicle.volts * 1000)
+        left = round(vehicle.charge * 100)
         return self._of().sys_status_encode(ALL, ALL, well, 0, volts, -1, left, 0, 0, 0, 0, 0, 0)
 
     def _battery(self) -> Any:
@@ -234,7 +239,8 @@ class StationLink:
             result: int | None = self._of_camera(asked)
             component = CAMERA
         else:
-            result, component = self._of_autopilot(asked), AUTOPILOT
+            result = self._of_autopilot(asked)
+            component = AUTOPILOT
         if result is not None:
             answer = self._of(component).command_ack_encode(
                 asked.command,

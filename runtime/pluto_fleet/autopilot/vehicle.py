@@ -18,7 +18,8 @@ from ..geodesy import Degrees, LocalPlane
 from ..shared.domain.airspace import inside
 from .body import Body, Limits, Metres
 
-AUTOPILOT, CAMERA = 1, mavlink.MAV_COMP_ID_CAMERA
+AUTOPILOT = 1
+CAMERA = mavlink.MAV_COMP_ID_CAMERA
 """The components of a vehicle."""
 
 ACCEPTED: int = mavlink.MAV_RESULT_ACCEPTED
@@ -29,7 +30,8 @@ UNSUPPORTED: int = mavlink.MAV_RESULT_UNSUPPORTED
 
 FORCED = 21196.0
 """The second parameter of a command to disarm that is meant even in the air."""
-FULL_VOLTS, EMPTY_VOLTS = 16.8, 14.0
+FULL_VOLTS = 16.8
+EMPTY_VOLTS = 14.0
 SENSORS = (
     mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO
     | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
@@ -131,13 +133,15 @@ class Vehicle:
     """The number of each mode, as heartbeats have it."""
 
     def __init__(self, build: Build, limits: Limits, parameters: dict[str, Parameter]) -> None:
-        self.build, self.parameters = build, parameters
+        self.build = build
+        self.parameters = parameters
         self.plane = LocalPlane(*build.home)
         self.body = Body(limits)
         self.doing = Doing.HOLD
         self.armed = self.has_flown = False
         self.charge = 1.0
-        self.faults, self.record = Faults(), Record()
+        self.faults = Faults()
+        self.record = Record()
         self.now = self.touched = 0.0
         """Seconds since it was switched on, and when it has touched down."""
         self.heard = -inf
@@ -252,7 +256,8 @@ class Vehicle:
         self.body.goal = self.body.stopping_place
 
     def arm(self) -> None:
-        self.armed, self.has_flown = True, False
+        self.armed = True
+        self.has_flown = False
 
     def disarm(self) -> None:
         self.armed = False

@@ -32,7 +32,8 @@ def main(argv: Sequence[str]) -> int:
 
 def put(options: Options) -> int:
     """Put what is drawn into the file, and say what that was."""
-    fleet, drawn = options.fleet, options.drawing
+    fleet = options.fleet
+    drawn = options.drawing
     assert fleet is not None  # it is an argument that is needed
     drawing = read(drawn).drawing
     if drawing is None:

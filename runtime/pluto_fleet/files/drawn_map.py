@@ -23,7 +23,8 @@ from .writing import with_landmarks
 
 MARGIN = 20.0
 """Metres around what is drawn, on a map that is made for it."""
-CRUISE, _CEILING = 20.0, 120.0
+CRUISE = 20.0
+_CEILING = 120.0
 """How high drones fly on such a map, and at most, in metres: in many countries nothing may fly higher."""
 _TOLERANCES = (0.05, 0.1, 0.2, 0.5, 1.0, 2.0)
 """By how many metres an edge may move, so that it has fewer corners."""

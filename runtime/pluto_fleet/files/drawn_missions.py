@@ -60,7 +60,8 @@ def no_origin(drawing: Drawing) -> str:
     said = f"is {drawing.what}, whose places are degrees on the Earth, and the map has no origin"
     if not spots:
         return said
-    south, west = min(one.latitude for one in spots), min(one.longitude for one in spots)
+    south = min(one.latitude for one in spots)
+    west = min(one.longitude for one in spots)
     such = f"origin = {{ latitude = {south:.6f}, longitude = {west:.6f} }}"
     return f"{said}: write one below [map] of the fleet file, such as {such}"
 

@@ -26,7 +26,8 @@ from .reading import parsed
 if TYPE_CHECKING:
     from ..app import App
 
-CRTP, MAVLINK_SIM = "crtp", "mavlink"
+CRTP = "crtp"
+MAVLINK_SIM = "mavlink"
 _NAVIGATION = {CRTP: CRAZYFLIE, MAVLINK_SIM: MAVLINK}
 _NAMES = {CRTP: "cf", MAVLINK_SIM: "m"}
 """How drones begin to be called that no fleet file names."""
@@ -79,7 +80,8 @@ def as_stand_ins(fleet: FleetFile, stand_ins: StandIns) -> FleetFile:
 
     They are the first of the fleet file; further ones are copies of them, placed beside them.
     """
-    number, navigation = stand_ins.number, _NAVIGATION[stand_ins.kind]
+    number = stand_ins.number
+    navigation = _NAVIGATION[stand_ins.kind]
     drones = [_as(navigation, fleet, one) for one in fleet.drones[:number]]
     for place in range(len(drones), number):
         taken = [one.home for one in drones]

@@ -22,7 +22,10 @@ def fence_of(airspace: Airspace, plane: LocalPlane, beyond: float) -> Sequence[t
     Raises `ValueError` if it reaches too far from its origin.
     """
     width, depth = airspace.size
-    left, right, low, high = -beyond, width + beyond, -beyond, depth + beyond
+    left = -beyond
+    right = width + beyond
+    low = -beyond
+    high = depth + beyond
     around = ((left, low), (right, low), (right, high), (left, high))
     places = [plane.to_degrees((x, y, 0.0)) for x, y in around]
     return [(latitude, longitude) for latitude, longitude, _ in places]

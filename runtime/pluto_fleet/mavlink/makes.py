@@ -9,17 +9,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
-ARM, TAKEOFF, LAND, SET_MODE, CHANGE_SPEED, REPOSITION = 400, 22, 21, 176, 178, 192
+ARM = 400
+TAKEOFF = 22
+LAND = 21
+SET_MODE = 176
+CHANGE_SPEED = 178
+REPOSITION = 192
 """MAV_CMD."""
 CUT = 21196
 """The second parameter of a command to disarm in the air (MAV_CMD_COMPONENT_ARM_DISARM)."""
 _CUSTOM_MODE = 1
 _TAKES_MODE = 1
 """MAV_DO_REPOSITION_FLAGS_CHANGE_MODE."""
-_ABOVE_SEA, _ABOVE_HOME = 5, 3
+_ABOVE_SEA = 5
+_ABOVE_HOME = 3
 """MAV_FRAME_GLOBAL_INT, metres above sea level, as both makes take it; MAV_FRAME_GLOBAL_RELATIVE_ALT."""
 
-ACCEPTED, IN_PROGRESS = 0, 5
+ACCEPTED = 0
+IN_PROGRESS = 5
 ANSWERS = {
     1: "it rejects that for now",
     2: "it denies that",
@@ -143,14 +150,17 @@ class Px4:
         return long(SET_MODE, _CUSTOM_MODE, self._AUTO, sub)
 
     def mode_name(self, number: int) -> str:
-        main, sub = number >> 16 & 0xFF, number >> 24
+        main = number >> 16 & 0xFF
+        sub = number >> 24
         name = self._SUB.get(sub) if main == self._AUTO else self._MAIN.get(main)
         return name or f"{main}.{sub}"
 
 
 class ArduPilot:
     name = "ArduPilot"
-    _GUIDED, _LAND, _BRAKE = 4, 9, 17
+    _GUIDED = 4
+    _LAND = 9
+    _BRAKE = 17
     _TAKEOFF: ClassVar[dict[str, Any]] = {
         "command": TAKEOFF,
         "frame": _ABOVE_HOME,  # it denies any other

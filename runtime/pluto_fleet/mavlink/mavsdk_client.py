@@ -28,7 +28,8 @@ class MavsdkClient:
     """The process and its vehicles; used within one event loop."""
 
     def __init__(self) -> None:
-        self._numbers, self._asks = count(1), count(1)
+        self._numbers = count(1)
+        self._asks = count(1)
         self._heard: dict[int, Hear] = {}
         self._answers: dict[int, asyncio.Future[Any]] = {}
         self._process: asyncio.subprocess.Process | None = None
@@ -132,7 +133,8 @@ class MavsdkClient:
             hear(ENDED, why)
 
     async def _end(self) -> None:
-        process, self._process = self._process, None
+        process = self._process
+        self._process = None
         if process is None:
             return
         for task in self._tasks:

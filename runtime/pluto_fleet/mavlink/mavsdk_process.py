@@ -86,7 +86,9 @@ class Desk:
 
     async def do_open(self, asked: Message) -> Message:
         """Find a vehicle's autopilot, and tell of it from now on under a number."""
-        number, link, system = asked["vehicle"], asked["link"], asked["system"]
+        number = asked["vehicle"]
+        link = asked["link"]
+        system = asked["system"]
         found = await self._system(link, system)
         await self.do_close(asked)
         opened = Opened(
@@ -230,13 +232,15 @@ class Desk:
 
     async def do_read(self, asked: Message) -> float:
         """Read a parameter, of whichever type."""
-        params, name = self._open[asked["vehicle"]].params, asked["name"]
+        params = self._open[asked["vehicle"]].params
+        name = asked["name"]
         with suppress(MavsdkError):
             return float(await params.get_param_float(name))
         return float(await params.get_param_int(name))
 
     async def do_write(self, asked: Message) -> None:
-        params, name = self._open[asked["vehicle"]].params, asked["name"]
+        params = self._open[asked["vehicle"]].params
+        name = asked["name"]
         try:
             await params.set_param_float(name, asked["value"])
         except MavsdkError:

@@ -88,12 +88,16 @@ class MavlinkVehicle:
         self._number = 0
         self._photos: deque[asyncio.Future[Mapping[str, Any]]] = deque()
         """Those that were asked for, in their order."""
-        self._crashed, self._cut = "", False
-        self._order_given, self._agreed, self._obeys = "", 0.0, False
+        self._crashed = ""
+        self._cut = False
+        self._order_given = ""
+        self._agreed = 0.0
+        self._obeys = False
         """What it was told last, when its mode was last one of that, and whether it has been since."""
         self._by_itself = ""
         """What it does by itself, if it does."""
-        self._fence_given, self._mixed = False, False
+        self._fence_given = False
+        self._mixed = False
         self._parameters: dict[str, float] = {}
         """Those of `own_failsafes`, once they were read."""
         self._since = 0.0
@@ -105,9 +109,11 @@ class MavlinkVehicle:
         """Find its autopilot, and wait until it has told where it is and how it is."""
         await self._part()
         self._state = VehicleState(self._setup.plane, self._setup.home[2])
-        self._make, self._mixed = None, False
+        self._make = None
+        self._mixed = False
         address = self._address
-        self._parameters, self._fence_given = {}, False
+        self._parameters = {}
+        self._fence_given = False
         self._client = client()
         self._number = self._client.join(self._hear)
         try:
@@ -123,7 +129,8 @@ class MavlinkVehicle:
         wanted = self._options.autopilot
         if wanted is not None and wanted != found["make"]:
             raise NotReady(f"{self._id}: its autopilot is {self._make.name}, and not {wanted}")
-        began, state = time.monotonic(), self._state
+        began = time.monotonic()
+        state = self._state
         while not state.is_known:
             if time.monotonic() - began > _KNOWN:
                 raise LinkLost(f"{self._id} answers, and does not tell {self._untold()}")
@@ -151,7 +158,8 @@ class MavlinkVehicle:
 
     async def _part(self) -> None:
         if self._client is not None:
-            former, self._client = self._client, None
+            former = self._client
+            self._client = None
             await former.leave(self._number)
 
     async def close(self) -> None:
@@ -180,7 +188,8 @@ class MavlinkVehicle:
             return
         if told == "photo" and self._photos:
             self._photos.popleft().set_result(facts)
-        flew, mode = state.flying, state.mode
+        flew = state.flying
+        mode = state.mode
         state.hear(told, facts)
         if self._make is None:
             return  # a slow one tells before it is known whose it is
@@ -208,7 +217,8 @@ class MavlinkVehicle:
 
     def _came_down(self, mode: int) -> None:
         """Note a crash: its motors are off in the air, or on the ground where it was not landing in its mode."""
-        state, modes = self._state, self._known_make.modes
+        state = self._state
+        modes = self._known_make.modes
         lands = self._order_given == "land" or mode in modes["land"] | modes["return"]
         if self._cut:
             self._crashed = "its motors were cut"
@@ -231,7 +241,9 @@ class MavlinkVehicle:
         """
         self._refuse_if_by_itself()
         began = time.monotonic()
-        self._order_given, self._agreed, self._obeys = what, began, False
+        self._order_given = what
+        self._agreed = began
+        self._obeys = False
         for order in orders:
             try:
                 result = await self._ask(
@@ -276,11 +288,13 @@ class MavlinkVehicle:
 
     async def _fenced_in(self) -> str | None:
         """Give it the map as its fence, once; return why it has none."""
-        airspace, plane = self._setup.airspace, self._setup.plane
+        airspace = self._setup.airspace
+        plane = self._setup.plane
         if self._fence_given or not self._options.fence or airspace is None or plane is None:
             return None
         try:
-            make, beyond = self._known_make.name, self._options.beyond
+            make = self._known_make.name
+            beyond = self._options.beyond
             corners = fence_of(airspace, plane, beyond)
             await self._ask("fence", _UPLOAD, corners=corners)
             # one that climbs through its fence to return would hold there, until its battery is empty
@@ -350,13 +364,15 @@ class MavlinkVehicle:
         await self._until(lambda: not self._state.flying, _LANDING)
 
     async def emergency_stop(self) -> None:
-        self._cut, self._by_itself = True, ""
+        self._cut = True
+        self._by_itself = ""
         await self._order("", [CUT_MOTORS])
         await self._reports.until(lambda _: not self._state.armed, _CUTTING)
 
     async def looked_after(self) -> None:
         """Believe that it is well again."""
-        self._crashed, self._cut = "", False
+        self._crashed = ""
+        self._cut = False
         self._tell()
 
     def _place(self, target: Point) -> Any:
@@ -377,15 +393,19 @@ class MavlinkVehicle:
 
     def _watch_mode(self) -> None:
         """Notice a mode that it has taken by itself, as a failsafe or a pilot does: our orders end there."""
-        state, now = self._state, time.monotonic()
+        state = self._state
+        now = time.monotonic()
         modes = self._known_make.modes
         if not state.flying:
-            self._order_given, self._by_itself = "", ""
-            self._agreed, self._obeys = now, False
+            self._order_given = ""
+            self._by_itself = ""
+            self._agreed = now
+            self._obeys = False
         # one that flew before it was connected to may have been told anything
         told = (self._order_given,) if self._order_given else ("rise", "go", "hold", "land")
         if any(state.mode in modes[what] for what in told):
-            self._agreed, self._obeys = now, True
+            self._agreed = now
+            self._obeys = True
         elif (self._obeys or now - self._agreed > _SETTLES) and not self._by_itself:
             said = state.since(now - _RECENTLY)
             mode = self._known_make.mode_name(state.mode)

@@ -121,8 +121,10 @@ class VehicleState:
             self.yaw = (pi / 2 + self.plane.bearing - radians(heading)) % (2 * pi)
 
     def _beat(self, facts: Mapping[str, Any]) -> None:
-        was_armed, self.armed = self.armed, bool(facts["base"] & _ARMED)
-        self.mode, self.beaten = int(facts["mode"]), True
+        was_armed = self.armed
+        self.armed = bool(facts["base"] & _ARMED)
+        self.mode = int(facts["mode"])
+        self.beaten = True
         if self.armed != was_armed:
             self.flew = False
 
@@ -133,7 +135,8 @@ class VehicleState:
         return self.landed != ON_GROUND and height > _NEAR_GROUND
 
     def _battery(self, facts: Mapping[str, Any]) -> None:
-        volts, percent = facts["volts"], facts["percent"]
+        volts = facts["volts"]
+        percent = facts["percent"]
         self.volts = volts if volts is not None and isfinite(volts) else 0.0
         known = percent is not None and isfinite(percent) and percent >= 0
         self.battery = min(1.0, percent / 100) if known else None

@@ -93,7 +93,8 @@ def _parts(geometry: Any, who: str, depth: int) -> Iterator[tuple[str, Any]]:
         return
     if not isinstance(geometry, dict) or depth > 8:
         raise Unusable(f"{who} has no geometry that can be read")
-    kind, coordinates = f"{geometry.get('type')}", geometry.get("coordinates")
+    kind = f"{geometry.get('type')}"
+    coordinates = geometry.get("coordinates")
     if kind == "GeometryCollection":
         inner = geometry.get("geometries")
         for one in inner if isinstance(inner, list) else ():

@@ -48,7 +48,8 @@ _ODD: dict[float, str] = {
     211: "grippers",
 }
 """What is left out, and told."""
-_RELATIVE, _OVER_GROUND = {3, 6}, {10, 11}
+_RELATIVE = {3, 6}
+_OVER_GROUND = {10, 11}
 _ON_EARTH = {0, 3, 5, 6, 10, 11}
 """The frames of MAVLink: heights above home, above the ground; with places in degrees."""
 _CORNERS = 24
@@ -93,7 +94,8 @@ def read(text: str) -> Drawing:
 def _simple(item: Mapping[str, Any], number: int, found: _Found) -> None:
     params = item.get("params")
     if isinstance(params, list) and len(params) == 7:
-        command, frame = number_in(item.get("command")), number_in(item.get("frame"))
+        command = number_in(item.get("command"))
+        frame = number_in(item.get("frame"))
         _waypoint(command, frame, params[4:], f"item {number}", found)
 
 

@@ -14,8 +14,12 @@ from .feature import Feature, Kind, Spot
 
 _DIGITS = 9
 """Of degrees: a tenth of a millimetre."""
-_WAYPOINT, _TAKEOFF, _RTL, _PHOTO = 16, 22, 20, 2000
-_RELATIVE, _NO_PLACE = 3, 2
+_WAYPOINT = 16
+_TAKEOFF = 22
+_RTL = 20
+_PHOTO = 2000
+_RELATIVE = 3
+_NO_PLACE = 2
 
 
 def geojson_text(features: Sequence[Feature]) -> str:
@@ -102,11 +106,14 @@ def _kml_geometry(feature: Feature) -> Iterator[str]:
         yield "</outerBoundaryIs></Polygon>"
         return
     first = feature.spots[0]
-    mode, up = "clampToGround", [0.0] * len(feature.spots)
+    mode = "clampToGround"
+    up = [0.0] * len(feature.spots)
     if first.height is not None:
-        mode, up = "relativeToGround", [one.height or 0.0 for one in feature.spots]
+        mode = "relativeToGround"
+        up = [one.height or 0.0 for one in feature.spots]
     elif first.altitude is not None:
-        mode, up = "absolute", [one.altitude or 0.0 for one in feature.spots]
+        mode = "absolute"
+        up = [one.altitude or 0.0 for one in feature.spots]
     at = " ".join(
         f"{x!r},{y!r},{z:g}" for (x, y), z in zip(map(position, feature.spots), up, strict=True)
     )

@@ -19,7 +19,8 @@ def tree_of(text: str, what: str) -> Element:
     builder = TreeBuilder()
     parser = ParserCreate("utf-8", " ")
     parser.buffer_text = True
-    depth, count = 0, 0
+    depth = 0
+    count = 0
 
     def start(name: str, attributes: dict[str, str]) -> None:
         nonlocal depth, count

@@ -13,11 +13,17 @@ from .pictures import DECODING
 if TYPE_CHECKING:
     from ...geodesy import Degrees
 
-_IFD, _GPS = 0x8769, 0x8825
-_TAKEN, _OFFSET, _FRACTION = 0x9003, 0x9011, 0x9291
+_IFD = 0x8769
+_GPS = 0x8825
+_TAKEN = 0x9003
+_OFFSET = 0x9011
+_FRACTION = 0x9291
 """When it was taken, in UTC: to the second, by how much it is off UTC, and the rest of the second."""
 _HEADER = b"Exif\0\0"
-_START, _APP_0, _APP_1, _LAST_APP = b"\xff\xd8", 0xE0, 0xE1, 0xEF
+_START = b"\xff\xd8"
+_APP_0 = 0xE0
+_APP_1 = 0xE1
+_LAST_APP = 0xEF
 _LONGEST = 0xFFFF - 2
 
 

@@ -14,7 +14,9 @@ from tests.library.station.browser.exercise import Place
 from tests.library.station.browser.steps import card_of, on_the_screen, open_page, pin_of
 from tests.pages.looking import looked_at
 
-COLUMNS, ROWS = 50, 40
+pytestmark = pytest.mark.long
+COLUMNS = 50
+ROWS = 40
 TRIPS = COLUMNS * ROWS
 
 DOTS = """
@@ -83,7 +85,6 @@ def test_a_dot_is_pressed_and_has_its_pin_then_which_is_moved(ward: Station, vis
     until(lambda: ward.missions[0]["trips"][933]["target"] == [9.0, 2.5], "it is moved")
 
 
-@pytest.mark.long
 def test_pins_are_there_where_they_have_room(ward: Station, visit: Visit) -> None:
     page = surveyed(ward, visit)
     expect(pin_of(page, 825)).to_have_count(0)
@@ -95,7 +96,6 @@ def test_pins_are_there_where_they_have_room(ward: Station, visit: Visit) -> Non
     expect(pin_of(page, 825)).to_have_count(0)
 
 
-@pytest.mark.long
 def test_tab_goes_from_trip_to_trip_though_few_of_them_are_drawn(
     ward: Station, visit: Visit
 ) -> None:
@@ -113,7 +113,6 @@ def test_tab_goes_from_trip_to_trip_though_few_of_them_are_drawn(
         expect(head_of(page, number)).to_be_focused()
 
 
-@pytest.mark.long
 def test_the_end_of_the_list_is_scrolled_to_and_a_trip_moves_up_in_it(
     ward: Station, visit: Visit
 ) -> None:
