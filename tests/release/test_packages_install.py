@@ -132,7 +132,7 @@ def test_with_the_library_every_command_works(library: Path, tmp_path: Path) -> 
     assert f"seam {SEAM}, pluto-fleet {__version__}" in told("--version").out
     own = succeed(programs / "pluto-fleet", "--version")
     assert own.startswith(f"pluto-fleet {__version__}, speaks seam ")
-    assert own.endswith("extras: not installed: areas, crazyflie, plot, station\n")
+    assert own.endswith("extras: not installed: areas, crazyflie, mavlink, plot, station\n")
 
     fleet = ("--fleet", str(example / "fleet.toml"))
     flight = ("fly", str(example / "missions.toml"), *fleet, "--sim", "--speed", "50")

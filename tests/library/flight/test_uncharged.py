@@ -38,6 +38,7 @@ charges_at_home = false
 drain = "500 %"
 [[drone]]
 id = "cf1"
+category = "sampler"
 home = [2, 0.8]
 """
 

@@ -80,7 +80,8 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
         "sys.path[:0] = sys.argv[1:3]\n"
         "import pluto_fleet\n"
         "names = [one.name for one in walk_packages(pluto_fleet.__path__, 'pluto_fleet.')]\n"
-        "out = ('pluto_fleet.shared', 'pluto_fleet.cli.plot', 'pluto_fleet.files.sweep')\n"
+        "out = ('pluto_fleet.shared', 'pluto_fleet.cli.plot', 'pluto_fleet.files.sweep',\n"
+        "       'pluto_fleet.autopilot', 'pluto_fleet.mavlink.mavsdk_process')\n"
         "web = ('api', 'handlers', 'live', 'server')\n"
         "out = (*out, *(f'pluto_fleet.station.web.{one}' for one in web))\n"
         "for name in names:\n"
@@ -100,7 +101,9 @@ def test_every_module_that_needs_no_extra_can_be_imported(program: tuple[str, ..
 @pytest.mark.long
 def test_the_program_says_its_version(program: tuple[str, ...]) -> None:
     done = subprocess.run([*program, "--version"], capture_output=True, text=True, check=True)
-    assert done.stdout.endswith("\nextras: not installed: areas, crazyflie, plot, station\n")
+    assert done.stdout.endswith(
+        "\nextras: not installed: areas, crazyflie, mavlink, plot, station\n"
+    )
 
 
 @pytest.mark.long
