@@ -18,8 +18,8 @@ from typing import Self
 
 LOOK = 0.01
 """The sampling interval, in seconds."""
-LOOKS = 5
-"""This many in a row are 50 ms."""
+LOOKS = 10
+"""This many in a row are 100 ms: a machine with much else to do holds a loop up for 50, too."""
 _IDLE = ("select", "poll", "_run_once", "run_forever")
 """The functions in which an idle loop is."""
 
