@@ -2,7 +2,7 @@
 
     python benchmarks/following.py
 
-One simulated Crazyflie, flown through cflib behind a gateway, follows somebody who walks around three corners of a
+One simulated Crazyflie, flown through cflib behind a gateway, follows a person who walks around three corners of a
 hall, at several speeds, for a minute each: twice a second it is told where that person will be in a second, by the last
 two reports. In virtual time. Of the distance on the ground, every 0.05 s from when it has caught up, the median and the 95th percentile,
 and for which share of the time it was slower than a third of the person. Ends with 1 if it was farther than `reach`, half
@@ -104,7 +104,7 @@ async def flying(home: Point, folder: Path) -> AsyncIterator[Flying]:
 
 
 async def followed(speed: float, folder: Path) -> Figures:
-    """Follow somebody at this speed."""
+    """Follow a person at this speed."""
     walks = Mover(name="t1", kind="person", path=(*PATH,), speed=speed, repeat=True)
     async with flying((2.0, 7.0, 0.0), folder) as drone:
         await drone.asked.do(drone.link.goes("cf1", (*PATH[0], 1.2)))
@@ -140,7 +140,7 @@ async def _followed(drone: Flying, walks: Mover) -> Figures:
 def main() -> int:
     """Print a row for each speed."""
     argparse.ArgumentParser(
-        description="How near a Crazyflie stays to somebody who walks."
+        description="How near a Crazyflie stays to a person who walks."
     ).parse_args()
     print("| it walks at, m/s | metres away: median | 95 % | hardly moves |")
     print("| ---: | ---: | ---: | ---: |")

@@ -19,7 +19,7 @@ from tempfile import mkdtemp
 from pluto_fleet.crtp import process
 from tests.apart import apart
 from tests.flights_crazyflie.flight import Flight
-from tests.flights_crazyflie.judge import badly_ended, unmeant
+from tests.flights_crazyflie.judge import badly_ended, not_as_meant, unmeant
 from tests.flights_crazyflie.plans import RETRY, SIZE, homes, plan, quick_package, write
 from tests.flights_crazyflie.scenarios import SCENARIOS, Scenario
 from tests.kill.lives import PATIENCE, eventually
@@ -89,12 +89,7 @@ def _unrefused(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
 def _wrong(scenario: Scenario, flight: Flight, code: int) -> Iterator[str]:
     """Yield what is wrong with a flight that has ended."""
     yield from badly_ended(flight, code, scenario.code)
-    reasons = [event["reason"] for event in flight.events if event["event"] == "trip.failed"]
-    flight.notes.extend(dict.fromkeys(reasons))
-    if scenario.fails and not any(re.search(scenario.fails, reason) for reason in reasons):
-        yield f"no trip has failed with {scenario.fails!r}"
-    if not scenario.fails and reasons:
-        yield "a trip has failed"
+    yield from not_as_meant(flight, scenario.fails)
     yield from unmeant(flight.commands, flight.trace, SIZE, tuple(scenario.falls))
 
 

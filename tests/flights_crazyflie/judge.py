@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import time
 from bisect import bisect_left, bisect_right
 from collections import defaultdict
@@ -108,6 +109,16 @@ def unmeant(
     least, who = nearest(trace)
     if least < APART:
         yield f"{least:.2f} m apart: {who}"
+
+
+def not_as_meant(flight: Flight, fails: str) -> Iterator[str]:
+    """Note why trips have failed; yield what is wrong with that: none may, or one must with this reason."""
+    reasons = [event["reason"] for event in flight.events if event["event"] == "trip.failed"]
+    flight.notes.extend(dict.fromkeys(reasons))
+    if fails and not any(re.search(fails, reason) for reason in reasons):
+        yield f"no trip has failed with {fails!r}"
+    if not fails and reasons:
+        yield "a trip has failed"
 
 
 def badly_ended(flight: Flight, code: int, meant: int = 0) -> Iterator[str]:

@@ -162,7 +162,7 @@ def _told(package: Package, rng: Random) -> list[tuple[float, str, dict[str, Any
 
 
 def _tell(living: Living, event: str, facts: dict[str, Any]) -> None:
-    if living.lives:  # else nobody hears it
+    if living.lives:  # a dead one hears nothing
         with suppress(BadInput):  # all is over
             living.life.control.raise_event(event, facts)
 

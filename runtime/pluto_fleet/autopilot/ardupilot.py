@@ -80,8 +80,7 @@ class ArduPilot(Vehicle):
         super().__init__(build, limits, parameters)
         self.mode = STABILIZE
         self._speed = limits.level
-        self._armed_at = 0.0
-        self._beyond = self._lost = False
+        self._lost = False
 
     @property
     def mode_number(self) -> int:
@@ -99,7 +98,6 @@ class ArduPilot(Vehicle):
                 self.tell(mavlink.MAV_SEVERITY_CRITICAL, f"Arm: {why}")
                 return FAILED
             self.arm()
-            self._armed_at = self.now
             return ACCEPTED
         if self.flies and forced != FORCED:
             return FAILED
@@ -168,9 +166,7 @@ class ArduPilot(Vehicle):
     # ArduCopter/events.cpp
 
     def watch(self) -> None:
-        idle = self.now - self._armed_at > self.value("DISARM_DELAY")
-        if not self.has_flown and self.doing is not Doing.TAKE_OFF and idle:
-            self.disarm()
+        self.disarm_if_idle(self.value("DISARM_DELAY"))
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "EKF Failsafe: changed to LAND Mode")
         self._watch_fence()
@@ -197,16 +193,15 @@ class ArduPilot(Vehicle):
     def _watch_fence(self) -> None:
         acts = {1: Doing.RETURN, 2: Doing.LAND}
         act = acts.get(int(self.value("FENCE_ACTION")))
-        was_beyond = self._beyond
-        self._beyond = self._is_beyond(self.here)
-        if act is not None and self._beyond and not was_beyond:
+        leaves = self.leaves(self._is_beyond(self.here))
+        if act is not None and leaves:
             self.fail_safe(act, "Fence Breached")
 
     # What it flies
 
     def steer(self) -> None:
         body = self.body
-        x, y, z = body.at
+        z = body.at[2]
         body.limits.level = self._speed
         body.limits.down = self.value("WPNAV_SPEED_DN") / 100
         if self.doing is Doing.TAKE_OFF and abs(z - body.goal[2]) < 0.1 and body.speed < 0.2:
@@ -216,16 +211,8 @@ class ArduPilot(Vehicle):
                 body.limits.down = self.value("LAND_SPEED") / 100
             body.goal = (*body.goal[:2], -1.0)
         elif self.doing is Doing.RETURN:
-            body.goal = self._homewards(x, y, z)
-
-    def _homewards(self, x: float, y: float, z: float) -> Metres:
-        """Return the next point of the way home: ArduCopter/mode_rtl.cpp, without a cone."""
-        back = self.value("RTL_ALT") / 100
-        if hypot(x, y) > 2.0:  # WPNAV_RADIUS
-            rises = z < back - 0.5 and self.body.goal[:2] != (0.0, 0.0)
-            return (*self.body.goal[:2], back) if rises else (0.0, 0.0, max(z, back))
-        self.switch(Doing.LAND)
-        return 0.0, 0.0, z
+            # ArduCopter/mode_rtl.cpp, with the usual WPNAV_RADIUS
+            body.goal = self.homewards(self.value("RTL_ALT") / 100, 2.0)
 
     def landed_mode(self) -> None:
         """Keep the mode: it must be changed before it is armed again."""

@@ -1,19 +1,8 @@
-"""Simulated vehicles in a process of their own, which outlives the program that flies them, as real ones would.
-
-It ends when all are on the ground and nobody speaks to them for a while. When it is started again, they stand where they
-were, behind the same port if that is still free.
-"""
+"""Simulated vehicles in a process of their own; what it keeps is the state of each, and their port."""
 
 from __future__ import annotations
 
-import asyncio
-import fcntl
 import json
-import os
-import signal
-import subprocess
-import sys
-import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
@@ -24,29 +13,21 @@ from typing import Any
 import msgspec
 
 from ..geodesy import LocalPlane
-from ..process import locks, respawn
-from ..process.forked import deaf, in_children, not_for_children
-from ..process.ipc import NotRunning, answering, ask, listening
+from ..process.simulator import Simulator
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
 from .server import Server, let
 from .vehicle import Build, Vehicle
 
-NOTE = "autopilot"
 VEHICLES = "autopilot.json"
 FLEET = "autopilot-fleet.json"
-LOCK = "autopilot.lock"
-LOG = "autopilot.log"
-"""The files in its folder; NOTE has the address for `ask`."""
-COMMAND = "autopilot"
+"""The files in its folder."""
 
-GATEWAY_LOCK = "lock"
-"""The lock file of the flight's gateway in this folder."""
-_IDLE = 60.0
-"""Seconds without a vehicle in the air and without a packet, after which it ends."""
-_PATIENCE = 10.0
-"""The time-out of a start or an answer, in seconds."""
-_LOOK = 1.0
+_SIMULATOR = Simulator("autopilot", "simulated vehicles")
+uris_in = _SIMULATOR.uris_in
+end = _SIMULATOR.end
+told = _SIMULATOR.told
+"""Asks for `fault` with `drone`, `name` and `value`; `join`, `state`, and what all are asked."""
 
 Point = tuple[float, float, float]
 
@@ -66,12 +47,6 @@ class SimulatedFleet:
     """Seconds on the ground from empty to full; None: they do not charge."""
 
 
-_STARTED: dict[Path, subprocess.Popen[bytes]] = {}
-"""The processes started by this one, by folder; reaped by `end`."""
-
-_FOR_APPS = "autopilot: an app starts this by itself when it flies; there is nothing to do by hand"
-
-
 def start(
     folder: Path, fleet: SimulatedFleet, command: Sequence[str] | None = None
 ) -> dict[str, str]:
@@ -83,84 +58,17 @@ def start(
     folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     write_whole(folder / FLEET, msgspec.json.encode(fleet).decode())
     with suppress(BadInput):
-        if list(uris_in(folder)) == list(fleet.homes)[: len(uris_in(folder))]:
+        uris = uris_in(folder)
+        if list(uris) == list(fleet.homes)[: len(uris)]:
             told(folder, "join")
             return uris_in(folder)
         end(folder)  # it has other vehicles
-    words = [*(command or respawn.library(COMMAND)), str(folder)]
-    process = respawn.start(words, folder / LOG)
-    _STARTED[folder] = process
-    until = time.monotonic() + _PATIENCE
-    while time.monotonic() < until and process.poll() is None:
-        with suppress(NotRunning):
-            return uris_in(folder)
-        time.sleep(0.01)
-    raise BadInput(f"the simulated vehicles did not start; what they said is in {folder / LOG}")
-
-
-def uris_in(folder: Path) -> dict[str, str]:
-    """Return the vehicles' URIs; raise `BadInput` if none run for this folder."""
-    uris: dict[str, str] = json.loads(told(folder, "uris"))
-    return uris
-
-
-def told(folder: Path, do: str, **more: object) -> str:
-    """Send a request to the simulated vehicles of a folder; raise `BadInput` if it is refused.
-
-    `fault` with `drone`, `name` and `value`; `join`, `state`, `uris`, `end`.
-    """
-    return ask(folder / NOTE, {"do": do, **more}, _PATIENCE)
-
-
-def end(folder: Path) -> None:
-    """End the simulated vehicles of a folder, if there are any."""
-    until = time.monotonic() + _PATIENCE
-    with suppress(BadInput):
-        while time.monotonic() < until:
-            told(folder, "end")
-            time.sleep(0.02)
-    process = _STARTED.pop(folder, None)
-    if process is not None:
-        process.wait(_PATIENCE)
+    return _SIMULATOR.start(folder, command)
 
 
 def main(arguments: Sequence[str]) -> int:
     """Run the simulated vehicles of a folder until they are not needed."""
-    folder = Path(*arguments[:1])
-    if len(arguments) != 1 or not os.path.isfile(folder / FLEET):
-        print(_FOR_APPS, file=sys.stderr)
-        return 2
-    with (folder / LOCK).open("a") as lock:
-        not_for_children(lock.fileno())
-        fcntl.flock(lock, fcntl.LOCK_EX)  # another one is ending
-        asyncio.run(_run(folder))
-    return 0
-
-
-async def _run(folder: Path) -> None:
-    desk = _Desk(folder)
-    over = desk.over
-    for number in (signal.SIGTERM, signal.SIGINT):
-        asyncio.get_running_loop().add_signal_handler(number, over.set)
-    no_more = in_children(deaf)
-    signal.signal(signal.SIGHUP, signal.SIG_IGN)
-    server = desk.server
-    await server.start(desk.port)
-    try:
-        async with listening(folder / NOTE, answering(desk.answer)):
-            while not over.is_set():
-                desk.keep()
-                # while this folder's gateway runs, vehicles on the ground are still asked how they are
-                is_flown = locks.is_taken(folder / GATEWAY_LOCK)
-                if server.quiet > _IDLE and not server.airborne and not is_flown:
-                    break
-                with suppress(TimeoutError):
-                    async with asyncio.timeout(_LOOK):
-                        await over.wait()
-    finally:
-        no_more()
-        await server.close()
-        desk.keep()
+    return _SIMULATOR.main(arguments, FLEET, _Desk)
 
 
 class _Desk:
@@ -168,9 +76,8 @@ class _Desk:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self.over = asyncio.Event()
         kept = _kept(folder)
-        self.port = int(kept.get("port", 0))
+        self._port = int(kept.get("port", 0))
         self.server = Server()
         self._join(kept.get("vehicles", {}))
 
@@ -190,15 +97,13 @@ class _Desk:
             east, north, _ = known.get("at", (0.0, 0.0, 0.0))
             vehicle.body.at[:] = [east, north, 0.0]  # those in the air have fallen meanwhile
 
+    async def start(self) -> None:
+        await self.server.start(self._port)
+
     async def answer(self, request: Mapping[str, object]) -> str:
         match request:
-            case {"do": "uris"}:
-                return json.dumps(self.server.uris)
             case {"do": "state"}:
                 return json.dumps(self._state())
-            case {"do": "end"}:
-                self.over.set()
-                return "it ends"
             case {"do": "join"}:
                 self._join({})
                 return "they are there"
@@ -217,6 +122,10 @@ class _Desk:
     def keep(self) -> None:
         with suppress(OSError):
             write_whole(self._folder / VEHICLES, json.dumps(self._state()))
+
+    async def close(self) -> None:
+        await self.server.close()
+        self.keep()
 
     def _state(self) -> dict[str, Any]:
         vehicles = {id: _told(vehicle) for id, vehicle in self.server.vehicles.items()}

@@ -5,12 +5,12 @@ Each behaviour names the source of PX4 that it follows; parameters have the valu
 
 from __future__ import annotations
 
-from math import hypot, inf, isfinite
+from math import inf, isfinite
 from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from .body import Limits, Metres
+from .body import Limits
 from .vehicle import (
     ACCEPTED,
     BUSY,
@@ -74,8 +74,6 @@ class Px4(Vehicle):
         self.disarms_after = self.value("COM_DISARM_LAND")
         self._rises_to: float | None = None
         """The height above home of the take-off that is wanted."""
-        self._armed_at = 0.0
-        self._beyond = False
 
     # commander/Commander.cpp, handle_command
 
@@ -89,7 +87,6 @@ class Px4(Vehicle):
                 self.tell(mavlink.MAV_SEVERITY_CRITICAL, f"Arming denied: {why}")
                 return BUSY
             self.arm()
-            self._armed_at = self.now
             return ACCEPTED
         if self.flies and forced != FORCED:
             self.tell(mavlink.MAV_SEVERITY_CRITICAL, "Disarming denied: not landed")
@@ -153,9 +150,7 @@ class Px4(Vehicle):
     # commander/failsafe/failsafe.cpp
 
     def watch(self) -> None:
-        idle = self.now - self._armed_at > self.value("COM_DISARM_PRFLT")
-        if not self.has_flown and self.doing is not Doing.TAKE_OFF and idle:
-            self.disarm()
+        self.disarm_if_idle(self.value("COM_DISARM_PRFLT"))
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "Failsafe activated: no position, it descends")
         elif self.doing is not Doing.LAND:
@@ -170,9 +165,8 @@ class Px4(Vehicle):
     def _watch_fence(self) -> None:
         acts = {2: Doing.HOLD, 3: Doing.RETURN, 5: Doing.LAND}
         act = acts.get(int(self.value("GF_ACTION")))
-        was_beyond = self._beyond
-        self._beyond = self.is_beyond(self.here, self._highest)
-        if act is not None and self._beyond and not was_beyond:
+        leaves = self.leaves(self.is_beyond(self.here, self._highest))
+        if act is not None and leaves:
             self.fail_safe(act, "Failsafe activated: geofence breached")
 
     def _watch_battery(self) -> None:
@@ -197,7 +191,7 @@ class Px4(Vehicle):
 
     def steer(self) -> None:
         body = self.body
-        x, y, z = body.at
+        z = body.at[2]
         body.limits.up = self.value("MPC_Z_V_AUTO_UP")
         body.limits.down = self.value("MPC_Z_V_AUTO_DN")
         if self.doing is Doing.TAKE_OFF and self._rises_to is not None:
@@ -211,13 +205,4 @@ class Px4(Vehicle):
             body.goal = (body.goal[0], body.goal[1], -1.0)
         elif self.doing is Doing.RETURN:
             body.limits.level = self.value("MPC_XY_CRUISE")
-            body.goal = self._homewards(x, y, z)
-
-    def _homewards(self, x: float, y: float, z: float) -> Metres:
-        """Return the next point of the way home: navigator/rtl.cpp, without a cone."""
-        back = self.value("RTL_RETURN_ALT")
-        if hypot(x, y) > 0.5:
-            rises = z < back - 0.5 and self.body.goal[:2] != (0.0, 0.0)
-            return (*self.body.goal[:2], back) if rises else (0.0, 0.0, max(z, back))
-        self.switch(Doing.LAND)
-        return 0.0, 0.0, z
+            body.goal = self.homewards(self.value("RTL_RETURN_ALT"), 0.5)  # navigator/rtl.cpp

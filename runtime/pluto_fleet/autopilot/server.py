@@ -9,6 +9,7 @@ from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from ..process.simulator import listen
 from .ardupilot import ArduPilot
 from .px4 import Px4
 from .station_link import StationLink
@@ -94,14 +95,8 @@ class Server(asyncio.DatagramProtocol):
 
     async def start(self, port: int = 0) -> None:
         """Listen at a port; at any free one for 0, or one that is taken."""
-        loop = asyncio.get_running_loop()
-        self.talked = loop.time()
-        try:
-            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, port))
-        except OSError:
-            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, 0))
-        self._transport, _ = made
-        self.port = self._transport.get_extra_info("sockname")[1]
+        self.talked = asyncio.get_running_loop().time()
+        self._transport, self.port = await listen(self, HOST, port)
         self._ticking = asyncio.create_task(self._tick())
 
     @property

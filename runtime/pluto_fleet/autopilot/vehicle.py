@@ -139,6 +139,8 @@ class Vehicle:
         self.body = Body(limits)
         self.doing = Doing.HOLD
         self.armed = self.has_flown = False
+        self._armed_at = 0.0
+        self._was_beyond = False
         self.charge = 1.0
         self.faults = Faults()
         self.record = Record()
@@ -247,6 +249,21 @@ class Vehicle:
         around = [self.plane.to_metres((*corner, self.build.home[2]))[:2] for corner in self.fence]
         return z > highest or (bool(around) and not inside((x, y), tuple(around)))
 
+    def leaves(self, is_beyond: bool) -> bool:
+        """Return whether it has left its fence since the last look."""
+        was_beyond = self._was_beyond
+        self._was_beyond = is_beyond
+        return is_beyond and not was_beyond
+
+    def homewards(self, height: float, near: float) -> Metres:
+        """Return the next point of the way home: up to a height, over home, and then down; without a cone."""
+        x, y, z = self.body.at
+        if hypot(x, y) > near:
+            rises = z < height - 0.5 and self.body.goal[:2] != (0.0, 0.0)
+            return (*self.body.goal[:2], height) if rises else (0.0, 0.0, max(z, height))
+        self.switch(Doing.LAND)
+        return 0.0, 0.0, z
+
     @property
     def here(self) -> Metres:
         x, y, z = self.body.at
@@ -258,6 +275,13 @@ class Vehicle:
     def arm(self) -> None:
         self.armed = True
         self.has_flown = False
+        self._armed_at = self.now
+
+    def disarm_if_idle(self, seconds: float) -> None:
+        """Disarm if it has not begun to fly for so long since it was armed."""
+        waits = not self.has_flown and self.doing is not Doing.TAKE_OFF
+        if waits and self.now - self._armed_at > seconds:
+            self.disarm()
 
     def disarm(self) -> None:
         self.armed = False

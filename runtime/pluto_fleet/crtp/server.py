@@ -9,6 +9,7 @@ from math import dist
 from random import Random
 from typing import Any
 
+from ..process.simulator import listen
 from ..shared.alone.world import World
 from .commander import STOP, hover
 from .drone import EMPTY_WORLD, Build, SimulatedCrazyflie
@@ -114,14 +115,8 @@ class Endpoint(asyncio.DatagramProtocol):
 
     async def listen(self, port: int) -> None:
         """Listen at a port; at any free one for 0 or one that is taken."""
-        loop = asyncio.get_running_loop()
-        self.talked = loop.time()
-        try:
-            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, port))
-        except OSError:
-            made = await loop.create_datagram_endpoint(lambda: self, local_addr=(HOST, 0))
-        self._transport, _ = made
-        self.port = self._transport.get_extra_info("sockname")[1]
+        self.talked = asyncio.get_running_loop().time()
+        self._transport, self.port = await listen(self, HOST, port)
 
     def close(self) -> None:
         if self._transport is not None:

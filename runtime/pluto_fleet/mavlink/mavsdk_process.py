@@ -1,7 +1,7 @@
 """The process in which MAVSDK runs, apart from the gateway: it decides nothing, and passes on what is asked and told.
 
 It is a process of its own as MAVSDK aborts the one in which it is destroyed at the wrong moment, and as its heartbeats
-go on while ours hangs: a vehicle would believe that somebody watches it. So this process ends when the gateway says
+go on while ours hangs: a vehicle would believe that a ground station watches it. So this process ends when the gateway says
 nothing for a while, and the vehicles' own failsafes act.
 
 Lines of JSON: it is asked on its standard input, and answers and tells on its standard output.

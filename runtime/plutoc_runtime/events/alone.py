@@ -33,7 +33,7 @@ class EventDrones(IdealDrones):
         due = super().due
         if not self.world.movers or due == inf:
             return due
-        # nobody looks while no drone does anything: the next look may be overdue
+        # no look is taken while no drone does anything: the next one may be overdue
         return min(due, max(self._clock.now, self._seen + TRACKED))
 
     def advance(self) -> dict[str, Any]:

@@ -12,9 +12,9 @@ from pluto_fleet.crtp.drone import EMPTY_WORLD, Build, SimulatedCrazyflie
 from pluto_fleet.crtp.equipment import fitted
 from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.logs import quantities
-from pluto_fleet.crtp.process import GATEWAY_LOCK
 from pluto_fleet.gateway.process import LOCK
 from pluto_fleet.process import locks
+from pluto_fleet.process.simulator import GATEWAY_LOCK
 from pluto_fleet.shared.alone.world import World
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.fleet_data import Source, WorldData

@@ -35,7 +35,7 @@ MAP = Airspace(size=(50.0, 20.0), ceiling=10.0)
 
 
 async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
-    """A command ends when somebody else takes the vehicle over; nothing is said against that."""
+    """A command ends when a pilot takes the vehicle over; nothing is said against that."""
     let(vehicle, "parameter RTL_RETURN_ALT", 4)
     going = await setting_out(flies, vehicle)
     let(vehicle, "pilot", "return")
@@ -150,7 +150,7 @@ async def on_the_way(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
 
 
 async def restarted(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
-    """One that fell does not take off before somebody has looked after it, even if it says that it is well."""
+    """One that fell does not take off before a person has looked after it, even if it says that it is well."""
     going = await setting_out(flies, vehicle)
     let(vehicle, "reboot", True)
     with pytest.raises(Crashed, match="its motors stopped"):
@@ -165,7 +165,7 @@ async def restarted(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
 
 
 async def slow(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
-    """One that is heard late, as by a telemetry radio, flies, and keeps nobody else from being heard."""
+    """One that is heard late, as by a telemetry radio, flies, and keeps no other from being heard."""
     let(vehicle, "late", 0.3)
     await flies.connect()
     await flies.takeoff(3.0, 1.0)
@@ -174,9 +174,11 @@ async def slow(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
 
 
 async def twin(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
-    """Where two tell that they are one, neither takes off: nobody could say which flies where."""
+    """Where two tell that they are one, neither takes off: which flies where is not known."""
     await flies.connect()
-    await asyncio.sleep(2.0)
+    async with asyncio.timeout(10.0):
+        while not await flies.preflight():
+            await asyncio.sleep(0.05)  # until their places have jumped often enough
     with pytest.raises(NotReady, match="several vehicles tell that they are this one: give each"):
         await flies.takeoff(3.0, 1.0)
     assert not vehicle.armed
@@ -283,7 +285,7 @@ async def _scanned() -> tuple[list[str], list[str]]:
 
 
 def test_heartbeats_end_with_those_of_the_gateway() -> None:
-    """A gateway that hangs must not look to vehicles as if somebody watched them."""
+    """A gateway that hangs must not look to vehicles like a ground station that watches them."""
     pytest.importorskip("mavsdk")
     process = subprocess.Popen(
         respawn.library("mavsdk"),
