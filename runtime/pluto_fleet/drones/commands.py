@@ -151,7 +151,7 @@ async def go_to(vehicle: Vehicle, command: GoTo, turns: bool = False) -> None:
                 flies.cancel()
                 await asyncio.wait((flies,))
             if not flies.cancelled():
-                flies.exception()  # who was cancelled asks for it no more
+                flies.exception()  # looked at here: the caller was cancelled, and asks no more
         if not turned.done() or (not flies.cancelled() and flies.exception() is not None):
             return flies.result()
         command = turned.result()

@@ -132,7 +132,7 @@ class Company(Part):
         trip = flight.trip
         works: dict[str, Coroutine[Any, Any, Failed | None]] = {}
         if along := along_of(trip):
-            works["what is along"] = self._along(state, flight, along, recorded)
+            works["action along the way"] = self._along(state, flight, along, recorded)
         if track := track_of(trip):
             works[f"pursuit of {track}"] = self._pursue(state, flight)
         if not works:
