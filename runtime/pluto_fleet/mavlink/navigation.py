@@ -69,7 +69,9 @@ _LANDING = 600.0
 _HOLDING = 30.0
 _CUTTING = 3.0
 _RECENTLY = 5.0
-"""Seconds within which a text says why its motors stopped."""
+"""Seconds within which a text says why its motors stopped, or why it acts by itself."""
+_REASON = 0.2
+"""Seconds within which a text follows what it is the reason of."""
 
 
 class MavlinkVehicle:
@@ -95,7 +97,7 @@ class MavlinkVehicle:
         self._obeys = False
         """What it was told last, when its mode was last one of that, and whether it has been since."""
         self._by_itself = ""
-        """What it does by itself, if it does."""
+        """The mode that it has taken by itself, if it has, with why."""
         self._fence_given = False
         self._mixed = False
         self._parameters: dict[str, float] = {}
@@ -256,7 +258,7 @@ class MavlinkVehicle:
             except Rejected as error:
                 raise LinkLost(f"{self._id} does not answer a command: {error}") from None
             if result != ACCEPTED:
-                await asyncio.sleep(0.2)  # its reason may follow
+                await asyncio.sleep(_REASON)
                 said = self._state.since(began) or ANSWERS.get(result, f"it answers {result}")
                 raise Rejected(f"{self._id} refuses a command: {said}")
 
@@ -386,10 +388,12 @@ class MavlinkVehicle:
         self._since = 0.0
 
         def look(_: DroneTelemetry) -> bool:
-            self._refuse_if_by_itself()
-            return done()
+            return bool(self._by_itself) or done()
 
         await self._reports.until(look, seconds)
+        if mode := self._by_itself:
+            await asyncio.sleep(_REASON)
+            raise self._acts(self._by_itself or mode)
 
     def _watch_mode(self) -> None:
         """Notice a mode that it has taken by itself, as a failsafe or a pilot does: our orders end there."""
@@ -407,14 +411,21 @@ class MavlinkVehicle:
             self._agreed = now
             self._obeys = True
         elif (self._obeys or now - self._agreed > _SETTLES) and not self._by_itself:
-            said = state.since(now - _RECENTLY)
-            mode = self._known_make.mode_name(state.mode)
-            self._by_itself = f"it is in the mode {mode}{f' ({said})' if said else ''}"
+            self._by_itself = f"it is in the mode {self._known_make.mode_name(state.mode)}"
+            asyncio.get_running_loop().call_later(_REASON, self._tell_by_itself, now)
+
+    def _tell_by_itself(self, began: float) -> None:
+        if self._by_itself:
+            said = self._state.since(began - _RECENTLY)
+            self._by_itself += f" ({said})" if said else ""
             self._reports.happened(ACTS_BY_ITSELF, self._by_itself)
 
     def _refuse_if_by_itself(self) -> None:
         if self._by_itself:
-            raise Rejected(f"{self._id} acts by itself: {self._by_itself}")
+            raise self._acts(self._by_itself)
+
+    def _acts(self, why: str) -> Rejected:
+        return Rejected(f"{self._id} acts by itself: {why}")
 
     def _is_at(self, target: Point) -> bool:
         position = self._state.position
