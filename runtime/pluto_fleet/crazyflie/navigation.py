@@ -8,6 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from math import inf
 
+from ..drones.battery_gauge import BatteryGauge
 from ..drones.protocol import (
     LINK_LOST,
     ActionNotDone,
@@ -39,7 +40,7 @@ from .following import follow
 from .options import options_of
 from .preflight import firmware_facts
 from .session import CrazyflieSession
-from .state import AlarmDetector, BatteryGauge, State
+from .state import LOW_POWER, AlarmDetector, State
 
 _AWAY = 4.0
 """The time-out of closing links, in seconds."""
@@ -127,7 +128,8 @@ class Crazyflie:
 
     def told(self, state: State) -> None:
         self._state = state
-        self._battery.hear(state)
+        is_low = state.power == LOW_POWER
+        self._battery.hear(state.time, state.volts, flies=state.flies, is_low=is_low)
         for event in self._alarms.hear(state):
             self._events.put_nowait(event)
 

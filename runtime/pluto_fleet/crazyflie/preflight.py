@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterator, Mapping
-from math import ceil
 
+from ..drones.battery_gauge import BatteryGauge
 from ..shared.domain.text import number, quoted
 from . import messages, parameters
 from .flying import DEFAULT_LIMIT, speed_limits_of
 from .options import CrazyflieOptions
 from .session import CrazyflieSession
-from .state import FULLEST, SETTLED_FOR, BatteryGauge, State
+from .state import SETTLED_FOR, State
 
 _DECK = "deck."
 _SETTLING = 1.5
@@ -86,14 +86,9 @@ def _of_state(state: State) -> Iterator[str]:
 
 
 def _of_battery(state: State, battery: BatteryGauge, options: CrazyflieOptions) -> Iterator[str]:
-    rest = battery.cell(state) if battery.rest is None else battery.rest
-    if rest > FULLEST:
-        volts = rest * options.cells
-        have = "one cell has" if options.cells == 1 else f"{options.cells} cells have"
-        yield (
-            f"its battery has {volts:.2f} V, more than {have}: say in the fleet file how many it has,"
-            f" such as cells = {ceil(volts / FULLEST)}"
-        )
+    rest = state.volts / battery.cells if battery.rest is None else battery.rest
+    if battery.problem is not None:
+        yield battery.problem
     elif not state.flies and rest < options.least_voltage:
         each = "" if options.cells == 1 else " in each cell"
         least = options.least_voltage

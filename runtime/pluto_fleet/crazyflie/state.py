@@ -2,10 +2,6 @@
 
 With beacons the variance of its estimate is small, and grows when they are lost. With only a flow deck, which
 measures relative movement, it is never small: then it counts that the variance is steady.
-
-Under load the voltage of a small battery drops by some tenths of a volt, which at rest would mean much less
-charge. The level follows from the voltage at rest; in the air the drop is added, which is measured anew at
-each take-off, as batteries age.
 """
 
 from __future__ import annotations
@@ -14,10 +10,9 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import dist, inf, isfinite, radians
-from statistics import fmean
 
+from ..drones.battery_gauge import LOW
 from ..drones.protocol import BATTERY_LOW, CRASHED, LOCKED, POSITION_LOST, DroneEvent
-from ..lithium import SAG, level_at
 from ..shared.domain.model import Point
 from . import messages
 
@@ -192,76 +187,6 @@ class PositionConfidence:
 
     def _is_long(self) -> bool:
         return bool(self._told) and self._told[-1][0] - self._told[0][0] >= SETTLED_FOR
-
-
-_LEAST = 0.05
-_MOST = 0.6
-"""The bounds of the voltage drop of hovering, which is the usual one until it is measured."""
-_SETTLED = 1.0
-_MEASURED = 3.0
-"""Seconds after take-off, between which the drop is measured."""
-_SMOOTH = 1.0
-"""Seconds over which the voltage in the air is averaged."""
-LOW = 3.2
-"""Volts of a cell in the air at which it must come down. At 3.0 some builds switch off."""
-FULLEST = 4.5
-"""A voltage that no cell has: there must be more cells than assumed."""
-_LAST = 0.02
-"""The level at that voltage."""
-
-
-class BatteryGauge:
-    """The charge of one drone's battery."""
-
-    def __init__(self, cells: int = 1) -> None:
-        self.cells = cells
-        """The number of cells in series, whose total voltage is measured."""
-        self.level = 0.0
-        """From 0 to 1."""
-        self.rest: float | None = None
-        """The last voltage of a cell without load; None: not measured yet."""
-        self._sag = SAG
-        self._sags = list[float]()
-        self._smooth: float | None = None
-        self._time = self._since = 0.0
-        self._flew = False
-
-    def cell(self, state: State) -> float:
-        return state.volts / self.cells
-
-    def hear(self, state: State) -> None:
-        """Update by a new state."""
-        volts = self.cell(state)
-        if not volts > 0.0:
-            return
-        passed = state.time - self._time
-        self._time = state.time
-        if not state.flies:
-            self.rest = volts
-            self._flew = False
-            self._smooth = None
-            self.level = level_at(volts)
-            return
-        if not self._flew:
-            self._flew = True
-            self._since = state.time
-            self._sags = []
-        if self._smooth is None:
-            self._smooth = volts
-        share = min(1.0, passed / _SMOOTH)
-        self._smooth += (volts - self._smooth) * share
-        self._measure(state, volts)
-        if self.rest is None or state.time - self._since > _MEASURED:
-            self.level = level_at(self._smooth + self._sag)
-        if state.power == LOW_POWER or self._smooth < LOW:
-            self.level = min(self.level, _LAST)  # whatever the gauge says
-
-    def _measure(self, state: State, volts: float) -> None:
-        """Measure the voltage drop in the first seconds of a flight."""
-        if self.rest is None or not _SETTLED <= state.time - self._since <= _MEASURED:
-            return
-        self._sags.append(self.rest - volts)
-        self._sag = min(_MOST, max(_LEAST, fmean(self._sags)))
 
 
 LOW_FOR = 3.0

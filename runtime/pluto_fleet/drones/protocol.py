@@ -7,11 +7,11 @@ lines, and `conformance` tests any.
 The rules for all commands:
 
 - They are coroutines on asyncio's event loop, and *return when it is done*: on arrival by the
-  drone's telemetry (0.1 m), hovering, landed. A command that returns earlier lets an app do its action
-  somewhere else.
+  drone's telemetry (within 0.1 m indoors, within half a metre by satellites), hovering, landed. A command
+  that returns earlier lets an app do its action somewhere else.
 - They *raise one `NavigationError` per failure* (below), as soon as it is known: a drone that is
-  silent for more than a second during a command is `LinkLost`, one that fell is `Crashed`, one that
-  answers but does not arrive is `TargetTimeout`. None waits without a limit.
+  silent for longer than `DroneSetup.silence` during a command is `LinkLost`, one that fell is `Crashed`, one
+  that answers but does not arrive is `TargetTimeout`. None waits without a limit.
 - They *refuse what they cannot do before anything moves*, and never do something like it instead. A
   target that is no finite number or below the ground is `OutsideArea`, a speed that is not above 0
   is `Rejected`.
@@ -53,7 +53,7 @@ class NavigationError(Exception):
 
 
 class LinkLost(NavigationError):
-    """It does not answer, or has sent nothing for more than a second.
+    """It does not answer, or has sent nothing for longer than it may.
 
     Its position is unknown; it is reconnected, and flown home if it still hovers.
     """

@@ -71,7 +71,7 @@ def is_deep_inside(point: tuple[float, float], area: Polygon, error: float = TOL
 _BETWEEN_LANDINGS = 1.0
 """Seconds until a landing is tried again."""
 _CLEARANCE = 0.5
-"""Metres from other drones at which one lands that may not land below."""
+"""Metres from other drones at which one lands that may not land below, besides what its position may be off."""
 
 
 async def land_by_itself(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -> None:
@@ -91,7 +91,8 @@ async def _down(vehicle: Vehicle, airspace: Airspace, others: Sequence[Point]) -
     if vehicle.position_lost:
         await vehicle.hover()
     elif is_over_no_fly(airspace, here):
-        x, y, _ = free_spot(airspace, here, others, _CLEARANCE)
+        clearance = _CLEARANCE + _ERRORS * vehicle.drone.category.motion.slack
+        x, y, _ = free_spot(airspace, here, others, clearance)
         try:
             await fly(vehicle, (x, y, min(max(here[2], _CLEARANCE), airspace.ceiling)))
         except FlightFailed as error:

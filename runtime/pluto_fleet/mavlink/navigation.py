@@ -11,6 +11,7 @@ from math import dist, inf
 from typing import Any
 from urllib.parse import quote
 
+from ..drones.battery_gauge import BatteryGauge
 from ..drones.protocol import (
     ACTS_BY_ITSELF,
     LINK_LOST,
@@ -84,7 +85,7 @@ class MavlinkVehicle:
         self._reports = Reports(setup)
         self._has_stood_at_home = setup.folder / f"{quote(setup.id, safe='')}.stood-at-home"
         """Is there once it was where its home is on the map: from then on it may land elsewhere, and go on from there."""
-        self._state = VehicleState(setup.plane, setup.home[2])
+        self._state = self._unknown()
         self._make: Make | None = None
         self._client: MavsdkClient | None = None
         self._number = 0
@@ -110,7 +111,7 @@ class MavlinkVehicle:
     async def connect(self) -> None:
         """Find its autopilot, and wait until it has told where it is and how it is."""
         await self._part()
-        self._state = VehicleState(self._setup.plane, self._setup.home[2])
+        self._state = self._unknown()
         self._make = None
         self._mixed = False
         address = self._address
@@ -140,6 +141,12 @@ class MavlinkVehicle:
         while time.monotonic() - began < _KNOWN and not (state.is_well and state.cameras):
             await asyncio.sleep(0.05)  # its health is told once a second, and its camera asked for
         self._tell()
+
+    def _unknown(self) -> VehicleState:
+        """Return the state of one of which nothing was heard."""
+        cells = self._options.cells
+        gauge = None if cells is None else BatteryGauge(cells)
+        return VehicleState(self._setup.plane, self._setup.home[2], gauge)
 
     @property
     def _address(self) -> VehicleAddress:

@@ -13,6 +13,7 @@ from ..shared.domain.text import quoted
 
 _Metres = Annotated[float, Meta(gt=0.0, le=20.0)]
 _Speed = Annotated[float, Meta(gt=0.0, le=20.0)]
+MOST_CELLS = 14
 
 
 class VehicleOptions(Struct, frozen=True, kw_only=True):
@@ -32,6 +33,8 @@ class VehicleOptions(Struct, frozen=True, kw_only=True):
     """Whether its autopilot is given the map as its fence, in place of the one that it has."""
     beyond: _Metres = 5.0
     """Metres by which that fence is farther out than the map, and higher than its ceiling."""
+    cells: Annotated[int, Meta(ge=1, le=MOST_CELLS)] | None = None
+    """The number of its battery's cells in series, by which its voltage says how full it is; None: only it says so itself."""
 
 
 _WANTED = {
@@ -42,6 +45,7 @@ _WANTED = {
     "addresses": 'a list of texts, such as ["mavlink+udp://:14550"]',
     "fence": "true or false",
     "beyond": "a number of metres above 0, at most 20",
+    "cells": f"a whole number from 1 to {MOST_CELLS}",
 }
 """What each must be, for people."""
 

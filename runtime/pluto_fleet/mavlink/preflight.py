@@ -24,6 +24,10 @@ TWINS = (
     "several vehicles tell that they are this one: give each a system id of its own, by MAV_SYS_ID (PX4) or"
     " SYSID_THISMAV (ArduPilot), and restart it"
 )
+_UNTOLD = (
+    "it does not tell how full its battery is: say in the fleet file how many cells that has, such as cells = 4, or"
+    " set BAT1_N_CELLS (PX4), or BATT_MONITOR and BATT_CAPACITY (ArduPilot), in its autopilot"
+)
 
 
 def problems(state: VehicleState, home: Point | None, options: VehicleOptions) -> list[str]:
@@ -41,7 +45,9 @@ def problems(state: VehicleState, home: Point | None, options: VehicleOptions) -
     if found and found[-1] == _HEALTH["is_armable"] and state.texts:
         found[-1] += f": {state.texts[-1][1]}"
     if state.battery is None:
-        found.append("it does not tell how full its battery is")
+        found.append(_UNTOLD)
+    elif state.gauge is not None and state.gauge.problem is not None:
+        found.append(state.gauge.problem)
     if state.position is not None and home is not None:
         x, y, _ = state.position
         away = hypot(x - home[0], y - home[1])

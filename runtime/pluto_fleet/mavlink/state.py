@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from math import hypot, isfinite, pi, radians
 from typing import Any
 
+from ..drones.battery_gauge import BatteryGauge
 from ..geodesy import Degrees, LocalPlane
 from ..shared.domain.model import Point
 from .makes import Place
@@ -35,6 +36,8 @@ class VehicleState:
     """None: the map is where the vehicle is first heard of."""
     ground: float
     """The height of its home on the map, in metres."""
+    gauge: BatteryGauge | None = None
+    """By what its voltage says how full its battery is, where it does not say so itself."""
     degrees: Degrees | None = None
     """Its latitude, longitude, and altitude above sea level."""
     position: Point | None = None
@@ -138,8 +141,13 @@ class VehicleState:
         volts = facts["volts"]
         percent = facts["percent"]
         self.volts = volts if volts is not None and isfinite(volts) else 0.0
-        known = percent is not None and isfinite(percent) and percent >= 0
-        self.battery = min(1.0, percent / 100) if known else None
+        if percent is not None and isfinite(percent) and percent >= 0:
+            self.battery = min(1.0, percent / 100)
+        elif self.gauge is not None and self.volts:
+            self.gauge.hear(time.monotonic(), self.volts, flies=self.flying)
+            self.battery = self.gauge.level
+        else:
+            self.battery = None
 
     def place(self, point: Point) -> Place:
         """Return a point of the map as it is told to an autopilot; raise `ValueError` if it is out of reach."""

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ...shared.domain.model import Point
 
 DRIFT = 0.3
-"""Metres that a drone may be off its place, or its route, before it is noticed."""
+"""Metres that a drone may be off its place, or its route, before it is noticed; at least its slack."""
 SINKS = 0.1
 """Metres below its hovering place, from which on a drone is taken to be descending."""
 
@@ -71,7 +71,8 @@ class Reservation:
         self.shoots = shoots
         self.until = until
         self.moves, self.fails = True, False
-        self.box = _widened(box_of((*points, *tail, *shoots) if tail or shoots else points))
+        around = box_of((*points, *tail, *shoots) if tail or shoots else points)
+        self.box = _widened(around, max(DRIFT, self.slack))
 
     def rests(self, tail: tuple[Point, ...], until: float) -> None:
         """Reserve the place where it hovers now."""
@@ -81,9 +82,18 @@ class Reservation:
         self._widen()
 
     def sinks(self) -> None:
-        """Reserve the space below it: it has failed, and may come down from where it is."""
-        self.points, self.at, self.tail = (self.telemetry.location,), 0, ()
-        self.moves, self.fails = False, True
+        """Reserve the space below it, and its leg with the space below: it has failed, and comes down or flies on.
+
+        A silent drone flies to where it was told to by its last command, and hovers there.
+        """
+        told = self.points[1:] if self.fails else ()
+        if self.moves:
+            told = self.points[self.at + 1 : self.at + 2]
+        self.points = (self.telemetry.location, *told)
+        self.at = 0
+        self.tail = ()
+        self.moves = False
+        self.fails = True
         self._widen()
 
     @property
@@ -112,7 +122,7 @@ class Reservation:
 
     def _widen(self) -> None:
         """Extend the box to where it may drift or sink before it is noticed."""
-        x, y, z, *most = _widened(box_of((*self.points, *self.tail)))
+        x, y, z, *most = _widened(box_of((*self.points, *self.tail)), max(DRIFT, self.slack))
         self.box = x, y, min(0.0, z), most[0], most[1], most[2]
 
     def shape(self, now: float) -> tuple[Point, ...]:
@@ -128,14 +138,21 @@ class Reservation:
         if self.moves:
             shoots = self.shoots if now < self.until else ()
             return (here, *self.points[self.at + 1 :], *self.tail, *shoots)
-        if self.fails or self.telemetry.location[2] < self.points[0][2] - SINKS:
-            return here, (here[0], here[1], 0.0)
+        if self.fails:
+            told = self.points[1:]
+            return here, _below(here), *(here for _ in told), *told, *map(_below, told)
+        if self.telemetry.location[2] < self.points[0][2] - SINKS:
+            return here, _below(here)
         return (here, *self.tail) if now < self.until else (here,)
 
 
-def _widened(box: Box) -> Box:
+def _below(point: Point) -> Point:
+    return point[0], point[1], 0.0
+
+
+def _widened(box: Box, by: float) -> Box:
     x, y, z, *most = box
-    return x - DRIFT, y - DRIFT, z - DRIFT, most[0] + DRIFT, most[1] + DRIFT, most[2] + DRIFT
+    return x - by, y - by, z - by, most[0] + by, most[1] + by, most[2] + by
 
 
 def part_way(a: Point, b: Point, part: float) -> Point:

@@ -34,7 +34,9 @@ ELDER = 20.0
 NEARER = 4.0
 """Seconds that a drone flies longer rather than act one step, by which drones are kept apart, farther from its target."""
 OVERSHOOT, STOPPING = 0.6, 2.0
-"""How far a real drone overshoots when it stops, in metres, and for how long."""
+"""How far a real drone overshoots when it stops, in metres, and for how long: at least, and a Crazyflie."""
+REACTS = 0.5
+"""Seconds for which a real drone flies on until it brakes."""
 _TARGETS, _WAYS = 100, 2_000
 """Of how many targets the places beside them are kept, and how many ways to such places."""
 _EXACT = 1e-9
@@ -66,7 +68,6 @@ class Traffic:
         """Whether drones are real: simulated ones stop at once."""
         self.level = self.step + (SWAY if self.is_real else 0.0)
         """The height between two ways of which one leads over the other."""
-        self._overshoot = OVERSHOOT if self.is_real else 0.0
         self._max_airborne = max_airborne
         most = len(drones) if max_airborne is None else max_airborne
         self.is_limited = most < len(drones)
@@ -161,7 +162,8 @@ class Traffic:
             self._space.drop(drone)
         else:
             claim = self._space.claim(drone)
-            claim.rests(claim.tail, self._kernel.now + STOPPING)
+            _, seconds = self._stopping(drone)
+            claim.rests(claim.tail, self._kernel.now + seconds)
         self._released(drone)
 
     def stopped(self, drone: str, fails: bool) -> None:
@@ -176,8 +178,9 @@ class Traffic:
         elif claim is None:
             self._space.claim(drone).rests((), 0.0)
         elif claim.moves:
-            tail = ahead(claim.shape(self._kernel.now), self._overshoot)
-            claim.rests(tail, self._kernel.now + STOPPING)
+            metres, seconds = self._stopping(drone)
+            tail = ahead(claim.shape(self._kernel.now), metres)
+            claim.rests(tail, self._kernel.now + seconds)
         self._released(drone)
 
     def _stop_before(self, drone: str) -> None:
@@ -206,11 +209,24 @@ class Traffic:
     def _shoots(self, drone: str, now: float) -> tuple[Point, ...]:
         """Return where a drone may shoot to that is on its way, or has not stopped yet."""
         claim = self._claims.get(drone)
-        if claim is None or not self._overshoot:
+        if claim is None or not self.is_real:
             return ()
         if claim.moves:
-            return ahead(claim.shape(now), self._overshoot)
+            metres, _ = self._stopping(drone)
+            return ahead(claim.shape(now), metres)
         return claim.tail if now < claim.until else ()
+
+    def _stopping(self, drone: str) -> tuple[float, float]:
+        """Return how many metres a drone overshoots when it stops, and for how many seconds."""
+        if not self.is_real:
+            return 0.0, STOPPING
+        category = self._drones[drone].category
+        speed = min(category.speed, category.motion.limit)
+        rate = category.motion.acceleration
+        if not rate:
+            return OVERSHOOT, STOPPING
+        metres = speed * (REACTS + speed / (2 * rate))
+        return max(OVERSHOOT, metres), max(STOPPING, REACTS + speed / rate)
 
     def wants_another(self, drone: str) -> bool:
         """Called when a drone that may wait for its section wants another; return whether it did."""
@@ -387,7 +403,8 @@ class Traffic:
 
     def _give(self, section: Section) -> Section:
         claim = self._space.claim(section.drone)
-        until = self._kernel.now + STOPPING if section.shoots else 0.0
+        _, seconds = self._stopping(section.drone)
+        until = self._kernel.now + seconds if section.shoots else 0.0
         claim.moves_along(section.points, section.tail, section.shoots, until)
         self._waiting.changed(claim)
         return section

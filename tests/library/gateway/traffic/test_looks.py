@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from pluto_fleet.gateway.traffic.legs import between, leaves
-from pluto_fleet.gateway.traffic.reservations import Reservation, part_way
+from pluto_fleet.gateway.traffic.reservations import Reservation, meets, part_way
 from pluto_fleet.gateway.traffic.traffic import AGAIN
 from pluto_fleet.gateway.traffic.wait_queue import HOVERS, Obstacle
 from pluto_fleet.shared.domain.airspace import Airspace
@@ -142,3 +142,19 @@ def test_who_has_not_come_to_a_stop_is_looked_at_when_it_has() -> None:
     obstacle.seen(((0.0, 0.0, 1.0), (1.0, 0.0, 1.0)), LIMIT, 0.0)
     assert obstacle.is_sure(1.9)
     assert not obstacle.is_sure(2.0)
+
+
+def test_one_that_falls_silent_keeps_the_leg_that_it_was_told_to_fly_and_no_further_one() -> None:
+    """Autopilots fly their last leg to its end without a ground station, and hover there until they land."""
+    telemetry = Seen((3.0, 0.0, 2.0))
+    claim = Reservation("one", telemetry)
+    claim.moves_along(((0.0, 0.0, 2.0), (10.0, 0.0, 2.0), (10.0, 10.0, 2.0)), ())
+    claim.sinks()
+    for _ in range(2):
+        shape = claim.shape(0.0)
+        assert shape[0] == telemetry.location
+        assert meets(shape, ((7.0, -1.0, 2.0), (7.0, 1.0, 2.0)), LIMIT)
+        assert meets(shape, ((10.0, 0.0, 0.5),), LIMIT)
+        assert meets(shape, ((3.0, 0.0, 0.5),), LIMIT)
+        assert not meets(shape, ((10.0, 5.0, 2.0),), LIMIT)
+        claim.sinks()

@@ -7,11 +7,12 @@ from math import dist, hypot
 
 import pytest
 
+from pluto_fleet.gateway.traffic.ways import Section
 from pluto_fleet.jobs.controls import FleetDrone
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.errors import Failure
 from pluto_fleet.shared.domain.model import Point
-from pluto_fleet.shared.domain.motion import CRAZYFLIE
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STEADY
 from pluto_fleet.shared.time.kernel import FLEET, Task
 from tests.library.gateway.flights import PILLS
 from tests.library.gateway.traffic.skies import ENDURING, Sky
@@ -277,3 +278,30 @@ def test_who_hovers_too_near_to_another_already_may_fly_away_from_it() -> None:
     sky.puts((5, 5, 1.2), (5.3, 5, 1.2))
     assert sky.until(sky.gives("cf1", (1, 5, 1.2)), 30)
     assert sky.at("cf1") == (1, 5, 1.2)
+
+
+def test_a_fast_drone_that_is_stopped_is_given_the_way_that_it_brakes_on() -> None:
+    """At 10 m/s and 3 m/s² that are some twenty metres."""
+    fast = replace(ENDURING, speed=10.0, motion=STEADY)
+    sky = Sky(
+        [(5, 50), (150, 5)], airspace=Airspace(size=(300, 100)), category=fast, apart=3.0, slack=0.7
+    )
+    sky.puts((5, 50, 10), (150, 5, 10))
+    sky.gives("cf1", (290, 50, 10))
+    sky.advance(8)
+    traffic = sky.gateway.traffic
+    assert traffic is not None
+    sky.commander.break_off("cf1")
+    sky.advance(0.2)
+    x = sky.at("cf1")[0]
+
+    def crosses(ahead: float) -> bool:
+        way = Section("cf2", ((x + ahead, 40, 10), (x + ahead, 60, 10)), False, False)
+        given = traffic.clear(way, lambda section: [section])
+        traffic.rests("cf2")
+        return given is not None
+
+    assert not crosses(15.0)
+    assert crosses(30.0)
+    sky.advance(5)
+    assert crosses(15.0)
