@@ -225,7 +225,7 @@ def drones_table(told: Sequence[DroneAnswer]) -> Iterator[str]:
                     one.asked.id if one.asked.known else "—",
                     one.asked.uri or "—",
                     *(one.facts.get(fact, "—") for fact in shown),
-                    *_state(heard(one)),
+                    *_state(one),
                     "; ".join(one.problems) or "ready",
                 )
             ]
@@ -249,19 +249,23 @@ def _data(one: DroneAnswer) -> dict[str, object]:
         "ready": not one.problems,
         "problems": list(one.problems),
         "voltage": None if telemetry is None else telemetry.voltage or None,
-        "battery_level": None if telemetry is None else telemetry.battery_level,
+        "battery_level": telemetry.battery_level if telemetry and telemetry.battery_told else None,
         "position": None if telemetry is None else list(telemetry.position),
         "flying": None if telemetry is None else telemetry.flying,
         "facts": dict(one.facts),
     }
 
 
-def _state(telemetry: DroneTelemetry | None) -> tuple[str, str]:
-    """Return its battery and where it is."""
+def _state(one: DroneAnswer) -> tuple[str, str]:
+    """Return its battery and where it is: on the Earth, if there is no map."""
+    telemetry = heard(one)
     if telemetry is None:
         return "—", "—"
-    level = percent(telemetry.battery_level)
+    level = percent(telemetry.battery_level) if telemetry.battery_told else "not told"
     battery = f"{telemetry.voltage:.2f} V, {level}" if telemetry.voltage else level
+    if one.asked.plane is None and one.degrees is not None:
+        latitude, longitude, _ = one.degrees
+        return battery, f"{latitude:.6f}, {longitude:.6f}"
     x, y, z = telemetry.position
     return battery, place((round(x, 2), round(y, 2), z))
 

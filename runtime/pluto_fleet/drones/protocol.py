@@ -148,9 +148,11 @@ class DroneTelemetry:
     voltage: float
     """The present voltage, or 0 if unknown."""
     battery_level: float
-    """The charge of the battery, from 0 to 1, corrected for its load; 1 if unknown."""
+    """The charge of the battery, from 0 to 1, corrected for its load; 1 for a drone that never tells it."""
     flying: bool
     """Whether it flies: from when it leaves the ground until its motors are off."""
+    battery_told: bool = True
+    """False: the level is not known yet, and stands for nothing."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

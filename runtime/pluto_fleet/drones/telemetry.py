@@ -52,17 +52,18 @@ class Reports:
         flying: bool,
         yaw: float = 0.0,
         voltage: float = 0.0,
-        battery_level: float = 1.0,
+        battery_level: float | None = 1.0,
         crashed: str = "",
     ) -> None:
-        """Take over a new state; `crashed` is the reason of a crash, or nothing."""
+        """Take over a new state; `crashed` is the reason of a crash, or nothing; no level: it is not known."""
         self.telemetry = DroneTelemetry(
             time=time.monotonic(),
             position=position,
             yaw=yaw,
             voltage=voltage,
-            battery_level=battery_level,
+            battery_level=battery_level or 0.0,
             flying=flying,
+            battery_told=battery_level is not None,
         )
         if crashed and not self.crashed:
             self.happened(CRASHED, crashed)

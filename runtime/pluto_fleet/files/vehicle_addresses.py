@@ -39,6 +39,11 @@ class VehicleAddress:
     uri: str
     """In its canonical form: all that it left out is there."""
 
+    @property
+    def place(self) -> str:
+        """The same without the system id: where all are that share the connection."""
+        return re.sub(r"[?&]system=\d+$", "", self.uri)
+
     def uri_of(self, system: int) -> str:
         """Return the uri of another vehicle behind the same connection."""
         return f"{self.uri.rpartition('=')[0]}={system}"

@@ -102,7 +102,8 @@ class MavlinkVehicle:
         self._fence_given = False
         self._mixed = False
         self._parameters: dict[str, float] = {}
-        """Those of `own_failsafes`, once they were read."""
+        self._was_asked = False
+        """Those of `own_failsafes`, and whether it was asked for them."""
         self._since = 0.0
         """Since when it has been where it is to be."""
 
@@ -116,14 +117,19 @@ class MavlinkVehicle:
         self._mixed = False
         address = self._address
         self._parameters = {}
+        self._was_asked = False
         self._fence_given = False
         self._client = client()
         self._number = self._client.join(self._hear)
         try:
             found = await self._ask("open", _FINDING, link=address.link, system=address.system)
         except LinkLost:
+            there = "nothing is heard there"
+            with suppress(NavigationError):
+                if heard := await self._ask("scan", _ANSWER, link=address.link, listens=0.0):
+                    there = f"heard there: {', '.join(map(str, heard))}"
             raise LinkLost(
-                f"{self._id}: no autopilot with the system id {address.system} answers at {address.link}"
+                f"{self._id}: no autopilot with the system id {address.system} at {address.place}; {there}"
             ) from None
         self._make = MAKES.get(found["make"])
         if self._make is None:
@@ -220,7 +226,7 @@ class MavlinkVehicle:
             flying=state.flying,
             yaw=state.yaw,
             voltage=state.volts,
-            battery_level=1.0 if state.battery is None else state.battery,
+            battery_level=state.battery,
             crashed=self._crashed,
         )
 
@@ -312,18 +318,26 @@ class MavlinkVehicle:
             for name, value in settings(make, height).items():
                 await self.write(name, value)
         except (ValueError, NavigationError) as error:
-            return f"it has no fence around the map: {error}"
+            return (
+                f"it has no fence around the map ({error}); fence = false in [navigation.mavlink] flies"
+                " without one"
+            )
         self._fence_given = True
         return None
 
     async def _read_failsafes(self) -> None:
-        """Read once what it does by itself, and say it; a parameter that it does not have is passed over."""
-        if self._parameters:
+        """Read once what it does by itself, and say it; a parameter that it does not have, or tell, is passed over."""
+        if self._was_asked:
             return
         make = self._known_make.name
         for name in own_failsafes.PARAMETERS[make]:
-            with suppress(Rejected):
+            try:
                 self._parameters[name] = await self._ask("read", _ANSWER, name=name)
+            except Rejected:
+                continue
+            except LinkLost:
+                break  # it tells none, or is not heard at all, which the next command says
+        self._was_asked = True
         does = own_failsafes.described(make, self._parameters, self._highest)
         said = ", ".join(f"{when}: {what}" for when, what in does.items())
         self._reports.happened("failsafes", f"what it does by itself: {said}")

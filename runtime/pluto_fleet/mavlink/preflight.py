@@ -25,8 +25,8 @@ TWINS = (
     " SYSID_THISMAV (ArduPilot), and restart it"
 )
 _UNTOLD = (
-    "it does not tell how full its battery is: say in the fleet file how many cells that has, such as cells = 4, or"
-    " set BAT1_N_CELLS (PX4), or BATT_MONITOR and BATT_CAPACITY (ArduPilot), in its autopilot"
+    "it does not tell how full its battery is: say how many cells that has in [navigation.mavlink], such as"
+    " cells = 4"
 )
 
 

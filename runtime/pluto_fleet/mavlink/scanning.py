@@ -27,7 +27,7 @@ async def scan(addresses: Sequence[str]) -> list[str]:
             try:
                 there = await desk.ask("scan", _WITHIN, link=place.link, listens=_LISTENS)
             except (LinkLost, Rejected) as error:  # another program may have it
-                refused.append(f"{place.link}: {error}")
+                refused.append(f"{place.place}: {error}")
                 continue
             found += [place.uri_of(system) for system in there]
     finally:

@@ -146,7 +146,7 @@ class VehicleState:
         elif self.gauge is not None and self.volts:
             self.gauge.hear(time.monotonic(), self.volts, flies=self.flying)
             self.battery = self.gauge.level
-        else:
+        elif not self.flying:  # in the air it is what it was, until it is told again
             self.battery = None
 
     def place(self, point: Point) -> Place:
