@@ -10,14 +10,11 @@ from . import Mission, Point, Results, Trip, Verdict
 
 QUANTITY = "pm10"
 
-REACH = 3.2
-"""Metres: samples further apart say nothing of what is between them."""
+FINEST = 1 / 3.2
+"""The part of a mission's reach from which on there is no need to look closer."""
 
-FINE = 1.0
-"""Metres: there is no need to look closer than this."""
-
-STEEP = 3.0
-"""µg/m³ a metre: less is flat."""
+FLAT = 9.6
+"""µg/m³ over its reach: a gradient must be steeper."""
 
 AT_ONCE, AT_MOST = 2, 4
 """Trips that one mission adds at a time, and altogether."""
@@ -57,14 +54,15 @@ def follow_gradients(mission: Mission, results: Results) -> Verdict:
         if isinstance(result.value, float)
     ]
     own = {trip.target for trip in mission.completed_trips}
+    fine = mission.reach * FINEST
     left = AT_MOST - sum(trip.added for trip in mission.completed_trips)
     chosen: list[Gradient] = []
     taken = {sample.point for sample in samples}
-    for gradient in gradients(samples):
+    for gradient in gradients(samples, mission.reach):
         if len(chosen) == min(AT_ONCE, left):
             break
         mine = gradient.low.point in own or gradient.high.point in own
-        if mine and all(dist(gradient.middle, point) >= FINE / 2 for point in taken):
+        if mine and all(dist(gradient.middle, point) >= fine / 2 for point in taken):
             chosen.append(gradient)
             taken.add(gradient.middle)
     if not chosen:
@@ -78,15 +76,15 @@ def follow_gradients(mission: Mission, results: Results) -> Verdict:
     )
 
 
-def gradients(samples: list[Sample]) -> list[Gradient]:
-    """Return the gradients between neighbouring samples, the steepest first, without flat ones."""
+def gradients(samples: list[Sample], reach: float) -> list[Gradient]:
+    """Return the gradients between samples within reach of each other, the steepest first, without flat ones."""
     found = []
     for one, other in combinations(samples, 2):
         metres = dist(one.point, other.point)
-        if FINE <= metres <= REACH:
+        if reach * FINEST <= metres <= reach:
             low, high = sorted((one, other), key=lambda sample: sample.value)
             found.append(Gradient((high.value - low.value) / metres, low, high))
-    return sorted((gradient for gradient in found if gradient.steepness >= STEEP), reverse=True)
+    return sorted((one for one in found if one.steepness >= FLAT / reach), reverse=True)
 
 
 def sampling(gradient: Gradient) -> Trip:

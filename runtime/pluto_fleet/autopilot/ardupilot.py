@@ -11,6 +11,7 @@ from typing import ClassVar
 from pymavlink.dialects.v20 import common as mavlink
 
 from .body import Limits, Metres
+from .equipment import Around, Gripper
 from .vehicle import (
     ACCEPTED,
     DENIED,
@@ -31,6 +32,8 @@ LAND = 9
 BRAKE = 17
 """ArduCopter/mode.h."""
 _HOLDS = {STABILIZE: Doing.HOLD, GUIDED: Doing.GO, LOITER: Doing.HOLD, BRAKE: Doing.HOLD}
+_SERVO_MOVES = 0.5
+"""Seconds: SERVO_ACTUATION_TIME of libraries/AP_Gripper/AP_Gripper_Servo.cpp."""
 _BY_NUMBER = {**_HOLDS, RTL: Doing.RETURN, LAND: Doing.LAND}
 
 
@@ -54,6 +57,8 @@ def _parameters() -> dict[str, Parameter]:
         "FENCE_ALT_MAX": Parameter(100.0),
         "FENCE_RADIUS": Parameter(300.0),
         "DISARM_DELAY": Parameter(10.0, whole=True),
+        "GRIP_ENABLE": Parameter(0.0, whole=True),
+        "GRIP_TYPE": Parameter(0.0, whole=True),
     }
 
 
@@ -68,8 +73,10 @@ class ArduPilot(Vehicle):
     }
     disarms_after = 1.0
 
-    def __init__(self, build: Build) -> None:
+    def __init__(self, build: Build, around: Around | None = None) -> None:
         parameters = _parameters()
+        for name in ("GRIP_ENABLE", "GRIP_TYPE"):
+            parameters[name].value = float(build.grips)
         limits = Limits(
             level=parameters["WPNAV_SPEED"].value / 100,
             up=parameters["WPNAV_SPEED_UP"].value / 100,
@@ -77,7 +84,8 @@ class ArduPilot(Vehicle):
             level_acceleration=parameters["WPNAV_ACCEL"].value / 100,
             upright_acceleration=1.0,
         )
-        super().__init__(build, limits, parameters)
+        gripper = Gripper(closed=None, moves_for=_SERVO_MOVES)
+        super().__init__(build, limits, parameters, gripper, around)
         self.mode = STABILIZE
         self._speed = limits.level
         self._lost = False
@@ -154,6 +162,22 @@ class ArduPilot(Vehicle):
         if asked.values[0] <= 0.5:
             return FAILED
         self.disarm()
+        return ACCEPTED
+
+    def grip(self, asked: Asked) -> int:
+        """Move the servo: handle_command_do_gripper, and libraries/AP_Gripper/AP_Gripper_Servo.cpp.
+
+        That is accepted at once, and nothing is told of when it has moved.
+        """
+        action = asked.values[1]
+        there = self.value("GRIP_ENABLE") and self.value("GRIP_TYPE") and not self.faults.slack
+        if not there or not isfinite(action) or int(action) not in (0, 1):
+            return FAILED
+        closes = int(action) == mavlink.GRIPPER_ACTION_GRAB
+        if self.gripper.wanted is not closes and self.gripper.closed is not closes:
+            self.gripper.move(closes, self.now)
+            does = "grabbing" if closes else "releasing"
+            self.tell(mavlink.MAV_SEVERITY_INFO, f"Gripper load {does}")
         return ACCEPTED
 
     def switch(self, doing: Doing) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,10 @@ import msgspec
 
 from ..geodesy import LocalPlane
 from ..process.simulator import Simulator
+from ..process.surroundings import NOTHING, Surroundings
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
+from .equipment import Around
 from .server import Server, let
 from .vehicle import Build, Vehicle
 
@@ -45,6 +47,9 @@ class SimulatedFleet:
     """Seconds in the air from full to empty."""
     charges: Mapping[str, float | None]
     """Seconds on the ground from empty to full; None: they do not charge."""
+    measures: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    """The names of the values that their companion computers tell, by quantity."""
+    surroundings: Surroundings = NOTHING
 
 
 def start(
@@ -78,7 +83,8 @@ class _Desk:
         self._folder = folder
         kept = _kept(folder)
         self._port = int(kept.get("port", 0))
-        self.server = Server()
+        fleet = self._fleet
+        self.server = Server(around=Around(fleet.surroundings, fleet.plane))
         self._join(kept.get("vehicles", {}))
 
     @property
@@ -141,6 +147,8 @@ def _build(fleet: SimulatedFleet, id: str, number: int, home: Point) -> Build:
         home=fleet.plane.to_degrees(home),
         flight=fleet.flights[id],
         charge=inf if charge is None else charge,
+        grips=True,
+        senses={name: quantity for quantity, name in fleet.measures.get(id, {}).items()},
     )
 
 
@@ -153,6 +161,7 @@ def _told(vehicle: Vehicle) -> dict[str, object]:
         "armed": vehicle.armed,
         "orders": record.orders,
         "photos": record.photos,
+        "grips": record.grips,
         "fell": record.fell,
         "landings": record.landings,
     }

@@ -11,11 +11,15 @@ from typing import ClassVar
 from pymavlink.dialects.v20 import common as mavlink
 
 from .body import Limits
+from .equipment import Around, Gripper
 from .vehicle import (
     ACCEPTED,
     BUSY,
+    CANCELLED,
     DENIED,
+    FAILED,
     FORCED,
+    IN_PROGRESS,
     Asked,
     Build,
     Doing,
@@ -54,6 +58,8 @@ def _parameters() -> dict[str, Parameter]:
         "GF_ACTION": Parameter(2.0, whole=True),
         "GF_MAX_VER_DIST": Parameter(0.0),
         "CBRK_FLIGHTTERM": Parameter(_UNBREAKABLE, whole=True),
+        "PD_GRIPPER_TYPE": Parameter(0.0, whole=True),
+        "PD_GRIPPER_TO": Parameter(1.0),
     }
 
 
@@ -61,8 +67,9 @@ class Px4(Vehicle):
     MAKE = mavlink.MAV_AUTOPILOT_PX4
     MODES: ClassVar = {doing: _AUTO << 16 | sub << 24 for doing, sub in _SUB_MODES.items()}
 
-    def __init__(self, build: Build) -> None:
+    def __init__(self, build: Build, around: Around | None = None) -> None:
         parameters = _parameters()
+        parameters["PD_GRIPPER_TYPE"].value = 0.0 if build.grips else -1.0
         limits = Limits(
             level=parameters["MPC_XY_CRUISE"].value,
             up=parameters["MPC_Z_V_AUTO_UP"].value,
@@ -70,7 +77,9 @@ class Px4(Vehicle):
             level_acceleration=parameters["MPC_ACC_HOR"].value,
             upright_acceleration=3.0,
         )
-        super().__init__(build, limits, parameters)
+        # it closes as it is switched on
+        gripper = Gripper(closed=True, moves_for=parameters["PD_GRIPPER_TO"].value)
+        super().__init__(build, limits, parameters, gripper, around)
         self.disarms_after = self.value("COM_DISARM_LAND")
         self._rises_to: float | None = None
         """The height above home of the take-off that is wanted."""
@@ -135,6 +144,29 @@ class Px4(Vehicle):
         if self.value("CBRK_FLIGHTTERM") != _UNBREAKABLE and asked.values[0] > 0.5:
             self.disarm()
         return ACCEPTED
+
+    # payload_deliverer/payload_deliverer.cpp, handle_vehicle_command
+
+    def grip(self, asked: Asked) -> int:
+        action = asked.values[1]
+        gripper = self.gripper
+        if self.value("PD_GRIPPER_TYPE") < 0 or self.faults.slack:
+            return FAILED
+        if not isfinite(action) or round(action) not in (0, 1):
+            return DENIED
+        closes = round(action) == mavlink.GRIPPER_ACTION_GRAB
+        if gripper.wanted is closes:
+            return BUSY
+        if gripper.wanted is not None:
+            self.done.append((asked.command, CANCELLED))
+        elif gripper.closed is closes:
+            return ACCEPTED
+        gripper.moves_for = self.value("PD_GRIPPER_TO")
+        gripper.move(closes, self.now)
+        return IN_PROGRESS
+
+    def gripped(self) -> None:
+        self.done.append((mavlink.MAV_CMD_DO_GRIPPER, ACCEPTED))
 
     def switch(self, doing: Doing) -> int:
         if self.faults.blind and doing is not Doing.LAND:

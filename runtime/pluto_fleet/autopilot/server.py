@@ -11,6 +11,7 @@ from pymavlink.dialects.v20 import common as mavlink
 
 from ..process.simulator import listen
 from .ardupilot import ArduPilot
+from .equipment import Around
 from .px4 import Px4
 from .station_link import StationLink
 from .vehicle import Build, Doing, Faults, Vehicle
@@ -21,7 +22,10 @@ _TICK = 0.02
 _LONGEST = 0.5
 """Seconds of motion at most in one step: a stopped process is no long flight."""
 
-MAKES: Mapping[str, Callable[[Build], Vehicle]] = {"px4": Px4, "ardupilot": ArduPilot}
+MAKES: Mapping[str, Callable[[Build, Around | None], Vehicle]] = {
+    "px4": Px4,
+    "ardupilot": ArduPilot,
+}
 
 Value = float | bool | str
 Address = tuple[str | Any, int]
@@ -72,7 +76,8 @@ def let(vehicle: Vehicle, name: str, value: Value) -> None:
 class Server(asyncio.DatagramProtocol):
     """The vehicles, and their socket."""
 
-    def __init__(self, builds: Sequence[Build] = ()) -> None:
+    def __init__(self, builds: Sequence[Build] = (), around: Around | None = None) -> None:
+        self._around = around
         self._transport: asyncio.DatagramTransport | None = None
         self._clients: dict[Address, float] = {}
         """Who has spoken, and when last."""
@@ -88,7 +93,7 @@ class Server(asyncio.DatagramProtocol):
 
     def join(self, build: Build) -> Vehicle:
         """Have one more vehicle."""
-        vehicle = MAKES[build.make](build)
+        vehicle = MAKES[build.make](build, self._around)
         self.vehicles[build.id] = vehicle
         self._links[build.id] = StationLink(vehicle, partial(self._send, vehicle))
         return vehicle

@@ -14,7 +14,9 @@ from .vehicle import (
     ALL,
     AUTOPILOT,
     CAMERA,
+    COMPANION,
     DENIED,
+    IN_PROGRESS,
     READY,
     SATELLITES,
     SENSORS,
@@ -36,6 +38,8 @@ _CAN = (
     | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
     | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
 )
+_UNKNOWN = 255
+"""Of a command in progress: how far it is."""
 _USUAL = {
     mavlink.MAVLINK_MSG_ID_SYS_STATUS: 1.0,
     mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: 2.0,
@@ -45,10 +49,12 @@ _USUAL = {
     mavlink.MAVLINK_MSG_ID_HOME_POSITION: 2.0,
 }
 """Seconds between two messages of a PX4 that was not asked otherwise; an ArduPilot sends none of them then."""
-FOCAL = 4.5
+_SENSES = 0.5
+"""Seconds between two values of a sensor."""
+FOCAL = 3.875
 SENSOR = (6.2, 4.65)
 PIXELS = (4000, 3000)
-"""Millimetres of its camera, and the size of its pictures."""
+"""Millimetres of its camera, which sees as much as those of other simulations, and the size of its pictures."""
 
 
 class StationLink:
@@ -60,13 +66,15 @@ class StationLink:
         system = vehicle.build.system
         self._writers = {
             component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
-            for component in (AUTOPILOT, CAMERA)
+            for component in (AUTOPILOT, CAMERA, COMPANION)
         }
         self._begin()
         self._coming: list[tuple[float, float] | None] = []
         """The corners of a fence that is being sent."""
         self._captured = 0.0
         """The number of the last capture that was asked for."""
+        self._asked_by: dict[int, tuple[int, int]] = {}
+        """Who has asked for what is in progress: the system and the component, by the command."""
         self._make: dict[int, Callable[[], Any]] = {
             mavlink.MAVLINK_MSG_ID_SYS_STATUS: self._status,
             mavlink.MAVLINK_MSG_ID_BATTERY_STATUS: self._battery,
@@ -83,7 +91,7 @@ class StationLink:
         self._every: dict[int, float] = dict(_USUAL) if px4 else {}
         """Seconds between two messages, by their number."""
         self._due = dict.fromkeys(self._every, 0.0)
-        self._beat = self._spoke = 0.0
+        self._beat = self._spoke = self._sensed = 0.0
 
     # Telling
 
@@ -101,6 +109,12 @@ class StationLink:
             if now >= self._due[number]:
                 self._due[number] = now + every
                 self._put(self._make[number]())
+        if now >= self._sensed:
+            self._sensed = now + _SENSES
+            self._values()
+        for command, result in vehicle.done:
+            self._put(self._answer(command, result, self._asked_by.get(command, (0, 0))))
+        vehicle.done.clear()
         for severity, text in vehicle.said:
             self._put(self._of().statustext_encode(severity, text.encode()[:50]))
         vehicle.said.clear()
@@ -126,6 +140,20 @@ class StationLink:
         invalid = mavlink.MAV_AUTOPILOT_INVALID
         beat = self._of(CAMERA).heartbeat_encode(mavlink.MAV_TYPE_CAMERA, invalid, 0, 0, 0)
         self._put(beat, CAMERA)
+        if vehicle.build.senses:
+            kind = mavlink.MAV_TYPE_ONBOARD_CONTROLLER
+            beat = self._of(COMPANION).heartbeat_encode(kind, invalid, 0, 0, 0)
+            self._put(beat, COMPANION)
+
+    def _values(self) -> None:
+        """Tell what the sensors read."""
+        vehicle = self.vehicle
+        if vehicle.around is None or vehicle.faults.numb:
+            return
+        for name, quantity in vehicle.build.senses.items():
+            value = vehicle.around.measure(quantity, vehicle.place, vehicle.now)
+            told = self._of(COMPANION).named_value_float_encode(self._boot, name.encode(), value)
+            self._put(told, COMPANION)
 
     @property
     def _boot(self) -> int:
@@ -241,21 +269,22 @@ class StationLink:
         else:
             result = self._of_autopilot(asked)
             component = AUTOPILOT
+        by = message.get_srcSystem(), message.get_srcComponent()
         if result is not None:
-            answer = self._of(component).command_ack_encode(
-                asked.command,
-                result,
-                0,
-                0,
-                message.get_srcSystem(),
-                message.get_srcComponent(),
-            )
-            self._put(answer, component)
+            self._put(self._answer(asked.command, result, by, component), component)
+        if result == IN_PROGRESS:
+            self._asked_by[asked.command] = by
         if asked.command == mavlink.MAV_CMD_IMAGE_START_CAPTURE and result == ACCEPTED:
             number = asked.values[3]  # of the capture: a command that comes again has the same
             if not number or number != self._captured:
                 self._put(self._picture(), CAMERA)
             self._captured = number
+
+    def _answer(
+        self, command: int, result: int, to: tuple[int, int], component: int = AUTOPILOT
+    ) -> Any:
+        progress = _UNKNOWN if result == IN_PROGRESS else 0
+        return self._of(component).command_ack_encode(command, result, progress, 0, *to)
 
     def _of_autopilot(self, asked: Asked) -> int | None:
         number = int(asked.values[0]) if isfinite(asked.values[0]) else -1
@@ -314,7 +343,9 @@ class StationLink:
             x, y, z = vehicle.body.at
             vehicle.record.photos.append((x, y, z))
             vehicle.images += 1
-        latitude, longitude, altitude = vehicle.place
+        place = vehicle.place
+        latitude, longitude, altitude = place
+        sight = "" if vehicle.around is None else vehicle.around.sight(place, vehicle.now)
         return self._of(CAMERA).camera_image_captured_encode(
             self._boot,
             int(vehicle.now * 1e6),
@@ -326,7 +357,7 @@ class StationLink:
             (1.0, 0.0, 0.0, 0.0),
             vehicle.images - 1,
             int(taken),
-            f"mftp:///{vehicle.build.id}-{vehicle.images}.jpg".encode(),
+            f"mftp:///{vehicle.build.id}-{vehicle.images}.jpg{sight}".encode(),
         )
 
     # Its fence

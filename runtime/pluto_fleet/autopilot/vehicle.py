@@ -17,9 +17,11 @@ from pymavlink.dialects.v20 import common as mavlink
 from ..geodesy import Degrees, LocalPlane
 from ..shared.domain.airspace import inside
 from .body import Body, Limits, Metres
+from .equipment import Around, Gripper
 
 AUTOPILOT = 1
 CAMERA = mavlink.MAV_COMP_ID_CAMERA
+COMPANION = mavlink.MAV_COMP_ID_ONBOARD_COMPUTER
 """The components of a vehicle."""
 
 ACCEPTED: int = mavlink.MAV_RESULT_ACCEPTED
@@ -27,6 +29,9 @@ BUSY: int = mavlink.MAV_RESULT_TEMPORARILY_REJECTED
 DENIED: int = mavlink.MAV_RESULT_DENIED
 FAILED: int = mavlink.MAV_RESULT_FAILED
 UNSUPPORTED: int = mavlink.MAV_RESULT_UNSUPPORTED
+IN_PROGRESS: int = mavlink.MAV_RESULT_IN_PROGRESS
+CANCELLED = 6
+"""MAV_RESULT_CANCELLED, which pymavlink does not have."""
 
 FORCED = 21196.0
 """The second parameter of a command to disarm that is meant even in the air."""
@@ -76,6 +81,10 @@ class Faults:
     """Metres a second to the east by which the wind takes it along."""
     blank: bool = False
     """Its camera takes no picture."""
+    slack: bool = False
+    """Its gripper cannot be moved."""
+    numb: bool = False
+    """Its sensors tell nothing."""
     unready: str = ""
     """Why it will not arm."""
 
@@ -93,6 +102,10 @@ class Build:
     """Seconds in the air from full to empty."""
     charge: float = inf
     """Seconds on the ground from empty to full."""
+    grips: bool = False
+    """Whether it has a gripper, and is set up for it."""
+    senses: Mapping[str, str] = field(default_factory=dict)
+    """The quantities that its companion computer tells, by the names of the values."""
 
 
 @dataclass(slots=True)
@@ -121,6 +134,8 @@ class Record:
 
     orders: list[str] = field(default_factory=list)
     photos: list[Metres] = field(default_factory=list)
+    grips: list[bool] = field(default_factory=list)
+    """What its gripper has done: closed, or opened."""
     fell: bool = False
     landings: int = 0
 
@@ -132,8 +147,17 @@ class Vehicle:
     MODES: ClassVar[Mapping[Doing, int]]
     """The number of each mode, as heartbeats have it."""
 
-    def __init__(self, build: Build, limits: Limits, parameters: dict[str, Parameter]) -> None:
+    def __init__(
+        self,
+        build: Build,
+        limits: Limits,
+        parameters: dict[str, Parameter],
+        gripper: Gripper,
+        around: Around | None,
+    ) -> None:
         self.build = build
+        self.gripper = gripper
+        self.around = around
         self.parameters = parameters
         self.plane = LocalPlane(*build.home)
         self.body = Body(limits)
@@ -153,6 +177,8 @@ class Vehicle:
         """Latitudes and longitudes of the corners of what it must not leave; none: it may fly anywhere."""
         self.said: list[tuple[int, str]] = []
         """Texts to be sent, with their severity."""
+        self.done: list[tuple[int, int]] = []
+        """Answers to be sent about commands that were in progress: the command, and a MAV_RESULT."""
         self.commands: dict[int, Callable[[Asked], int]] = {
             mavlink.MAV_CMD_COMPONENT_ARM_DISARM: self.arm_or_disarm,
             mavlink.MAV_CMD_NAV_TAKEOFF: self.take_off,
@@ -162,6 +188,7 @@ class Vehicle:
             mavlink.MAV_CMD_DO_SET_MODE: self.set_mode,
             mavlink.MAV_CMD_DO_CHANGE_SPEED: self.change_speed,
             mavlink.MAV_CMD_DO_FLIGHTTERMINATION: self.terminate,
+            mavlink.MAV_CMD_DO_GRIPPER: self.grip,
             mavlink.MAV_CMD_SET_MESSAGE_INTERVAL: lambda _: ACCEPTED,
         }
 
@@ -187,6 +214,12 @@ class Vehicle:
 
     def terminate(self, asked: Asked) -> int:
         raise NotImplementedError
+
+    def grip(self, asked: Asked) -> int:
+        raise NotImplementedError
+
+    def gripped(self) -> None:
+        """Tell that the gripper is where it was to be."""
 
     def switch(self, doing: Doing) -> int:
         raise NotImplementedError
@@ -316,6 +349,9 @@ class Vehicle:
         if hypot(east, north) > 0.5:
             body.heading = atan2(east, north)
         self._charge(seconds)
+        if self.gripper.arrives(self.now):
+            self.record.grips.append(bool(self.gripper.closed))
+            self.gripped()
         if self.doing is Doing.LAND and self.armed and not self.high:
             self._touch_down()
         elif self.high:

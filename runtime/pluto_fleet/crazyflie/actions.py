@@ -15,6 +15,7 @@ from math import radians, tan
 from pathlib import Path
 from struct import Struct
 
+from ..drones.equipment import no_gripper, no_source, quantity_of
 from ..drones.protocol import ActionNotDone, PositionLost, Rejected
 from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
 from ..shared.domain.model import Photo
@@ -101,14 +102,10 @@ def why_not(
     """Return why it cannot do an action, or None; its firmware's variables are known once it is connected."""
     cf = None if session is None or session.lost else session.cf
     if action == MEASURE:
-        quantity = _quantity(parameters_)
+        quantity = quantity_of(parameters_)
         name = options.variable_of(quantity)
         if name is None:
-            has = f"it measures {', '.join(options.measure)}; " if options.measure else ""
-            return (
-                f"{drone} cannot measure {quoted(quantity)}: {has}name its log variable in the fleet"
-                f' file: measure = {{ {quantity} = "group.name" }}'
-            )
+            return no_source(drone, options.measure, quantity, "log variable", "group.name")
         if cf is not None and not logs.has(cf, name):
             return messages.no_variable(drone, name)
         return None
@@ -121,10 +118,8 @@ def why_not(
         )
     if action in (PICK, RELEASE):
         if options.grip is None:
-            return (
-                f"{drone} cannot pick or release: name the parameter of its gripper in the fleet file:"
-                ' grip = { parameter = "gripper.closed", pick = 1, release = 0 }'
-            )
+            such_as = '{ parameter = "gripper.closed", pick = 1, release = 0 }'
+            return no_gripper(drone, "the parameter of its gripper", such_as)
         name = options.grip.parameter
         if cf is not None and parameters.element_of(cf, name) is None:
             return messages.no_parameter(drone, name)
@@ -147,7 +142,7 @@ async def act(
     await _check_place(session)
     try:
         if action == MEASURE:
-            name = options.variable_of(_quantity(parameters_))
+            name = options.variable_of(quantity_of(parameters_))
             assert name is not None  # else there is a reason why not
             value = await readings.mean(name, options.measure_seconds)
             await _check_place(session)
@@ -172,10 +167,6 @@ async def _check_place(session: CrazyflieSession) -> None:
     variance = session.confidence.variance
     if session.doubts and variance is not None:
         raise PositionLost(messages.lost_its_place(session.drone, variance))
-
-
-def _quantity(parameters_: Mapping[str, Plain]) -> str:
-    return str(parameters_.get("quantity", "temperature"))
 
 
 def ground(options: CrazyflieOptions, height: float) -> tuple[float, float]:

@@ -8,13 +8,15 @@ from math import sqrt
 from sys import float_info
 from typing import Annotated, Any
 
-from msgspec import Meta, Struct, ValidationError, convert
+from msgspec import Meta, Struct
 from msgspec.structs import replace
 
+from ..drones.equipment import source_of
+from ..drones.options import bad_option, read_options
 from ..files.addresses import USUAL, radio_bytes
 from ..shared.domain.actions import BUILT_IN, PICK
 from ..shared.domain.errors import BadInput
-from ..shared.domain.text import number, quoted
+from ..shared.domain.text import number
 
 _LONGEST = 10.0
 _CELLS = 6
@@ -23,8 +25,6 @@ SURE_WITHIN = 0.07
 """Metres: with radio beacons (Loco) it is sure to five centimetres, with others to two."""
 LOST_BEYOND = sqrt(0.05)
 """Metres, about 0.22: three times the largest deviation while it receives its beacons."""
-ANY_OTHER = "*"
-"""The key in `measure` for all quantities that are not named there."""
 
 _Number = Annotated[float, Meta(ge=-float_info.max, le=float_info.max)]
 _NotNegative = Annotated[float, Meta(ge=0.0, le=float_info.max)]
@@ -49,7 +49,7 @@ class CrazyflieOptions(Struct, frozen=True, kw_only=True):
     """The validated options."""
 
     measure: dict[str, _Name] = {}
-    """The log variable of each quantity that can be measured; ANY_OTHER: of all others."""
+    """The log variable of each quantity that can be measured; `ANY_OTHER`: of all others."""
     measure_seconds: _NotNegative = 1.0
     """Seconds over which a measurement is averaged."""
     camera: tuple[str, _Port] | None = None
@@ -76,7 +76,7 @@ class CrazyflieOptions(Struct, frozen=True, kw_only=True):
 
     def variable_of(self, quantity: str) -> str | None:
         """Return the log variable of a quantity; None: it has none."""
-        return self.measure.get(quantity, self.measure.get(ANY_OTHER))
+        return source_of(self.measure, quantity)
 
 
 _METRES = f"a number of metres above 0, at most {_LONGEST:g}"
@@ -101,9 +101,6 @@ _WANTED = {
 
 def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
     """Read the options; raise `BadInput` with the key that is invalid."""
-    for key in given:
-        if key not in _WANTED:
-            raise BadInput(f"a Crazyflie has no option {quoted(key)}; it has {', '.join(_WANTED)}")
     read: dict[str, Any] = dict(given)
     for key in ("decks", "addresses", "udp"):
         if isinstance(read.get(key), str):
@@ -112,21 +109,15 @@ def options_of(given: Mapping[str, object]) -> CrazyflieOptions:
         host, _, port = read["camera"].rpartition(":")
         is_port = host and re.fullmatch("[0-9]{1,5}", port)
         read["camera"] = [host.strip("[]"), int(port)] if is_port else ()
-    try:
-        options = convert(read, CrazyflieOptions)
-    except ValidationError as error:
-        key = re.split(r"[`.\[]", str(error).rpartition("`$.")[2])[0]
-        raise _bad(key, _WANTED[key]) from error
+    options = read_options(read, CrazyflieOptions, _WANTED, "a Crazyflie")
     if "lost_beyond" not in given:
         options = replace(options, lost_beyond=max(LOST_BEYOND, options.sure_within))
     if options.lost_beyond < options.sure_within:
-        raise _bad("lost_beyond", f"at least sure_within, which is {number(options.sure_within)}")
+        raise bad_option(
+            "lost_beyond", f"at least sure_within, which is {number(options.sure_within)}"
+        )
     try:
         addresses = tuple(radio_bytes(one).hex().upper() for one in options.addresses)
     except ValueError as error:
         raise BadInput(f"its option addresses: {error}") from error
     return replace(options, addresses=addresses)
-
-
-def _bad(key: str, wanted: str) -> BadInput:
-    return BadInput(f"its option {key} must be {wanted}")

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from enum import IntEnum
 from functools import partial
 
+from ..process.surroundings import quantities_in
 from ..shared.alone.world import World
 from .battery import CarriedBody
 from .body import Body
@@ -214,5 +215,5 @@ def variables(
 
 def quantities(world: World) -> dict[str, str]:
     """Return the log variables of what there is to measure in a world, by its names."""
-    there = sorted({*world.background, *(source.quantity for source in world.sources)})
-    return {quantity: f"sim.quantity{number}" for number, quantity in enumerate(there)}
+    there = enumerate(quantities_in(world))
+    return {quantity: f"sim.quantity{number}" for number, quantity in there}

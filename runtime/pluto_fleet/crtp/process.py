@@ -7,18 +7,15 @@ import json
 import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
 from ..process.simulator import Simulator
+from ..process.surroundings import NOTHING, Surroundings
 from ..process.whole_file import write_whole
-from ..shared.domain.airspace import Airspace
 from ..shared.domain.errors import BadInput
-from ..shared.domain.fleet_data import WorldData
-from ..shared.events.world import MovingWorld
 from .battery import CHARGE, FLIGHT
 from .drone import Build, SimulatedCrazyflie
 from .equipment import camera, port_of, tracker
@@ -38,22 +35,6 @@ told = _SIMULATOR.told
 Battery = tuple[float, float]
 """The seconds from full to empty in the air, and from empty to full on the pad."""
 USUAL: Battery = FLIGHT, CHARGE
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Surroundings:
-    """What there is to measure around simulated drones."""
-
-    seed: int = 0
-    data: WorldData = field(default_factory=WorldData)
-
-    @property
-    def world(self) -> MovingWorld:
-        """The same as simulated drones of a gateway are in."""
-        return MovingWorld(self.seed, Airspace(), self.data)
-
-
-NOTHING = Surroundings()
 
 
 def start(

@@ -15,6 +15,7 @@ from ..gateway.settings import Settings, joining_data, settings_for
 from ..gateway.starting import connect
 from ..journal.place import gateway_folder
 from ..process import respawn
+from ..shared.domain.actions import MEASURE
 from ..shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from ..files.fleet import FleetFile
     from ..jobs.link import Link
     from ..process.realtime import RealTime
+    from ..process.surroundings import Surroundings
     from .config import FlightSetup
 
 
@@ -85,12 +87,29 @@ class GatewayAccess:
             for kind in (kinds[drone.category],)
         }
 
+    def _surroundings(self, fleet: FleetFile) -> Surroundings:
+        """Return what there is around simulated drones, as the fleet file says or the seed has it."""
+        from ..process.surroundings import Surroundings  # rarely needed
+        from ..shared.alone.world import invented
+
+        seed = self._flight.seed
+        data = invented(seed, fleet.airspace) if fleet.world is None else fleet.world
+        return Surroundings(seed=seed, data=data)
+
     async def _vehicles(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
         """Start simulated vehicles that speak MAVLink."""
+        from ..autopilot.equipment import fitted, sensors
         from ..autopilot.process import SimulatedFleet, start  # rarely needed
 
         assert fleet.plane is not None
         batteries = self._batteries(fleet)
+        around = self._surroundings(fleet)
+        kinds = {one.name: one for one in self._flight.app.categories}
+        can = {one.id for one in fleet.drones if kinds[one.category].can(MEASURE)}
+        measures = {
+            one.id: sensors(one.options, around.world) if one.id in can else {}
+            for one in real.drones
+        }
         simulated = SimulatedFleet(
             plane=fleet.plane,
             homes={drone.id: drone.home for drone in fleet.drones},
@@ -99,22 +118,24 @@ class GatewayAccess:
             charges={
                 id: None if charge == inf else charge for id, (_, charge) in batteries.items()
             },
+            measures=measures,
+            surroundings=around,
         )
         uris = await asyncio.to_thread(start, self._folder, simulated)
-        drones = (replace(drone, uri=uris[drone.id]) for drone in real.drones)
+        drones = (
+            replace(one, uri=uris[one.id], options=fitted(one.options, measures[one.id]))
+            for one in real.drones
+        )
         return replace(real, drones=tuple(drones))
 
     async def _crazyflies(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
         """Start simulated Crazyflies."""
         from ..crtp.equipment import fitted, settable
-        from ..crtp.process import Surroundings, start, told  # rarely needed
-        from ..shared.alone.world import invented
+        from ..crtp.process import start, told  # rarely needed
 
-        flight = self._flight
         homes = {drone.id: drone.home for drone in fleet.drones}
         batteries = self._batteries(fleet)
-        data = invented(flight.seed, fleet.airspace) if fleet.world is None else fleet.world
-        around = Surroundings(seed=flight.seed, data=data)
+        around = self._surroundings(fleet)
         uris = await asyncio.to_thread(start, self._folder, homes, None, batteries, around)
         camera = await asyncio.to_thread(told, self._folder, "camera")
         drones = (
@@ -127,7 +148,7 @@ class GatewayAccess:
             for drone in real.drones
         )
         real = replace(real, drones=tuple(drones))
-        if not data.movers:
+        if not around.data.movers:
             return real
         address = await asyncio.to_thread(told, self._folder, "tracker")
         return replace(real, tracker="lines", tracker_options={"address": address})

@@ -15,6 +15,7 @@ LAND = 21
 SET_MODE = 176
 CHANGE_SPEED = 178
 REPOSITION = 192
+GRIPPER = 211
 """MAV_CMD."""
 CUT = 21196
 """The second parameter of a command to disarm in the air (MAV_CMD_COMPONENT_ARM_DISARM)."""
@@ -26,6 +27,7 @@ _ABOVE_HOME = 3
 """MAV_FRAME_GLOBAL_INT, metres above sea level, as both makes take it; MAV_FRAME_GLOBAL_RELATIVE_ALT."""
 
 ACCEPTED = 0
+NOT_NOW = 1
 IN_PROGRESS = 5
 ANSWERS = {
     1: "it rejects that for now",
@@ -72,6 +74,10 @@ def reposition(place: Place, speed: float | None) -> Order:
         "z": place.above_sea,
     }
     return Order("COMMAND_INT", fields)
+
+
+def grips(number: int, close: bool) -> Order:
+    return long(GRIPPER, number, 1 if close else 0)
 
 
 CUT_MOTORS = long(ARM, 0, CUT)

@@ -43,9 +43,10 @@ _AT_ONCE = 64
 _LOOK = 0.1
 _AUTOPILOT = 1
 """The component of a vehicle that flies it."""
-RATES = {33: 10.0, 245: 5.0, 1: 1.0, 147: 1.0, 242: 0.5}
+RATES = {33: 10.0, 245: 5.0, 1: 1.0, 147: 1.0, 242: 0.5, 251: 10.0}
 """How often a second these are to be told: GLOBAL_POSITION_INT, EXTENDED_SYS_STATE, SYS_STATUS, BATTERY_STATUS,
-HOME_POSITION. An ArduPilot tells none of them unasked."""
+HOME_POSITION, NAMED_VALUE_FLOAT. An ArduPilot tells none of them unasked but the last, which a PX4 tells once a second,
+whatever it has then."""
 _SET_INTERVAL = 511
 _CAPTURE = 2000
 _NO_HEADING = 65535
@@ -81,8 +82,7 @@ class Desk:
             value = await getattr(self, f"do_{asked['do']}")(asked)
             self._tell({"answer": asked["ask"], "value": value})
         except (MavsdkError, OSError, TimeoutError, RuntimeError, KeyError, ValueError) as error:
-            said = getattr(getattr(error, "result", None), "name", "") or str(error)
-            self._tell({"answer": asked["ask"], "error": said or type(error).__name__})
+            self._tell({"answer": asked["ask"], "error": _reason(error)})
 
     async def do_open(self, asked: Message) -> Message:
         """Find a vehicle's autopilot, and tell of it from now on under a number."""
@@ -168,6 +168,11 @@ class Desk:
         def on_home(one: Any) -> None:
             tell("home", [one.latitude_deg, one.longitude_deg, one.absolute_altitude_m])
 
+        def on_value(one: Any) -> None:
+            fields = json.loads(one.fields_json)
+            if fields["value"] is not None:
+                tell("value", {"name": fields["name"], "value": fields["value"]})
+
         def on_text(one: Any) -> None:
             tell("text", {"severity": int(one.type), "text": one.text})
 
@@ -188,6 +193,7 @@ class Desk:
                 (told.subscribe_status_text(), on_text),
                 (told.subscribe_landed_state(), lambda one: tell("landed", int(one))),
                 (opened.direct.subscribe_message("HEARTBEAT"), on_heartbeat),
+                (opened.direct.subscribe_message("NAMED_VALUE_FLOAT"), on_value),
                 (opened.cameras.subscribe_capture_info(), on_photo),
                 (
                     opened.cameras.subscribe_camera_list(),
@@ -231,11 +237,14 @@ class Desk:
         await self._open[asked["vehicle"]].fences.upload_geofence(fence)
 
     async def do_read(self, asked: Message) -> float:
-        """Read a parameter, of whichever type."""
+        """Read a parameter, of whichever type; of one that there is not nothing is told."""
         params = self._open[asked["vehicle"]].params
         name = asked["name"]
-        with suppress(MavsdkError):
+        try:
             return float(await params.get_param_float(name))
+        except MavsdkError as error:
+            if _reason(error) == "TIMEOUT":
+                raise
         return float(await params.get_param_int(name))
 
     async def do_write(self, asked: Message) -> None:
@@ -245,6 +254,11 @@ class Desk:
             await params.set_param_float(name, asked["value"])
         except MavsdkError:
             await params.set_param_int(name, int(asked["value"]))
+
+
+def _reason(error: Exception) -> str:
+    said = getattr(getattr(error, "result", None), "name", "") or str(error)
+    return said or type(error).__name__
 
 
 async def _connected(link: str) -> Any:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections import deque
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import suppress
 from math import dist, inf
@@ -28,16 +27,16 @@ from ..drones.protocol import (
 from ..drones.telemetry import Reports
 from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
 from ..geodesy import Degrees
-from ..shared.domain.actions import PHOTO, Plain
-from ..shared.domain.model import Item, Photo, Point
+from ..shared.domain.actions import MEASURE, PHOTO, Plain
+from ..shared.domain.model import Item, Point
 from ..shared.domain.text import number
 from . import own_failsafes
+from .actions import Actions
 from .fence import fence_of, settings
 from .makes import (
     ACCEPTED,
     ANSWERS,
     CUT_MOTORS,
-    IN_PROGRESS,
     LAND_HERE,
     MAKES,
     Make,
@@ -57,10 +56,8 @@ _ANSWER = 6.0
 """Seconds for a command, which is sent again three times."""
 _UPLOAD = 10.0
 """Seconds for a fence, of some messages each way."""
-_CAMERA = 8.0
-"""Seconds within which a camera must tell what it has taken."""
 _CAMERA_ON_THE_WAY = 4.0
-"""The same of a picture on the way: less than what an action there may take."""
+"""Seconds within which a camera must tell what it has taken on the way: less than what an action there may take."""
 _RESTS = 0.5
 """Seconds for which it must stay at its target, to have arrived."""
 _SETTLES = 2.0
@@ -89,8 +86,7 @@ class MavlinkVehicle:
         self._make: Make | None = None
         self._client: MavsdkClient | None = None
         self._number = 0
-        self._photos: deque[asyncio.Future[Mapping[str, Any]]] = deque()
-        """Those that were asked for, in their order."""
+        self._actions = Actions(setup.id, self._options, self._ask)
         self._crashed = ""
         self._cut = False
         self._order_given = ""
@@ -144,7 +140,8 @@ class MavlinkVehicle:
             if time.monotonic() - began > _KNOWN:
                 raise LinkLost(f"{self._id} answers, and does not tell {self._untold()}")
             await asyncio.sleep(0.05)
-        while time.monotonic() - began < _KNOWN and not (state.is_well and state.cameras):
+        await self._actions.look(self._make.name)
+        while time.monotonic() - began < _KNOWN and not self._has_told_all:
             await asyncio.sleep(0.05)  # its health is told once a second, and its camera asked for
         self._tell()
 
@@ -159,6 +156,11 @@ class MavlinkVehicle:
         if self._setup.uri is None:
             raise NotReady(f"{self._id} has no uri in the fleet file, such as {SUCH_AS}")
         return vehicle_address(self._setup.uri)
+
+    @property
+    def _has_told_all(self) -> bool:
+        state = self._state
+        return state.is_well and bool(state.cameras) and self._actions.are_heard(state)
 
     def _untold(self) -> str:
         state = self._state
@@ -201,8 +203,7 @@ class MavlinkVehicle:
             self._client = None
             self._reports.happened(LINK_LOST, str(facts))
             return
-        if told == "photo" and self._photos:
-            self._photos.popleft().set_result(facts)
+        self._actions.hear(told, facts)
         flew = state.flying
         mode = state.mode
         state.hear(told, facts)
@@ -472,57 +473,29 @@ class MavlinkVehicle:
     # Optional abilities
 
     def why_not(self, action: str, parameters: Mapping[str, Plain]) -> str | None:
-        if action != PHOTO:
-            return f"{self._id} has no action {action}"
-        if self._client is not None and not self._state.cameras:
-            return f"{self._id} has no camera that speaks MAVLink"
-        return None
+        state = None if self._client is None else self._state
+        return self._actions.why_not(state, action, parameters)
 
     async def act(self, action: str, parameters: Mapping[str, Plain], item: Item | None) -> object:
-        return await self._do(action, parameters, _CAMERA)
+        return await self._actions.act(self._state, self._address.system, action, parameters)
 
     async def trigger(self, action: str, parameters: Mapping[str, Plain]) -> object:
         """Do an action on its way: it flies on meanwhile."""
-        if action != PHOTO:
+        if action not in (MEASURE, PHOTO):
             raise ActionNotDone(f"{self._id} must stop to {action}")
-        return await self._do(action, parameters, _CAMERA_ON_THE_WAY)
-
-    async def _do(self, action: str, parameters: Mapping[str, Plain], seconds: float) -> Photo:
-        if (why := self.why_not(action, parameters)) is not None:
-            raise Rejected(why)
-        return await self._take_photo(seconds)
-
-    async def _take_photo(self, seconds: float) -> Photo:
-        """Take a photo; that its camera has taken one, only its own message says."""
-        lens = self._state.cameras[0]
-        coming = asyncio.get_running_loop().create_future()
-        self._photos.append(coming)
-        try:
-            async with asyncio.timeout(seconds):
-                result = await self._ask(
-                    "photo", seconds, camera=lens["component"], system=self._address.system
-                )
-                if result not in (ACCEPTED, IN_PROGRESS):
-                    raise Rejected(ANSWERS.get(result, f"it answers {result}"))
-                taken = await coming
-        except (TimeoutError, Rejected) as error:
-            said = f": {error}" if isinstance(error, Rejected) else " of no picture"
-            raise ActionNotDone(f"{self._id}: its camera tells{said}") from error
-        finally:
-            with suppress(ValueError):  # it has come
-                self._photos.remove(coming)
-        if not taken["success"]:
-            raise ActionNotDone(f"{self._id}: its camera has taken no picture")
-        x, y, z = self._state.point(taken)
-        across, along = (z * size / (lens["focal"] or size) for size in lens["sensor"])
-        return Photo(position=(x, y, z), width=across, height=along)
+        return await self._actions.act(
+            self._state, self._address.system, action, parameters, _CAMERA_ON_THE_WAY
+        )
 
     async def read(self, name: str) -> float:
-        """Return a parameter of its autopilot."""
+        """Return a quantity, a value that it tells, or else a parameter of its autopilot."""
+        told = self._options.name_of(name) or name
+        if told in self._state.values:
+            return await self._actions.mean(self._state, told, 0.0)
         try:
             return float(await self._ask("read", _ANSWER, name=name))
         except Rejected:
-            raise Rejected(f"{self._id} has no parameter {name}") from None
+            raise Rejected(f"{self._id} neither tells a value nor has a parameter {name}") from None
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter of its autopilot."""

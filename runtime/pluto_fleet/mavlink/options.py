@@ -2,18 +2,29 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from typing import Annotated, Literal
 
-from msgspec import Meta, Struct, ValidationError, convert
+from msgspec import Meta, Struct
 
-from ..shared.domain.errors import BadInput
-from ..shared.domain.text import quoted
+from ..drones.equipment import source_of
+from ..drones.options import read_options
 
 _Metres = Annotated[float, Meta(gt=0.0, le=20.0)]
 _Speed = Annotated[float, Meta(gt=0.0, le=20.0)]
 MOST_CELLS = 14
+_Seconds = Annotated[float, Meta(ge=0.0, le=60.0)]
+_Name = Annotated[str, Meta(min_length=1, max_length=10)]
+"""The name of a NAMED_VALUE_FLOAT."""
+
+
+class Gripper(Struct, frozen=True, kw_only=True, forbid_unknown_fields=True):
+    """A gripper that its autopilot moves."""
+
+    number: Annotated[int, Meta(ge=1, le=255)]
+    """Which of its grippers, counted from 1."""
+    seconds: _Seconds = 1.0
+    """How long it takes to close or to open."""
 
 
 class VehicleOptions(Struct, frozen=True, kw_only=True):
@@ -35,6 +46,15 @@ class VehicleOptions(Struct, frozen=True, kw_only=True):
     """Metres by which that fence is farther out than the map, and higher than its ceiling."""
     cells: Annotated[int, Meta(ge=1, le=MOST_CELLS)] | None = None
     """The number of its battery's cells in series, by which its voltage says how full it is; None: only it says so itself."""
+    measure: dict[str, _Name] = {}
+    """The name under which each quantity is told that can be measured; `ANY_OTHER`: all others."""
+    measure_seconds: _Seconds = 1.0
+    """Seconds over which a measurement is averaged."""
+    grip: Gripper | None = None
+
+    def name_of(self, quantity: str) -> str | None:
+        """Return the name under which a quantity is told; None: none is known."""
+        return source_of(self.measure, quantity)
 
 
 _WANTED = {
@@ -46,19 +66,13 @@ _WANTED = {
     "fence": "true or false",
     "beyond": "a number of metres above 0, at most 20",
     "cells": f"a whole number from 1 to {MOST_CELLS}",
+    "measure": 'a table of names of at most ten characters, such as { pm10 = "pm10" }',
+    "measure_seconds": "a number from 0 to 60",
+    "grip": "a table, such as { number = 1 }, perhaps with the seconds that it takes",
 }
 """What each must be, for people."""
 
 
 def options_of(given: Mapping[str, object]) -> VehicleOptions:
     """Read the options; raise `BadInput` with the key that is invalid."""
-    for key in given:
-        if key not in _WANTED:
-            raise BadInput(
-                f"a MAVLink vehicle has no option {quoted(key)}; it has {', '.join(_WANTED)}"
-            )
-    try:
-        return convert(dict(given), VehicleOptions)
-    except ValidationError as error:
-        key = re.split(r"[`.\[]", str(error).rpartition("`$.")[2])[0]
-        raise BadInput(f"its option {key} must be {_WANTED[key]}") from error
+    return read_options(given, VehicleOptions, _WANTED, "a MAVLink vehicle")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import hypot, isfinite, pi, radians
@@ -20,6 +21,8 @@ _ARMED = 128
 """MAV_MODE_FLAG_SAFETY_ARMED."""
 _NEAR_GROUND = 1.0
 """Metres above it, within which motors that stop are no fall."""
+_VALUES = 1000
+"""Of one name: a minute of them, at more than ten a second."""
 _WARNING = 3
 """Texts that are at least so severe say why something is refused: MAVSDK counts up from 0, a text for debugging."""
 
@@ -63,6 +66,8 @@ class VehicleState:
     cameras: tuple[Mapping[str, Any], ...] = ()
     texts: list[tuple[float, str]] = field(default_factory=list)
     """Its latest warnings, with when they came."""
+    values: dict[str, deque[tuple[float, float]]] = field(default_factory=dict)
+    """What its sensors have told last, by name, each with when it came."""
 
     @property
     def is_known(self) -> bool:
@@ -101,6 +106,9 @@ class VehicleState:
                 self.home = (facts[0], facts[1])
             case "cameras":
                 self.cameras = tuple(facts)
+            case "value":
+                latest = self.values.setdefault(facts["name"], deque(maxlen=_VALUES))
+                latest.append((time.monotonic(), facts["value"]))
             case "text" if facts["severity"] >= _WARNING:
                 self.texts = [*self.texts[-4:], (time.monotonic(), facts["text"])]
 

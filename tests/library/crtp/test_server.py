@@ -16,6 +16,7 @@ from pluto_fleet.crtp.equipment import frames
 from pluto_fleet.crtp.flight_log import FlightLog
 from pluto_fleet.crtp.packets import NULL
 from pluto_fleet.crtp.server import Server
+from pluto_fleet.process.surroundings import Surroundings
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import WorldData
 from pluto_fleet.shared.events.world import Mover
@@ -80,7 +81,7 @@ def folder(tmp_path: Path) -> Iterator[Path]:
 @pytest.mark.process
 def test_drones_in_a_process_do_what_is_asked_and_stay_where_they_were(folder: Path) -> None:
     slow = Mover(name="t1", kind="person", path=((4.0, 3.0), (5.0, 3.0)), speed=1e-6)
-    around = process.Surroundings(data=WorldData(movers=(slow,)))
+    around = Surroundings(data=WorldData(movers=(slow,)))
     uris = process.start(folder, HOMES, world=around)
     assert list(uris) == list(HOMES)
     assert process.start(folder, HOMES) == uris
