@@ -28,8 +28,8 @@ AROUND = Surroundings(
         features=(Feature(kind="bloom", at=HOME[:2]), Feature(kind="bloom", at=(5.2, 5.0))),
     )
 )
-MEASURE = {"measure": {"pm10": "dust"}, "measure_seconds": 0.6}
-GRIP = {"grip": {"number": 1, "seconds": 0.7}}
+MEASURE: dict[str, object] = {"measure": {"pm10": "dust"}, "measure_seconds": 0.6}
+GRIP: dict[str, object] = {"grip": {"number": 1, "seconds": 0.7}}
 
 
 async def measures(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
