@@ -162,9 +162,13 @@ class Campaign:
 
 
 def _by_its_name(one: Callable[[Case], Came]) -> Callable[[Case], Came]:
-    """Return a function of the script that runs as one that other processes find, too: they run no package's script."""
+    """Return a function of the script that runs as one that other processes find, too: they run no package's script.
+
+    One within another function stays what it is: it is tried in threads.
+    """
     script = sys.modules["__main__"].__spec__
-    if script is None or getattr(one, "__module__", "") != "__main__":
+    is_own = getattr(one, "__module__", "") == "__main__"
+    if script is None or not is_own or "<locals>" in one.__qualname__:
         return one
     found: Callable[[Case], Came] = getattr(import_module(script.name), one.__name__)
     return found
