@@ -6,10 +6,10 @@ from pm10 import Mission, hooks
 from pm10.testing import Kit
 
 
-def sampled(kit: Kit, *samples: tuple[float, float]) -> Mission:
+def sampled(kit: Kit, *samples: tuple[float, float], reach: float = 3.2) -> Mission:
     """Return a mission along a line that has measured values at these places."""
     trips = [kit.trip("measure", target=(x, 0.0, 1.5)) for x, _ in samples]
-    mission = kit.mission(*trips)
+    mission = kit.mission(*trips, reach=reach)
     for _, value in samples:
         kit.complete(mission, value)
     return mission
@@ -41,3 +41,10 @@ def test_a_mission_adds_four_trips_at_most(kit: Kit) -> None:
     for trip in mission.completed_trips[:3]:
         trip.added = True
     assert len(hooks.follow_gradients(mission, kit.results(mission)).add) == 1
+
+
+def test_with_a_larger_reach_it_looks_farther_and_less_closely(kit: Kit) -> None:
+    mission = sampled(kit, (0.0, 10.0), (40.0, 30.0), (50.0, 40.0), reach=45.0)
+    verdict = hooks.follow_gradients(mission, kit.results(mission))
+    assert [trip.target for trip in verdict.add] == [(20.0, 0.0, 1.5)]
+    assert verdict.log == ("gradient 20/0/1.5: 0.5 µg/m³ a metre",)

@@ -150,8 +150,9 @@ class StationLink:
         vehicle = self.vehicle
         if vehicle.around is None or vehicle.faults.numb:
             return
+        place = vehicle.place
         for name, quantity in vehicle.build.senses.items():
-            value = vehicle.around.measure(quantity, vehicle.place, vehicle.now)
+            value = vehicle.around.measure(quantity, place, vehicle.now)
             told = self._of(COMPANION).named_value_float_encode(self._boot, name.encode(), value)
             self._put(told, COMPANION)
 

@@ -8,14 +8,16 @@ from pathlib import Path
 
 import pytest
 
-from pluto_fleet.autopilot.equipment import Around
+from pluto_fleet.autopilot.equipment import Around, fitted, sensors
 from pluto_fleet.autopilot.server import MAKES, Server, let
 from pluto_fleet.autopilot.vehicle import Asked, Build, Vehicle
 from pluto_fleet.drones.protocol import ActionNotDone, DroneSetup, Rejected
 from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.mavlink.actions import shown_at
 from pluto_fleet.mavlink.navigation import MavlinkVehicle
+from pluto_fleet.mavlink.options import options_of
 from pluto_fleet.process.surroundings import Surroundings
+from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import Item, Photo
 
@@ -232,3 +234,38 @@ def test_a_camera_may_say_what_is_on_a_picture(
     address: str, shown: tuple[tuple[str, ...], float]
 ) -> None:
     assert shown_at(address) == shown
+
+
+def test_a_simulated_vehicle_has_what_the_file_names_and_all_that_its_world_has() -> None:
+    source = Source(quantity="carbon_monoxide", at=(0.0, 0.0), peak=1.0, radius=1.0)
+    around = Surroundings(data=WorldData(sources=(source,)))
+    given = {"measure": {"pm10": "dust"}, "grip": {"number": 2, "seconds": 3}}
+    options = options_of(fitted(given, sensors(given, around.world)))
+    assert options.grip is not None
+    assert (options.grip.number, options.grip.seconds) == (2, 3.0)
+    assert options.name_of("pm10") == "dust"
+    assert options.name_of("noise") == "nothing"
+    names = [options.name_of(one) for one in ("temperature", "carbon_monoxide")]
+    assert len({"dust", "nothing", *names}) == 4
+    assert all(len(one) <= 9 for one in options.measure.values())
+    assert options_of(fitted({}, {})).grip is not None
+
+
+@pytest.mark.parametrize(
+    ("given", "wanted"),
+    [
+        (
+            {"measure": {"pm10": "particulates"}},
+            "its option measure must be a table of names of at",
+        ),
+        ({"grip": {}}, r"its option grip must be a table, such as \{ number = 1 \}"),
+        ({"grip": {"parameter": "gripper.closed"}}, "its option grip must be a table, such as"),
+        (
+            {"camera": "192.168.4.1:5000"},
+            'a MAVLink vehicle has no option "camera"; it has autopilot',
+        ),
+    ],
+)
+def test_what_is_no_option_is_said(given: dict[str, object], wanted: str) -> None:
+    with pytest.raises(BadInput, match=wanted):
+        options_of(given)
