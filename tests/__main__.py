@@ -85,6 +85,7 @@ MEASURES = (
     "python benchmarks/pursuit.py",
     "python benchmarks/event_latency.py",
     "python benchmarks/pursuit_real_time.py",
+    "python benchmarks/survey.py",
 )
 
 

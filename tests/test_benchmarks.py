@@ -122,3 +122,8 @@ def test_pursuit_is_measured() -> None:
     assert (cell["drones"], cell["people"]) == (5, 2)
     assert 0.0 < cell["seen"] <= 1.0
     assert cell["seconds"]["median"] > 0.0
+
+
+def test_a_survey_takes_no_more_than_a_planner_says() -> None:
+    """Neither photos nor metres, and each way is flown to its end; else the script ends with 1."""
+    assert measured("survey.py").splitlines()[1].startswith("QGroundControl")

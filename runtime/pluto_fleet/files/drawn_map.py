@@ -93,13 +93,13 @@ def with_drawing(name: str, text: str, drawing: Drawing, *, closed: bool) -> tup
     A place or a zone whose name is there already takes its place. `closed`: all areas are no-fly areas. Raises
     `BadInput` if the file cannot have it, and `Unusable` if the drawing cannot be on the map.
     """
-    airspace, landmarks = _map_in(name, text)
+    airspace, landmarks = map_in(name, text)
     with_more, taken = landmarks_with(landmarks, drawing, closed=closed)
     changed = with_landmarks(text, landmarks, with_more, airspace.size)
     if new := [area for area in taken.no_fly if area not in airspace.no_fly]:
         closed_areas = [[[*corner] for corner in area] for area in (*airspace.no_fly, *new)]
         changed = _with_no_fly(changed, closed_areas)
-    _map_in(f"{name}, with what is drawn", changed)
+    map_in(f"{name}, with what is drawn", changed)
     return changed, taken
 
 
@@ -118,7 +118,7 @@ def landmarks_with(
     return replace(landmarks, places=places, zones=zones), taken
 
 
-def _map_in(name: str, text: str) -> tuple[Airspace, Landmarks]:
+def map_in(name: str, text: str) -> tuple[Airspace, Landmarks]:
     document = parsed(name, text)
     table = PlanTable(document, document.data).table("map")
     airspace = read_map(table)

@@ -28,7 +28,7 @@ _SIGNS: tuple[tuple[str, str, str], ...] = (
     (r"SQLite format 3(?s:.){53}GPKG", "a GeoPackage", _ON_EARTH),
     (r"SQLite format 3", "a database, such as a journal", _OTHER),
     (r"\x00\x00\x27\x0a", "a shapefile", _ON_EARTH),
-    (r"(?:II\*\x00|MM\x00\*)", "a TIFF picture", _OTHER),
+    (r"(?:II[*+]\x00|MM\x00[*+])", "a TIFF picture", "`pluto-fleet map` puts a GeoTIFF on a map"),
     (r".?\x00", "UTF-16, or no text", "save it as UTF-8"),
     (r"QGC WPL", WAYPOINTS, TO_MISSIONS),
     (r'\s*\{(?s:.)*"fileType"\s*:', PLAN, TO_MISSIONS),

@@ -438,11 +438,15 @@ class _Bounds:
                 for kind, homes in able
                 for x, y, _ in homes
             )
+        elif self._fleet.after_trip is AfterTrip.ONWARD:
+            back = 0.0
         else:
             back = least(kind.motion.lands(end[2], kind.speed) for kind, _ in able)
         return _Flight(done=tuple(done), again=tuple(again), back=back)
 
     def _seconds(self, kind: Category, above: Point, chain: Sequence[Trip]) -> float:
-        """Return the least from the ground below a place; what cannot be flown is told elsewhere."""
-        least = _seconds(self._app, self._fleet, kind, (*above[:2], 0.0), chain)
+        """Return the least from a place, or from the ground below; what cannot be flown is told elsewhere."""
+        goes_on = self._fleet.after_trip is AfterTrip.ONWARD
+        start = above if goes_on else (*above[:2], 0.0)
+        least = _seconds(self._app, self._fleet, kind, start, chain)
         return 0.0 if least == inf else least

@@ -695,6 +695,8 @@ class Swept(TypedDict):
     """At which the action is done."""
     metres: float
     """The way from the first place to the last."""
+    outside: float
+    """Of that, what is not over the area."""
     seconds: float | None
     """How long one drone takes for that, with what it does there; null: none can do the action."""
     forbidden: float

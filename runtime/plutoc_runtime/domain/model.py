@@ -89,6 +89,7 @@ class AfterTrip(Enum):
     HOME = "home"
     STAY = "stay"
     NEXT = "next"
+    ONWARD = "onward"  # as `NEXT`, and from the air where a trip waits
 
 
 class Telemetry(Protocol):

@@ -56,8 +56,7 @@ class Batch:
         places = range(place, first - 1, -1)
         choices = self._policy([waiting[each] for each in places], queue.ready, queue)
         for each, choice in zip(places, choices, strict=True):
-            if queue.room:
-                queue.give(each, choice)
+            queue.give(each, choice)
         return first
 
     def _charge_one_for(self, request: Request, queue: Queue) -> None:

@@ -199,6 +199,13 @@ class Fleet:
         self._kernel.at(self._kernel.now + seconds, EventKind.CLOCK, self._key(drone), look)
 
     async def _stay(self, drone: Drone) -> None:
+        if self._after_trip is AfterTrip.ONWARD and not drone.telemetry.landed:
+            put(drone, status=_FREE)  # for this instant alone, without an event
+            self.queue.moved(drone)
+            await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+            if drone.status is _FREE:  # no mission has taken it
+                await self.fly_home(drone)
+            return
         if self._after_trip is AfterTrip.NEXT and not drone.telemetry.landed:
             if self.queue.waiting:  # the queue is served at the end of this instant
                 await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
@@ -327,7 +334,8 @@ class Fleet:
 
     def is_low(self, drone: Drone) -> bool:
         """Whether its battery holds little more than the way home takes."""
-        return drone.battery_level < drone.category.reserve + LOW
+        spare = 0.0 if self._after_trip is AfterTrip.ONWARD else LOW  # it is asked of each trip
+        return drone.battery_level < drone.category.reserve + spare
 
     def _is_docked(self, drone: Drone) -> bool:
         return drone.telemetry.landed and docked(drone.location, drone.home)

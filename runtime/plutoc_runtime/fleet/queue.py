@@ -26,6 +26,12 @@ if TYPE_CHECKING:
     from .policies import Choice, Policy
     from .reach import Bounds
 
+
+def _flies(drone: Drone) -> bool:
+    free = drone.status is _FREE  # and in the air, if it is offered as it hovers
+    return not drone.telemetry.landed if free else drone.status in IN_THE_AIR
+
+
 UNCHARGED = "what is left in its battery is too little, and nothing charges it at home"
 _FREE = DroneStatus.FREE
 _SERVE = EventKind.SERVE
@@ -234,7 +240,7 @@ class Queue:
     def room(self) -> bool:
         """Whether one more drone may fly."""
         most = self._max_airborne
-        return most == inf or sum(drone.status in IN_THE_AIR for drone in self.drones) < most
+        return most == inf or sum(map(_flies, self.drones)) < most
 
     def too_low(self) -> Iterator[Drone]:
         """Yield the free drones that waiting missions could use if they were charged."""
@@ -257,7 +263,8 @@ class Queue:
             self._needs = {}
         if self.low and (self._fresh or self.kernel.now >= self._recheck_at):
             self._put_back_the_charged()
-        self.ready = [one for one in self.drones if one.status is _FREE and one not in self.low]
+        ready = [one for one in self.drones if one.status is _FREE and one not in self.low]
+        self.ready = ready if self.room else [*filter(_flies, ready)]
         if self.ready:
             self._share_out()
         if self.requests:
@@ -275,7 +282,7 @@ class Queue:
         """Ask for each request which drone it gets, until no drone that is left suffices for any."""
         place = len(self.requests)
         before = inf
-        while place and self.ready and self.room:
+        while place and self.ready and (self.room or any(map(_flies, self.ready))):
             if len(self.ready) == before and not self._is_suited(self.requests[place - 1]):
                 place -= 1
                 continue
@@ -309,7 +316,7 @@ class Queue:
 
     def give(self, place: int, choice: Choice | None) -> None:
         """Give the request at this place a drone, if one was chosen."""
-        if choice is not None:
+        if choice is not None and (self.room or _flies(choice[0])):
             request = self.requests.pop(place)
             drone, request.why = choice
             self.ready.remove(drone)

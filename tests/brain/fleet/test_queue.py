@@ -232,7 +232,8 @@ def test_no_more_drones_fly_at_once_than_allowed(after: AfterTrip, most: int) ->
 
 
 @pytest.mark.parametrize(
-    ("after", "x", "metres"), [("home", 0.5, 24.8), ("stay", 6.0, 10.3), ("next", 0.5, 15.8)]
+    ("after", "x", "metres"),
+    [("home", 0.5, 24.8), ("stay", 6.0, 10.3), ("next", 0.5, 15.8), ("onward", 0.5, 13.4)],
 )
 def test_drones_go_where_the_fleet_file_says(after: str, x: float, metres: float) -> None:
     trips = apps.trip("A", 5.0), apps.trip("B", 6.0)

@@ -14,7 +14,7 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES = 8_720
+MOST_LINES = 8_730
 MOST_FILES = 65
 MOST_OWN_LINES = 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included, with 3 % of room; and without the brain."""

@@ -58,6 +58,9 @@ def can_be_kept(app: App, fleet: FleetFile, missions: list[apps.Mission], stand:
             home = fleet.drones[d].home if fleet.after_trip is AfterTrip.HOME else points[-1]
             down = (home[0], home[1], 0.0)
             again = done + flight_seconds(SCOUT, space, points[-1], [down], 0.0)
+            if fleet.after_trip is AfterTrip.ONWARD:
+                down = points[-1]
+                again = done
             drones = (*stand.drones[:d], (again, down), *stand.drones[d + 1 :])
             told = (*stand.missions[:n], (flown + 1, done), *stand.missions[n + 1 :])
             if can_be_kept(app, fleet, missions, Stand(drones, told)):
@@ -77,7 +80,7 @@ def drawn(seed: int) -> tuple[FleetFile, list[apps.Mission]]:
     """Return a small fleet and plan, with promises that are near to what can be kept."""
     rng = Random(seed)
     homes = rng.sample([(1.0, 1.0, 0.0), (9.0, 1.0, 0.0), (18.0, 12.0, 0.0)], rng.choice((1, 2)))
-    after = rng.choice((AfterTrip.HOME, AfterTrip.STAY))
+    after = rng.choice((AfterTrip.HOME, AfterTrip.STAY, AfterTrip.ONWARD))
     missions: list[apps.Mission] = []
     for number in range(rng.choice((1, 2, 3))):
         spots = [rng.uniform(1.0, 19.0) for _ in range(rng.choice((1, 1, 2)))]

@@ -98,6 +98,7 @@ class DrawnWays:
             "trips": [_swept(line) for line in lines],
             "places": made.places,
             "metres": made.metres,
+            "outside": made.outside,
             "seconds": self._seconds(lines, str(area.get("action", ""))),
             "forbidden": made.forbidden,
         }

@@ -62,8 +62,8 @@ def ending_of(content: bytes) -> str:
         return ".svg"
     if content.startswith(_TIFF):
         raise BadInput(
-            "browsers show no TIFF: make a PNG of it with its world file, on a map on the Earth in degrees,"
-            " as by gdalwarp -t_srs EPSG:4326 and then gdal_translate -of PNG -co WORLDFILE=YES"
+            "browsers show no TIFF: the command `pluto-fleet map FLEET.toml FIELD.tif` makes a picture of a"
+            " GeoTIFF, and puts it where it lies on a map on the Earth"
         )
     raise BadInput("this is no picture that can be shown: those are PNG, JPEG, WebP and SVG")
 

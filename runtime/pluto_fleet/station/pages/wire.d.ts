@@ -693,6 +693,8 @@ export interface Swept {
   places: number;
   /** The way from the first place to the last. */
   metres: number;
+  /** Of that, what is not over the area. */
+  outside: number;
   /** How long one drone takes for that, with what it does there; null: none can do the action. */
   seconds: number | null;
   /** The share of the area that may not be flown over. */

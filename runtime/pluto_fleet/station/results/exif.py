@@ -19,6 +19,12 @@ _TAKEN = 0x9003
 _OFFSET = 0x9011
 _FRACTION = 0x9291
 """When it was taken, in UTC: to the second, by how much it is off UTC, and the rest of the second."""
+_ACROSS = 0xA002
+_DOWN = 0xA003
+_FOCAL = 0xA405
+"""Its size in pixels, and the focal length that sees as much on a film 36 mm wide: what mosaic programs begin with."""
+_FOCAL_ITSELF = 0x920A
+_FILM = 36
 _HEADER = b"Exif\0\0"
 _START = b"\xff\xd8"
 _APP_0 = 0xE0
@@ -27,10 +33,10 @@ _LAST_APP = 0xEF
 _LONGEST = 0xFFFF - 2
 
 
-def with_place(jpeg: bytes, place: Degrees, wall: float) -> bytes:
+def with_place(jpeg: bytes, place: Degrees, wall: float, far: float | None = None) -> bytes:
     """Return a photo that says where its camera was, by latitude, longitude and altitude, and when.
 
-    One that says so itself stays as it is; so does one that is no JPEG, or where Pillow is not installed.
+    `far`: how many times as far away it was as what it shows is wide, if that is known. One that says so itself stays as it is; so does one that is no JPEG, or where Pillow is not installed.
     """
     try:
         from PIL import Image
@@ -39,6 +45,7 @@ def with_place(jpeg: bytes, place: Degrees, wall: float) -> bytes:
             exif: Any = image.getexif()
             known = exif.get_ifd(_GPS)
             inner = exif.get_ifd(_IFD)
+            across, down = image.size
     except DECODING:
         return jpeg
     if known:
@@ -48,6 +55,9 @@ def with_place(jpeg: bytes, place: Degrees, wall: float) -> bytes:
     if _TAKEN not in inner:
         inner |= {_TAKEN: f"{taken:%Y:%m:%d %H:%M:%S}", _OFFSET: "+00:00"}
         inner[_FRACTION] = f"{taken.microsecond // 1000:03}"
+    inner = {_ACROSS: across, _DOWN: down, **inner}
+    if far is not None and not {_FOCAL, _FOCAL_ITSELF} & inner.keys():
+        inner[_FOCAL] = max(1, round(_FILM * far))
     exif[_IFD] = inner
     block = _HEADER + exif.tobytes().removeprefix(_HEADER)
     return jpeg if len(block) > _LONGEST else _with_block(jpeg, block)

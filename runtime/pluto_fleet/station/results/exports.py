@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 from zipfile import ZIP_DEFLATED, ZIP_STORED, ZipFile
 
 from ...shared.domain.errors import BadInput
@@ -199,7 +199,8 @@ def write_archive(flight: FlightResults, folder: Path) -> Path:
                 missing.append(f"{why}\n")
             else:
                 if number in places:
-                    content = with_place(content, places[number], taken[number].wall)
+                    one = taken[number]
+                    content = with_place(content, places[number], one.wall, _far(one.value))
                 archive.writestr(picture_name(number, named), content)
         if places:
             archive.writestr(PLACES, _places_text(flight, places))
@@ -213,6 +214,13 @@ def _camera(flight: FlightResults, one: Brought) -> Degrees | None:
     if one.result["kind"] != "photo" or one.result["number"] not in flight.pictures:
         return None
     return place_of(flight, one.value["position"])
+
+
+def _far(photo: Mapping[str, Any]) -> float | None:
+    """Return how many times as far away a photo was taken as the ground that it shows is wide, if it says so."""
+    height = photo["position"][2]
+    wide = max(photo["width"], photo["height"])
+    return height / wide if height > 0 and wide > 0 else None
 
 
 def _places_text(flight: FlightResults, places: Mapping[int, Degrees]) -> str:

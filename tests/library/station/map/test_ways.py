@@ -63,6 +63,14 @@ def test_an_area_is_swept_along_lines() -> None:
     assert stops["seconds"] == 11.0 + 12 * 1.0
 
 
+def test_it_is_told_how_much_of_the_way_is_not_over_an_area() -> None:
+    """From one tooth of a comb to the next the way is shorter over what is between them."""
+    comb = [[1, 1], [9, 1], [9, 7], [7, 7], [7, 3], [5, 3], [5, 7], [3, 7], [3, 3], [1, 3]]
+    open_map = DrawnWays(APP, Airspace(size=(10.0, 8.0)))
+    swept = asyncio.run(open_map.sweep({"polygon": comb, "spacing": "1 m"}))
+    assert 0.5 < swept["outside"] < swept["metres"]
+
+
 def test_an_area_that_is_closed_cannot_be_swept() -> None:
     with pytest.raises(BadInput, match="nothing that may be flown over"):
         asyncio.run(DrawnWays(APP, MAP).sweep({"polygon": [[4, 1], [6, 1], [6, 3]], "spacing": 1}))

@@ -92,7 +92,13 @@ def test_a_mosaic_program_finds_each_photo_where_it_was_taken(tmp_path: Path) ->
         row = rows[name]
         taken = (float(row["x"]), float(row["y"]), float(row["z"]))
         assert dist((x, y, altitude - 120.0), taken) <= 0.01
-    assert read["00001.jpg"]["EXIF DateTimeOriginal"].values == "2023:11:14 22:13:20"
+    first = read["00001.jpg"]
+    assert first["EXIF DateTimeOriginal"].values == "2023:11:14 22:13:20"
+    assert first["EXIF FocalLengthIn35mmFilm"].values == [48]  # from 40 m it shows 30 m
+    assert first["EXIF ExifImageWidth"].values == [32]
+    assert first["EXIF ExifImageLength"].values == [24]
+    order = sorted(read, key=lambda name: (f"{read[name]['EXIF DateTimeOriginal']}", name))
+    assert order == sorted(read)
     assert listed[0] == "EPSG:4326"
     assert len(listed) == 51
     assert listed[-1].startswith("00050.png 9.19")

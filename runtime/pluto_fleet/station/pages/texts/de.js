@@ -655,6 +655,7 @@ const texts = {
   "trips.spacing": "Bahnabstand, oder Überlappung der Fotos in %",
   "trips.swept": "{trips} mit {places}, {metres} m Weg",
   "trips.swept-forbidden": "{share} der Fläche dürfen nicht überflogen werden.",
+  "trips.swept-outside": "{metres} m davon führen nicht über die Fläche.",
   "trips.swept-takes": "Eine Drohne braucht vom ersten Ort zum letzten etwa {time}.",
   "trips.swept-where": "Ausgeführt",
   "trips.to": "Bis",

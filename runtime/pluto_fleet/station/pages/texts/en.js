@@ -608,6 +608,7 @@ export default {
   "trips.spacing": "Between lanes, or overlap of photos in %",
   "trips.swept": "{trips} with {places}, {metres} m of way",
   "trips.swept-forbidden": "{share} of the area may not be flown over.",
+  "trips.swept-outside": "{metres} m of it do not lead over the area.",
   "trips.swept-takes": "One drone takes about {time} from the first place to the last.",
   "trips.swept-where": "It is done",
   "trips.to": "To",

@@ -655,6 +655,7 @@ const texts = {
   "trips.spacing": "Fra le passate, o sovrapposizione delle foto in %",
   "trips.swept": "{trips} con {places}, {metres} m di percorso",
   "trips.swept-forbidden": "{share} dell’area non si può sorvolare.",
+  "trips.swept-outside": "{metres} m non passano sopra l’area.",
   "trips.swept-takes": "Un drone impiega circa {time} dal primo luogo all’ultimo.",
   "trips.swept-where": "Si esegue",
   "trips.to": "A",

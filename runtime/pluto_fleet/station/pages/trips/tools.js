@@ -201,6 +201,7 @@ export function CornerFields() {
 export const ToolField = ({ label, value, numeric = true, onWrite }) => h("label", { class: "field" },
   h("span", { class: "hint" }, label), h(Input, { inputMode: numeric ? "numeric" : undefined, autocomplete: "off", value, onText: onWrite }));
 
+const LEAST_TOLD = 0.5; // metres of way that are not over the area, as of commands
 const PAUSE = 250; // ms until what is being drawn is asked for
 
 /** @param {Corners} corners @returns {Point[]} */
@@ -246,6 +247,7 @@ function Sweep({ action }) {
       value: isOnTheWay ? "lines" : "", onPick: (picked) => goOn(picked === "lines"), options: [["", t("trips.at-each-place")], ["lines", t("trips.on-the-way")]],
     })),
     swept && h("p", { class: "hint" }, t("trips.swept", { trips: many("many.trips", swept.trips.length), places: many("many.places", swept.places), metres: number(swept.metres) })),
+    swept && swept.outside >= LEAST_TOLD && h("p", { class: "hint" }, t("trips.swept-outside", { metres: number(swept.outside) })),
     swept?.seconds && h("p", { class: "hint" }, t("trips.swept-takes", { time: duration(swept.seconds) })),
     swept && swept.forbidden > 0 && h("p", { class: "hint" }, t("trips.swept-forbidden", { share: percent(swept.forbidden) })),
     wrong && h("p", { class: "problem", role: "status" }, wrong));
