@@ -80,8 +80,17 @@ def foreign(content: bytes, wanted: str, *, drawn: bool = True) -> str | None:
     if what:
         return f"is {what}, and not {wanted}: {to_do}"
     first = start.lstrip().partition(b"\n")[0]
-    if wanted == "TOML" and set(first) & set(b",;\t") and not set(first) & set(b"=[]{}#\"'"):
-        return 'is a list (CSV), and not TOML: a missions file names it, each = "NAME.csv"'
+    is_utf_16 = start.startswith((b"\xff\xfe", b"\xfe\xff"))  # who reads it says so
+    if (
+        wanted == "TOML"
+        and not is_utf_16
+        and set(first) & set(b",;\t")
+        and not set(first) & set(b"=[]{}#\"'")
+    ):
+        return (
+            'is a list (CSV), and not TOML: a missions file names it, each = "NAME.csv"; one of places has'
+            " columns latitude and longitude"
+        )
     return None
 
 

@@ -220,6 +220,10 @@ def text_of(path: Path, wanted: str = "TOML") -> str:
     return decoded(content, path, wanted)
 
 
+_DRAWN = (".csv", ".geojson", ".kml", ".plan", ".waypoints")
+"""How names of files of other programs end."""
+
+
 def _opened(path: str, flags: int) -> int:
     """Open a file without blocking: a pipe without a writer is empty."""
     if not hasattr(os, "O_NONBLOCK"):
@@ -236,9 +240,14 @@ def decoded(content: bytes, path: object, wanted: str = "TOML", *, drawn: bool =
     """
     if other := foreign(content, wanted, drawn=drawn):
         raise BadInput(f"{path}: {other}")
-    most = LARGEST_DRAWING if is_drawing(content) else LARGEST
+    is_drawn = wanted == "TOML" and Path(f"{path}").suffix.lower() in _DRAWN
+    if is_drawn and not content.strip():
+        raise BadInput(f"{path}: is empty: save it again")
+    drawing = is_drawing(content)
+    most = LARGEST_DRAWING if drawing else LARGEST
     if len(content) > most:
-        raise BadInput(f"{path}: is larger than {most // 1024} KiB: this is not a plan file")
+        said = "leave out what is not flown" if drawing else "this is not a plan file"
+        raise BadInput(f"{path}: is larger than {most // 1024} KiB: {said}")
     try:
         return content.decode("utf-8-sig")  # some editors put a byte-order mark before the text
     except UnicodeDecodeError as error:

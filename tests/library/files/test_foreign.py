@@ -45,6 +45,7 @@ OTHERS = [
     ("# beds\n\npluto 1\n\napp crop {\n}\n", "is the source of an app, and not TOML: its missions are another file"),
     ("nr;x;y\n1;2;3\n", "is a list (CSV), and not TOML: a missions file names it, each"),
     (MISSIONS.encode("utf-16"), ":1: is not UTF-8 text but UTF-16: save it as UTF-8"),
+    ("lat,lon\n45,9\n".encode("utf-16"), ":1: is not UTF-8 text but UTF-16: save it as UTF-8"),
     (MISSIONS.encode("utf-16-le"), "is UTF-16, or no text, and not TOML: save it as UTF-8"),
     (MISSIONS.encode("latin-1"), ":2: is not UTF-8 text: save it as UTF-8"),
     (LONG, ":6: is not valid TOML: a whole number has too many digits"),
@@ -110,3 +111,13 @@ def test_a_mark_before_the_text_is_no_part_of_it(encoding: str, tmp_path: Path) 
     (tmp_path / "m.toml").write_bytes(content)
     assert main(APP, ["check", f"{tmp_path / 'm.toml'}"]) == 0
     assert _imported(content)[0] == 200
+
+
+def test_a_drawing_without_anything_in_it_is_called_empty(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And not a plan without missions."""
+    drawing = tmp_path / "field.KML"
+    drawing.write_bytes(b" \n")
+    assert main(APP, ["check", f"{drawing}"]) == 2
+    assert f"{drawing}: is empty: save it again" in capsys.readouterr().err

@@ -24,6 +24,10 @@ MOST_SPOTS = 200_000
 """The most features of a drawing, and the most places and corners of all of them."""
 
 
+CUT_OFF = "; if it was cut off, save it again"
+"""What there is to do about a file that ends too soon, as a message continues."""
+
+
 class Kind(Enum):
     """What a feature is."""
 

@@ -8,6 +8,7 @@ from typing import Any
 from ...process.untrusted import parsed
 from ...shared.domain.text import counted, quoted
 from .feature import (
+    CUT_OFF,
     GEOJSON,
     Drawing,
     Feature,
@@ -33,7 +34,7 @@ def read(text: str) -> Drawing:
     try:
         data = parsed(text)
     except ValueError as error:
-        raise Unusable(f"cannot be read as GeoJSON: {error}") from None
+        raise Unusable(f"cannot be read as GeoJSON: {error}{CUT_OFF}") from None
     if not isinstance(data, dict):
         raise Unusable("is JSON, and not GeoJSON")
     _check_reference(data)

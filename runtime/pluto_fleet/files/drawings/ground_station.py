@@ -15,6 +15,7 @@ from typing import Any
 from ...geodesy import LocalPlane
 from ...process.untrusted import parsed
 from .feature import (
+    CUT_OFF,
     PLAN,
     WAYPOINTS,
     Drawing,
@@ -78,7 +79,7 @@ def read(text: str) -> Drawing:
     try:
         data = parsed(text)
     except ValueError as error:
-        raise Unusable(f"cannot be read as {PLAN}: {error}") from None
+        raise Unusable(f"cannot be read as {PLAN}: {error}{CUT_OFF}") from None
     if not isinstance(data, dict) or data.get("fileType") != "Plan":
         raise Unusable("is of QGroundControl, but no plan of it: export the whole plan")
     found = _Found()

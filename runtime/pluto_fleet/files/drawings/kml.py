@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from xml.etree.ElementTree import Element
 
 
+_BLANKS = "; a place is longitude,latitude,height, without blanks"
 _GEOMETRIES = ("Point", "LineString", "LinearRing", "Polygon")
 _ODD = {
     "NetworkLink": "links to other files",
@@ -123,7 +124,9 @@ def _spots(holder: Element, geometry: Element, who: str) -> tuple[Spot, ...]:
         try:
             longitude, latitude, *more = map(float, one.split(","))
         except ValueError:
-            raise Unusable(f"{who} has coordinates that are no numbers: {one[:60]}") from None
+            raise Unusable(
+                f"{who} has coordinates that are no numbers: {one[:60]}{_BLANKS}"
+            ) from None
         up = more[0] if more else None
         height = up if mode == "relativeToGround" else None
         altitude = up if mode == "absolute" else None

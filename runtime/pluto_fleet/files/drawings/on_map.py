@@ -15,7 +15,7 @@ def metres_of(plane: LocalPlane, spot: Spot, who: str) -> list[float]:
     try:
         x, y, z = plane.to_metres((spot.latitude, spot.longitude, altitude))
     except ValueError as error:
-        raise Unusable(f"{who} {error}{_swapped(plane, spot)}") from None
+        raise Unusable(f"{who} {error}{_advice(plane, spot)}") from None
     has_height = (spot.height, spot.altitude) != (None, None)
     return [_tidy(one) for one in ((x, y, z) if has_height else (x, y))]
 
@@ -25,8 +25,8 @@ def _tidy(metres: float) -> float:
     return round(metres, 4) + 0.0
 
 
-def _swapped(plane: LocalPlane, spot: Spot) -> str:
+def _advice(plane: LocalPlane, spot: Spot) -> str:
     with suppress(ValueError):
         plane.to_metres((spot.longitude, spot.latitude, plane.altitude))
         return "; its latitude and longitude are the wrong way round"
-    return ""
+    return "; `pluto-fleet map` makes a fleet file whose map lies there"

@@ -63,9 +63,14 @@ def _number(text: str, who: str, what: str) -> float | None:
     try:
         return float(text)
     except ValueError:
-        comma = "; a number has a point" if "," in text else ""
-        said = "a number of metres" if what in ("height", "altitude") else "a number of degrees"
-        raise Unusable(f'{who} has a {what} "{text[:60]}", which is not {said}{comma}') from None
+        is_height = what in ("height", "altitude")
+        said = "a number of metres" if is_height else "a number of degrees"
+        advice = (
+            "; a number has a point"
+            if "," in text
+            else f", such as {2.5 if is_height else 47.39774}"
+        )
+        raise Unusable(f'{who} has a {what} "{text[:60]}", which is not {said}{advice}') from None
 
 
 def _value(row: Mapping[str, str], names: Iterable[str]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element, TreeBuilder
 from xml.parsers.expat import ExpatError, ParserCreate
 
-from .feature import Unusable
+from .feature import CUT_OFF, Unusable
 
 DEEPEST = 100
 MOST_ELEMENTS = 500_000
@@ -48,7 +48,7 @@ def tree_of(text: str, what: str) -> Element:
     try:
         parser.Parse(text.encode(), True)
     except ExpatError as error:
-        raise Unusable(f"cannot be read as {what}: {error}") from None
+        raise Unusable(f"cannot be read as {what}: {error}{CUT_OFF}") from None
     root: Element = builder.close()
     return root
 

@@ -168,6 +168,7 @@ REFUSED = [
     (_feature('{"type":"Point","coordinates":[9.19]}'), "feature 1 has no coordinates that can be read"),
     (_feature('{"type":"Point","coordinates":["9","45"]}'), "feature 1 has a latitude that is no number of degrees"),
     (_feature('{"type":"Point","coordinates":[45.4643,9.1902]}', '{"name":"A"}'), 'feature 1, "A", is 5,154 km from the map\'s origin: a map reaches 20 km; its latitude and longitude are the wrong way round'),
+    (_feature('{"type":"Point","coordinates":[9.1902,46.4643]}'), "feature 1 is 111 km from the map's origin: a map reaches 20 km; `pluto-fleet map` makes a fleet file whose map lies there"),
     (_feature('{"type":"Circle","coordinates":[9,45]}'), "feature 1 is of no known type of geometry"),
     (_feature(f'{{"type":"Polygon","coordinates":{SQUARE}}}'), "does not say how far its places are apart: give it a property spacing"),
     (_feature(f'{{"type":"Polygon","coordinates":{SQUARE[:-1]},{SQUARE[1:-1]}]}}', '{"spacing":5}'), "has a hole, and an area is flown over as a whole"),
@@ -188,6 +189,7 @@ REFUSED = [
     (_kml('<x xmlns:wpml="http://www.dji.com/wpmz/1.0.6"/>'), "is a flight of DJI (WPML): export"),
     ("QGC WPL 110\n1\t0\t3\n", "has no waypoint in row 2: a row has 12 numbers"),
     ("QGC WPL 100\n", "is a list of waypoints of another version than 110"),
+    ("lat,lon\n45°27',9°11'\n", "row 2 has a latitude \"45°27'\", which is not a number of degrees, such as 47.39774"),
     ("lat,lon\n45.4643\n", "has 1 value in row 2"),
     ('name;lat;lon\nA;"45,4643";9,19\n', 'row 2, "A", has a latitude "45,4643", which is not a number of degrees; a number has a point'),
 ]  # fmt: skip
