@@ -84,11 +84,11 @@ class CommandQueue:
             self._brake.cancel()
 
     def _stop(self, task: asyncio.Task[Any], holds: bool) -> None:
+        task.cancel()  # here, as one that is sent on at this instant lets the brake not even begin
         self._brake = asyncio.ensure_future(self._braking(task, holds))
 
     async def _braking(self, task: asyncio.Task[Any], holds: bool) -> None:
         """End the last command in a hover before the next one begins."""
-        task.cancel()
         await asyncio.wait((task,))
         if holds:
             await self._hold()

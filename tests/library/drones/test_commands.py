@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import asyncio
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import inf, nan
 from pathlib import Path
@@ -11,6 +13,7 @@ import pytest
 from pluto_fleet.drones.commands import result_of
 from pluto_fleet.drones.protocol import Rejected
 from pluto_fleet.drones.real_fleet import RequiredAction
+from pluto_fleet.drones.vehicle import CommandQueue
 from pluto_fleet.jobs.controls import Act, Cut, GoTo, Land, TakeOff
 from pluto_fleet.shared.domain.errors import Failure, FlightFailed
 from pluto_fleet.shared.domain.model import Category, Item, Photo, Point, Sighting
@@ -40,6 +43,36 @@ async def test_a_flight_is_told_step_by_step(tmp_path: Path) -> None:
         await flown.do(team.do("cf1", Land()))
         told = ["takeoff 1", "go to 3 1 1", "measure", "land"]
         assert flown.drones["cf1"].told == told
+
+
+async def test_what_is_cancelled_ends_also_where_the_drone_is_sent_on_at_that_instant() -> None:
+    """Else both commands wait for their ends, by the one state of the drone."""
+    ended: list[str] = []
+
+    async def fly() -> None:
+        try:
+            await asyncio.Event().wait()
+        finally:
+            ended.append("fly")
+
+    async def hold() -> None:
+        ended.append("hold")
+
+    queue = CommandQueue(hold)
+
+    async def sent_on() -> None:
+        with suppress(asyncio.CancelledError):
+            await queue.run("fly", fly)
+        queue.release()
+
+    task = asyncio.ensure_future(sent_on())
+    while not queue.doing:
+        await asyncio.sleep(0)
+    await asyncio.sleep(0)
+    task.cancel()
+    await task
+    await asyncio.sleep(0.1)
+    assert ended == ["fly"]
 
 
 async def test_all_drones_are_connected_at_once_and_a_silent_one_delays_no_other(
