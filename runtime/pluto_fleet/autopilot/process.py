@@ -15,6 +15,7 @@ import msgspec
 from ..geodesy import LocalPlane
 from ..process.simulator import Simulator
 from ..process.surroundings import NOTHING, Surroundings
+from ..process.track_server import TrackServer
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
 from .equipment import Around
@@ -29,7 +30,7 @@ _SIMULATOR = Simulator("autopilot", "simulated vehicles")
 uris_in = _SIMULATOR.uris_in
 end = _SIMULATOR.end
 told = _SIMULATOR.told
-"""Asks for `fault` with `drone`, `name` and `value`; `join`, `state`, and what all are asked."""
+"""Asks for `fault` with `drone`, `name` and `value`; `join`, `state`, `tracker`, and what all are asked."""
 
 Point = tuple[float, float, float]
 
@@ -85,6 +86,7 @@ class _Desk:
         self._port = int(kept.get("port", 0))
         fleet = self._fleet
         self.server = Server(around=Around(fleet.surroundings, fleet.plane))
+        self._tracker = TrackServer(fleet.surroundings.world)
         self._join(kept.get("vehicles", {}))
 
     @property
@@ -110,6 +112,8 @@ class _Desk:
         match request:
             case {"do": "state"}:
                 return json.dumps(self._state())
+            case {"do": "tracker"}:
+                return await self._tracker.address()
             case {"do": "join"}:
                 self._join({})
                 return "they are there"
@@ -130,6 +134,7 @@ class _Desk:
             write_whole(self._folder / VEHICLES, json.dumps(self._state()))
 
     async def close(self) -> None:
+        self._tracker.close()
         await self.server.close()
         self.keep()
 

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from math import atan, degrees
-from typing import Any
 
 from ..shared.alone.world import HEIGHT as ALONG
 from ..shared.alone.world import WIDTH as ACROSS
@@ -25,8 +23,6 @@ _MAGIC, _RAW = 0xBC, 0
 _CHUNK = 1000
 _PAUSE = 0.1
 """Seconds between two pictures."""
-_TRACKED = 0.1
-"""Seconds between two looks at what moves."""
 _FIRST = BUILT_IN[PHOTO].seconds
 """Seconds until a client gets its first picture."""
 _ROUTE, _FUNCTION = 0x0C, 0x05
@@ -51,21 +47,6 @@ def frames(number: int) -> bytes:
 async def camera(port: int = 0) -> asyncio.Server:
     """Stream pictures to every client; close what is returned to end it."""
     return await asyncio.start_server(_stream, HOST, port)
-
-
-async def tracker(tracks: Callable[[], Mapping[str, Any]]) -> asyncio.Server:
-    """Say to every client again and again where things are that move; close what is returned to end it."""
-
-    async def say(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        with suppress(OSError):
-            while not reader.at_eof():
-                for id, track in tracks().items():
-                    writer.write(json.dumps({"id": id, **track}).encode() + b"\n")
-                await writer.drain()
-                await asyncio.sleep(_TRACKED)
-        writer.close()
-
-    return await asyncio.start_server(say, HOST, 0)
 
 
 async def _stream(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:

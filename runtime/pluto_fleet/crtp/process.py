@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import time
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -14,11 +13,12 @@ import msgspec
 
 from ..process.simulator import Simulator
 from ..process.surroundings import NOTHING, Surroundings
+from ..process.track_server import TrackServer
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
 from .battery import CHARGE, FLIGHT
 from .drone import Build, SimulatedCrazyflie
-from .equipment import camera, port_of, tracker
+from .equipment import camera, port_of
 from .flight_log import FileLog, Point
 from .server import HOST, Server
 
@@ -87,9 +87,8 @@ class _Desk:
         self.server = Server(builds, self._log, self._world)
         for id, drone in self.server.drones.items():
             _restore(drone, kept[id])
-        self._began = time.monotonic()
+        self._tracker = TrackServer(self._world)
         self._camera: asyncio.Server | None = None
-        self._tracker: asyncio.Server | None = None
 
     async def start(self) -> None:
         await self.server.start(self._ports)
@@ -102,8 +101,7 @@ class _Desk:
                 self._camera = self._camera or await camera()
                 return f"{HOST}:{port_of(self._camera)}"
             case {"do": "tracker"}:
-                self._tracker = self._tracker or await tracker(self._tracks)
-                return f"{HOST}:{port_of(self._tracker)}"
+                return await self._tracker.address()
             case {"do": "join", "drone": str(id), "home": list(home), "battery": list(battery)}:
                 number = len(self.server.endpoints)
                 await self.server.join(_build(id, number, {"home": home, "battery": battery}))
@@ -120,17 +118,14 @@ class _Desk:
                 return f"{id}: {name} is {value}"
         raise BadInput("that cannot be asked of simulated drones")
 
-    def _tracks(self) -> Mapping[str, Any]:
-        return self._world.tracks(time.monotonic() - self._began)
-
     def keep(self) -> None:
         self._log.flush()
         _write(self._folder, _state(self.server))
 
     async def close(self) -> None:
-        for served in (self._camera, self._tracker):
-            if served is not None:
-                served.close()
+        if self._camera is not None:
+            self._camera.close()
+        self._tracker.close()
         await self.server.close()
         self._log.close()
         _write(self._folder, _state(self.server))

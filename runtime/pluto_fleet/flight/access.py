@@ -19,6 +19,8 @@ from ..shared.domain.actions import MEASURE
 from ..shared.domain.errors import BadInput
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from ..drones.real_fleet import RealFleet
     from ..files.fleet import FleetFile
     from ..jobs.link import Link
@@ -99,7 +101,7 @@ class GatewayAccess:
     async def _vehicles(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
         """Start simulated vehicles that speak MAVLink."""
         from ..autopilot.equipment import fitted, sensors
-        from ..autopilot.process import SimulatedFleet, start  # rarely needed
+        from ..autopilot.process import SimulatedFleet, start, told  # rarely needed
 
         assert fleet.plane is not None
         batteries = self._batteries(fleet)
@@ -126,7 +128,7 @@ class GatewayAccess:
             replace(one, uri=uris[one.id], options=fitted(one.options, measures[one.id]))
             for one in real.drones
         )
-        return replace(real, drones=tuple(drones))
+        return await self._tracked(replace(real, drones=tuple(drones)), around, told)
 
     async def _crazyflies(self, fleet: FleetFile, real: RealFleet) -> RealFleet:
         """Start simulated Crazyflies."""
@@ -147,7 +149,12 @@ class GatewayAccess:
             )
             for drone in real.drones
         )
-        real = replace(real, drones=tuple(drones))
+        return await self._tracked(replace(real, drones=tuple(drones)), around, told)
+
+    async def _tracked(
+        self, real: RealFleet, around: Surroundings, told: Callable[[Path, str], str]
+    ) -> RealFleet:
+        """Return a fleet with what tracks what moves there, if anything does; `told` asks the simulated drones."""
         if not around.data.movers:
             return real
         address = await asyncio.to_thread(told, self._folder, "tracker")

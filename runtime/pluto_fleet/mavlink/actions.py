@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections import deque
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import suppress
 from math import isfinite
 from statistics import fmean
@@ -13,9 +13,9 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from ..drones.equipment import no_gripper, no_source, quantity_of
-from ..drones.protocol import ActionNotDone, Rejected
+from ..drones.protocol import ActionNotDone, InView, Rejected
 from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
-from ..shared.domain.model import Photo
+from ..shared.domain.model import Photo, Sighting
 from ..shared.domain.text import quoted
 from .makes import ACCEPTED, ANSWERS, IN_PROGRESS, NOT_NOW, Order, grips
 from .options import VehicleOptions
@@ -42,8 +42,9 @@ _SWITCHES = {"PX4": ("PD_GRIPPER_TYPE", -1.0, 0), "ArduPilot": ("GRIP_ENABLE", 0
 class Actions:
     """The actions of one vehicle, as configured in the fleet file."""
 
-    def __init__(self, drone: str, options: VehicleOptions, ask: Ask) -> None:
+    def __init__(self, drone: str, options: VehicleOptions, ask: Ask, in_view: InView) -> None:
         self._drone = drone
+        self._in_view = in_view
         self._options = options
         self._ask = ask
         self._photos: deque[asyncio.Future[Mapping[str, Any]]] = deque()
@@ -171,6 +172,14 @@ class Actions:
 
     # Its camera
 
+    def sees(self, state: VehicleState) -> Sequence[Sighting]:
+        """Return what the fleet's tracker sees in the view of its camera, which tells no more by itself."""
+        if (why := self.why_not(state, PHOTO, {})) is not None:
+            raise ActionNotDone(why)
+        assert state.position is not None
+        across, along = ground(state.cameras[0], state.position[2])
+        return self._in_view(state.position, across, along)
+
     async def _photo(self, state: VehicleState, system: int, seconds: float) -> Photo:
         """Take a photo; that its camera has taken one, only its own message says."""
         lens = state.cameras[0]
@@ -190,10 +199,25 @@ class Actions:
                 self._photos.remove(coming)
         if not taken["success"]:
             raise ActionNotDone(f"{self._drone}: its camera has taken no picture")
-        x, y, z = state.point(taken)
-        across, along = (z * size / (lens["focal"] or size) for size in lens["sensor"])
-        sees, sharpness = shown_at(taken["file"])
-        return Photo(position=(x, y, z), width=across, height=along, sees=sees, sharpness=sharpness)
+        place = state.point(taken)
+        across, along = ground(lens, place[2])
+        shown, sharpness = shown_at(taken["file"])
+        tracks = self._in_view(place, across, along)
+        sees = tuple(sorted([*shown, *(one.kind for one in tracks)]))
+        return Photo(
+            position=place,
+            width=across,
+            height=along,
+            sees=sees,
+            sharpness=sharpness,
+            tracks=tracks,
+        )
+
+
+def ground(lens: Mapping[str, Any], height: float) -> tuple[float, float]:
+    """Return how many metres of ground a camera sees from a height, across and along."""
+    across, along = (height * size / (lens["focal"] or size) for size in lens["sensor"])
+    return across, along
 
 
 def shown_at(address: str) -> tuple[tuple[str, ...], float]:

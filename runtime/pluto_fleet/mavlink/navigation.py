@@ -28,7 +28,7 @@ from ..drones.telemetry import Reports
 from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
 from ..geodesy import Degrees
 from ..shared.domain.actions import MEASURE, PHOTO, Plain
-from ..shared.domain.model import Item, Point
+from ..shared.domain.model import Item, Point, Sighting
 from ..shared.domain.text import number
 from . import own_failsafes
 from .actions import Actions
@@ -86,7 +86,7 @@ class MavlinkVehicle:
         self._make: Make | None = None
         self._client: MavsdkClient | None = None
         self._number = 0
-        self._actions = Actions(setup.id, self._options, self._ask)
+        self._actions = Actions(setup.id, self._options, self._ask, setup.in_view)
         self._crashed = ""
         self._cut = False
         self._order_given = ""
@@ -486,6 +486,10 @@ class MavlinkVehicle:
         return await self._actions.act(
             self._state, self._address.system, action, parameters, _CAMERA_ON_THE_WAY
         )
+
+    async def sees(self) -> Sequence[Sighting]:
+        """Return what the fleet's tracker sees in the view of its camera."""
+        return self._actions.sees(self._state)
 
     async def read(self, name: str) -> float:
         """Return a quantity, a value that it tells, or else a parameter of its autopilot."""
