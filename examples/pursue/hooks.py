@@ -14,18 +14,18 @@ from . import (
 
 LOOKS = 0.25
 """Seconds from one look to the next."""
-BOUND = 5.0
-"""Seconds from when an intruder is seen to the picture."""
-REACH = 0.7
-"""Metres from somebody within which a camera has them on its picture, from the usual height."""
 STAYS = 90.0
 """Seconds for which a drone stays with whom it has a picture of."""
 URGENT = 10
 """The priority of a picture that is to be taken within a bound."""
 
 
-async def look(drone: Drone, trip: Trip, context: Context) -> None:
-    """Say on the way whom the camera sees; each is an intruder once."""
+async def look(drone: Drone, trip: Trip, context: Context, reach: float, bound: float) -> None:
+    """Say on the way whom the camera sees; each is an intruder once.
+
+    `reach` is how many metres from somebody a camera still has them on its picture, from the usual height; within
+    `bound` seconds there is to be one.
+    """
     camera = context.live(drone)
     while True:
         for seen in await camera.sees():
@@ -35,6 +35,8 @@ async def look(drone: Drone, trip: Trip, context: Context) -> None:
                 at=seen.at,
                 track=seen.track,
                 kind=seen.kind,
+                reach=reach,
+                bound=bound,
             )
         await context.sleep(LOOKS)
 
@@ -48,17 +50,23 @@ def chase(event: IntruderEvent, context: Context) -> Mission | None:
         action="take_photo",
         target=event.at,
         track=event.track,
-        reach=REACH,
+        reach=event.reach,
         priority=URGENT,
     )
-    return Mission(name=f"chase {event.track}", trips=[picture], promises={"deadline": BOUND})
+    return Mission(name=f"chase {event.track}", trips=[picture], promises={"deadline": event.bound})
 
 
 def tell_pictured(mission: Mission, context: Context) -> None:
     """Say that there is a picture of whom a chase was after."""
     for trip in mission.completed_trips:
         if trip.track is not None and trip.action == "take_photo":
-            context.emit("pictured", id=f"pictured {trip.track}", at=trip.target, track=trip.track)
+            context.emit(
+                "pictured",
+                id=f"pictured {trip.track}",
+                at=trip.target,
+                track=trip.track,
+                reach=trip.reach,
+            )
 
 
 def stay_with(event: PicturedEvent, context: Context) -> Mission | None:
@@ -70,7 +78,7 @@ def stay_with(event: PicturedEvent, context: Context) -> Mission | None:
         action="follow",
         target=event.at,
         track=event.track,
-        reach=REACH,
+        reach=event.reach,
         parameters={"for": STAYS, "every": 2.0},
     )
     return Mission(name=f"stay with {event.track}", trips=[follow])

@@ -10,19 +10,20 @@ def test_who_is_seen_is_said(kit: Kit, clock: Clock, context: KitContext) -> Non
     context.see("t7", kind="person", at=(3.0, 4.0, 0.0))
     drone = kit.drone("scout")
     trip = kit.trip("take_photo")
-    call = kit.start(hooks.look, drone, trip, context)
+    call = kit.start(hooks.look, drone, trip, context, reach=0.7, bound=5.0)
     clock.advance(hooks.LOOKS)
     event, facts = context.emitted[0]
     assert (event, facts["id"], facts["at"]) == ("intruder", "seen t7", (3.0, 4.0, 0.0))
+    assert (facts["reach"], facts["bound"]) == (0.7, 5.0)
     call.cancel()
 
 
 def test_a_chase_has_a_bound(kit: Kit, context: KitContext) -> None:
-    event = kit.event("intruder", at=(3.0, 4.0, 0.0), track="t7")
+    event = kit.event("intruder", at=(3.0, 4.0, 0.0), track="t7", reach=8.0, bound=12.0)
     mission = kit.call(hooks.chase, event, context)
     assert mission is not None
-    assert (mission.name, mission.promises) == ("chase t7", {"deadline": hooks.BOUND})
-    assert mission.trips[0].track == "t7"
+    assert (mission.name, mission.promises) == ("chase t7", {"deadline": 12.0})
+    assert (mission.trips[0].track, mission.trips[0].reach) == ("t7", 8.0)
     assert kit.call(hooks.chase, kit.event("intruder"), context) is None
 
 

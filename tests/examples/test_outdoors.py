@@ -15,7 +15,7 @@ from pluto_fleet.cli import main as fleet_main
 from tests.kit.apps import EXAMPLES, example
 from tests.kit.command import run
 
-NAMES = ("aerial_mapping", "alfalfa", "pm10")
+NAMES = ("aerial_mapping", "alfalfa", "pm10", "pursue")
 FILES = ("outdoors_missions.toml", "--fleet", "outdoors.toml")
 MINUTES = 9
 
