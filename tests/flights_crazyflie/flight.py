@@ -10,7 +10,7 @@ from contextlib import closing, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from subprocess import TimeoutExpired
-from typing import Any
+from typing import Any, ClassVar
 
 from pluto_fleet.crtp import process
 from pluto_fleet.crtp.flight_log import COMMANDS, TRACE, CommandRecord, PositionRecord
@@ -27,6 +27,8 @@ Event = Mapping[str, Any]
 class Flight(Lives):
     """Flies Crazyflies, and makes them."""
 
+    flag: ClassVar[str] = "--crtp-sim"
+    """By which `fly` is told how many there are."""
     drones: int | None = None
     """How many simulated ones the app shall start; None: the fleet file says where they are."""
     world: Path | None = None
@@ -46,7 +48,7 @@ class Flight(Lives):
         """Let a life begin: the first, or one that goes on where the last one was killed."""
         words = ["resume", str(self.journal)]
         if not self.journal.exists():
-            simulated = [] if self.drones is None else ["--crtp-sim", str(self.drones)]
+            simulated = [] if self.drones is None else [self.flag, str(self.drones)]
             words = ["fly", *self.files, *simulated, "--journal", str(self.journal)]
         self.begin(*words)
 

@@ -14,9 +14,11 @@ LONGEST = 1800.0
 """Seconds that no flight takes."""
 
 
-def promise(plan: Plan, source: Path, folder: Path, seeds: int) -> Promise:
+def promise(
+    plan: Plan, source: Path, folder: Path, seeds: int, kind: type[Flight] = Flight
+) -> Promise:
     """Simulate a plan with many seeds, without spread, and as a dry run."""
-    flight = prepared(plan, source, folder)
+    flight = prepared(plan, source, folder, kind)
     runs = json.loads(_said(flight, "simulate", "--runs", str(seeds), "--json"))["summary"]
     makespan, battery = runs["makespan_s"], runs["battery_level"]
     if makespan is None:
@@ -30,7 +32,7 @@ def promise(plan: Plan, source: Path, folder: Path, seeds: int) -> Promise:
         battery=battery["median"],
         flights=runs["attempts"]["median"],
         exact=_outcome(_said(flight, "simulate", "--no-spread")),
-        dry_run=_outcome(_said(flight, "fly", "--crtp-sim", str(plan.drones), "--dry-run")),
+        dry_run=_outcome(_said(flight, "fly", kind.flag, str(plan.drones), "--dry-run")),
     )
 
 
@@ -39,10 +41,14 @@ def fly(plan: Plan, source: Path, folder: Path) -> Flown:
     flight = prepared(plan, source, folder)
     try:
         flight.start()
-        code = flight.see_through(LONGEST)
-        events = flight.events
+        return came_of(plan, flight, flight.see_through(LONGEST))
     finally:
         flight.end()
+
+
+def came_of(plan: Plan, flight: Flight, code: int) -> Flown:
+    """Return what came of a flight that has ended with this exit code."""
+    events = flight.events
     levels = [event["battery"] for event in events if isinstance(event.get("battery"), float)]
     kinds = [event["event"] for event in events]
     ends = [event["t"] for event in events if event["event"] == "mission.ended"]
@@ -61,10 +67,10 @@ def fly(plan: Plan, source: Path, folder: Path) -> Flown:
     )
 
 
-def prepared(plan: Plan, source: Path, folder: Path) -> Flight:
+def prepared(plan: Plan, source: Path, folder: Path, kind: type[Flight] = Flight) -> Flight:
     """Write a plan's files into a new folder."""
     plan.write(folder)
-    return Flight(app=plan.app, source=source, folder=folder, drones=plan.drones)
+    return kind(app=plan.app, source=source, folder=folder, drones=plan.drones)
 
 
 def _said(flight: Flight, command: str, *flags: str) -> str:

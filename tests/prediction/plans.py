@@ -9,8 +9,10 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+
+import tomlkit
 
 from tests.kit.apps import EXAMPLES, NAMES, compiled_file
 
@@ -58,6 +60,8 @@ _CONTENT = {
 }
 """What makes evaluators content with each photo."""
 _ROUNDS = re.compile(r"(?m)^(repeat|every) = .*\n")
+_MORE = re.compile(r"(?m)^repeat = \d+")
+_PAUSES = re.compile(r"(?m)^every = .*\n")
 """Fields that make a plan last for longer than it can be flown."""
 _WORLD = re.compile(r"(?ms)^(#[^\n]*\n)*\[\[?world\b.*?(?=^\[\[?(?!world\b)|\Z)")
 EMPTY_WORLD = "\n[world]\n"
@@ -66,6 +70,37 @@ EMPTY_WORLD = "\n[world]\n"
 
 def example(name: str) -> Plan:
     """Return an example with its own missions, without further rounds."""
+    plan = _example(name, "missions.toml", "fleet.toml")
+    missions = _ROUNDS.sub("", plan.missions)
+    return replace(plan, missions=missions, fleet=_WORLD.sub("", plan.fleet) + EMPTY_WORLD)
+
+
+MOTIONS: Mapping[str, Mapping[str, object]] = {
+    "px4": {"legs": "steady"},
+    "ardupilot": {
+        "legs": "steady",
+        "acceleration": 2.5,  # WPNAV_ACCEL
+        "up": 2.5,  # WPNAV_SPEED_UP
+        "low": 10.0,  # LAND_ALT_LOW
+        "touch_down": 0.5,  # LAND_SPEED
+        "landing": 1.1,
+    },
+}
+"""How vehicles of each make move that are set as they come."""
+
+
+def outdoors(name: str, make: str) -> Plan:
+    """Return the outdoor form of an example, with two rounds at most and no pause between, for vehicles of a make."""
+    plan = _example(name, "outdoors_missions.toml", "outdoors.toml")
+    missions = _MORE.sub("repeat = 1", _PAUSES.sub("", plan.missions))
+    fleet = tomlkit.parse(plan.fleet)
+    fleet.setdefault("navigation", {}).setdefault("mavlink", {})["autopilot"] = make
+    fleet.setdefault("motion", {}).update(MOTIONS[make])
+    return replace(plan, name=f"{name}, {make}", missions=missions, fleet=tomlkit.dumps(fleet))
+
+
+def _example(name: str, missions: str, fleet: str) -> Plan:
+    """Return an example that is content with each photo."""
     folder = EXAMPLES / name
     sources = {file: (folder / file).read_text() for file in _FILES if (folder / file).exists()}
     for strict, content in _CONTENT.items():
@@ -74,8 +109,8 @@ def example(name: str) -> Plan:
         name=name,
         app=name,
         sources=sources,
-        missions=_ROUNDS.sub("", (folder / "missions.toml").read_text()),
-        fleet=_WORLD.sub("", (folder / "fleet.toml").read_text()) + EMPTY_WORLD,
+        missions=(folder / missions).read_text(),
+        fleet=(folder / fleet).read_text(),
         lists={path.name: path.read_text() for path in sorted(folder.glob("*.csv"))},
     )
 
