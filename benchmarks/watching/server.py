@@ -44,9 +44,7 @@ class Server:
     @property
     def memory(self) -> float:
         """Megabytes that it holds."""
-        text = Path(f"/proc/{self.process.pid}/status").read_text()
-        found = re.search(r"VmRSS:\s+(\d+) kB", text)
-        return int(found[1]) / 1000 if found else 0.0
+        return memory_of(self.process.pid)
 
     @property
     def kept(self) -> float:
@@ -104,6 +102,13 @@ def seconds_of(process: int, thread: int | None = None) -> float:
     of = f"/proc/{process}/stat" if thread is None else f"/proc/{process}/task/{thread}/stat"
     fields = Path(of).read_text().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / TICKS
+
+
+def memory_of(process: int) -> float:
+    """Return the megabytes that a process holds."""
+    text = Path(f"/proc/{process}/status").read_text()
+    found = re.search(r"VmRSS:\s+(\d+) kB", text)
+    return int(found[1]) / 1000 if found else 0.0
 
 
 def _command_of(process: int) -> bytes:
