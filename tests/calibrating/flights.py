@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from random import Random
 
@@ -91,28 +92,31 @@ def surveyed(
     drones: int = 3,
     speed: float = 0.5,
     within: float = 12.0,
+    highest: float = 1.8,
+    near: float = inf,
     seed: int = 0,
     around: Around | None = None,
 ) -> Path:
-    """Fly trips to all over the map and all heights, with a fleet file that says another motion."""
+    """Fly trips to all over the map and all heights, with a fleet file that says another motion.
+
+    `near`: every second one leads no farther than that, along x and y.
+    """
     chance = Random(f"{seed}/survey")
     scout = Category(name="scout", speed=speed)
     app = apps.changed(apps.app(apps.flow(), categories=[scout]), resumes=("allocate",))
     fleet = apps.fleet(*[(1.0 + 2 * i, 0.5, 0.0) for i in range(drones)])
-    fleet = replace(fleet, motion=said)
+    size = max(20.0, within + 1.0)
+    fleet = replace(fleet, motion=said, airspace=replace(fleet.airspace, size=(size, size)))
     missions = []
     for number in range(drones):
-        mine = [
-            apps.Trip(
-                name=str(at),
-                action=chance.choice(("measure", "take_photo")),
-                target=(
-                    chance.uniform(1, within),
-                    chance.uniform(1, within),
-                    chance.uniform(0.5, 1.8),
-                ),
-            )
-            for at in range(trips // drones)
-        ]
+        mine = []
+        x = y = within / 2
+        for at in range(trips // drones):
+            action = chance.choice(("measure", "take_photo"))
+            far = near if at % 2 else inf
+            x = chance.uniform(max(1.0, x - far), min(within, x + far))
+            y = chance.uniform(max(1.0, y - far), min(within, y + far))
+            target = (x, y, chance.uniform(0.5, highest))
+            mine.append(apps.Trip(name=str(at), action=action, target=target))
         missions.append(apps.mission(f"m{number}", *mine))
     return flown(path, app, fleet, *missions, motion=motion, seed=seed, around=around)

@@ -10,10 +10,11 @@ from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
 
-from .body import Limits, Metres
+from .body import Limits, Metres, root
 from .equipment import Around, Gripper
 from .vehicle import (
     ACCEPTED,
+    DEEP,
     DENIED,
     FAILED,
     FORCED,
@@ -22,6 +23,7 @@ from .vehicle import (
     Doing,
     Parameter,
     Vehicle,
+    leaning,
 )
 
 STABILIZE = 0
@@ -37,12 +39,20 @@ _SERVO_MOVES = 0.5
 _BY_NUMBER = {**_HOLDS, RTL: Doing.RETURN, LAND: Doing.LAND}
 
 
+def _approach(metres: float, acceleration: float, jerk: float) -> float:
+    """Return how fast it may be so far from its goal: libraries/AP_Math/control.cpp, shape_pos_vel_accel (4.5)."""
+    return root(metres, 0.5 * jerk / acceleration, 0.5 * acceleration)
+
+
 def _parameters() -> dict[str, Parameter]:
     return {
         "WPNAV_SPEED": Parameter(1000.0),
         "WPNAV_SPEED_UP": Parameter(250.0),
         "WPNAV_SPEED_DN": Parameter(150.0),
         "WPNAV_ACCEL": Parameter(250.0),
+        "WPNAV_ACCEL_Z": Parameter(100.0),
+        "PSC_JERK_XY": Parameter(5.0),
+        "ANGLE_MAX": Parameter(3000.0, whole=True),
         "LAND_SPEED": Parameter(50.0, whole=True),
         "LAND_ALT_LOW": Parameter(1000.0, whole=True),
         "RTL_ALT": Parameter(1500.0, whole=True),
@@ -82,7 +92,13 @@ class ArduPilot(Vehicle):
             up=parameters["WPNAV_SPEED_UP"].value / 100,
             down=parameters["WPNAV_SPEED_DN"].value / 100,
             level_acceleration=parameters["WPNAV_ACCEL"].value / 100,
-            upright_acceleration=1.0,
+            up_acceleration=parameters["WPNAV_ACCEL_Z"].value / 100,
+            down_acceleration=parameters["WPNAV_ACCEL_Z"].value / 100,
+            # not WPNAV_JERK: mode_guided.cpp, pos_control_run, unless GUID_OPTIONS says otherwise
+            jerk=parameters["PSC_JERK_XY"].value,
+            approach=_approach,
+            gain=lambda acceleration, jerk: jerk / acceleration,
+            airspeed=leaning(parameters["ANGLE_MAX"].value / 100),
         )
         gripper = Gripper(closed=None, moves_for=_SERVO_MOVES)
         super().__init__(build, limits, parameters, gripper, around)
@@ -231,9 +247,11 @@ class ArduPilot(Vehicle):
         if self.doing is Doing.TAKE_OFF and abs(z - body.goal[2]) < 0.1 and body.speed < 0.2:
             self.doing = Doing.GO
         elif self.doing is Doing.LAND:
-            if z < self.value("LAND_ALT_LOW") / 100:
-                body.limits.down = self.value("LAND_SPEED") / 100
-            body.goal = (*body.goal[:2], -1.0)
+            # ArduCopter/mode.cpp, land_run_vertical_control, with the usual PSC_POSZ_P
+            above = max(0.0, z - self.value("LAND_ALT_LOW") / 100)
+            slows = root(above, 1.0, body.limits.down_acceleration)
+            body.limits.down = min(body.limits.down, max(self.value("LAND_SPEED") / 100, slows))
+            body.goal = (*body.goal[:2], DEEP)
         elif self.doing is Doing.RETURN:
             # ArduCopter/mode_rtl.cpp, with the usual WPNAV_RADIUS
             body.goal = self.homewards(self.value("RTL_ALT") / 100, 2.0)

@@ -18,6 +18,7 @@ from ..process.surroundings import NOTHING, Surroundings
 from ..process.track_server import TrackServer
 from ..process.whole_file import write_whole
 from ..shared.domain.errors import BadInput
+from ..wind import CALM, Wind
 from .equipment import Around
 from .server import Server, let
 from .vehicle import Build, Vehicle
@@ -51,6 +52,7 @@ class SimulatedFleet:
     measures: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     """The names of the values that their companion computers tell, by quantity."""
     surroundings: Surroundings = NOTHING
+    wind: Wind = CALM
 
 
 def start(
@@ -154,6 +156,7 @@ def _build(fleet: SimulatedFleet, id: str, number: int, home: Point) -> Build:
         charge=inf if charge is None else charge,
         grips=True,
         senses={name: quantity for quantity, name in fleet.measures.get(id, {}).items()},
+        wind=fleet.wind,
     )
 
 

@@ -5,7 +5,7 @@ Each behaviour names the source of PX4 that it follows; parameters have the valu
 
 from __future__ import annotations
 
-from math import inf, isfinite
+from math import inf, isfinite, sqrt
 from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -16,6 +16,7 @@ from .vehicle import (
     ACCEPTED,
     BUSY,
     CANCELLED,
+    DEEP,
     DENIED,
     FAILED,
     FORCED,
@@ -25,6 +26,7 @@ from .vehicle import (
     Doing,
     Parameter,
     Vehicle,
+    leaning,
 )
 
 _AUTO = 4
@@ -32,6 +34,16 @@ _SUB_MODES = {Doing.TAKE_OFF: 2, Doing.HOLD: 3, Doing.GO: 3, Doing.RETURN: 5, Do
 """commander/px4_custom_mode.h."""
 _UNBREAKABLE = 121212.0
 """The value by which CBRK_FLIGHTTERM keeps termination from being done."""
+_QUICK = 10.0
+"""Per second: VelocitySmoothing changes a velocity in the least time, but for what a step of time cannot resolve."""
+
+
+def _approach(metres: float, acceleration: float, jerk: float) -> float:
+    """Return how fast it may be so far from its goal: mathlib/math/TrajMath.hpp, computeMaxSpeedFromDistance."""
+    late = (
+        2 * acceleration**2 / jerk
+    )  # it counts with twice the time that an acceleration takes to come
+    return sqrt(late * late + 2 * acceleration * metres) - late
 
 
 def _parameters() -> dict[str, Parameter]:
@@ -40,11 +52,17 @@ def _parameters() -> dict[str, Parameter]:
         "MPC_XY_CRUISE": Parameter(5.0),
         "MPC_XY_VEL_MAX": Parameter(12.0),
         "MPC_ACC_HOR": Parameter(3.0),
+        "MPC_ACC_UP_MAX": Parameter(4.0),
+        "MPC_ACC_DOWN_MAX": Parameter(3.0),
+        "MPC_JERK_AUTO": Parameter(4.0),
         "MPC_Z_V_AUTO_UP": Parameter(3.0),
         "MPC_Z_V_AUTO_DN": Parameter(1.5),
         "MPC_TKO_SPEED": Parameter(1.5),
+        "MPC_TKO_RAMP_T": Parameter(3.0),
         "MPC_LAND_SPEED": Parameter(0.7),
+        "MPC_LAND_ALT1": Parameter(10.0),
         "MPC_LAND_ALT2": Parameter(5.0),
+        "MPC_TILTMAX_AIR": Parameter(45.0),
         "COM_DISARM_LAND": Parameter(2.0),
         "COM_DISARM_PRFLT": Parameter(10.0),
         "COM_DL_LOSS_T": Parameter(10.0, whole=True),
@@ -75,7 +93,12 @@ class Px4(Vehicle):
             up=parameters["MPC_Z_V_AUTO_UP"].value,
             down=parameters["MPC_Z_V_AUTO_DN"].value,
             level_acceleration=parameters["MPC_ACC_HOR"].value,
-            upright_acceleration=3.0,
+            up_acceleration=parameters["MPC_ACC_UP_MAX"].value,
+            down_acceleration=parameters["MPC_ACC_DOWN_MAX"].value,
+            jerk=parameters["MPC_JERK_AUTO"].value,
+            approach=_approach,
+            gain=lambda acceleration, jerk: _QUICK,
+            airspeed=leaning(parameters["MPC_TILTMAX_AIR"].value),
         )
         # it closes as it is switched on
         gripper = Gripper(closed=True, moves_for=parameters["PD_GRIPPER_TO"].value)
@@ -222,19 +245,31 @@ class Px4(Vehicle):
     # What it flies
 
     def steer(self) -> None:
+        """Set its limits: flight_mode_manager/tasks/Auto/FlightTaskAuto.cpp, _updateTrajConstraints."""
         body = self.body
         z = body.at[2]
-        body.limits.up = self.value("MPC_Z_V_AUTO_UP")
-        body.limits.down = self.value("MPC_Z_V_AUTO_DN")
+        limits = body.limits
+        limits.up = self.value("MPC_Z_V_AUTO_UP")
+        limits.up_acceleration = self.value("MPC_ACC_UP_MAX")
+        limits.down = self.value("MPC_Z_V_AUTO_DN")
         if self.doing is Doing.TAKE_OFF and self._rises_to is not None:
-            body.limits.up = self.value("MPC_TKO_SPEED")
+            if z < self.value("MPC_LAND_ALT1"):
+                limits.up = self.value("MPC_TKO_SPEED")
+                limits.up_acceleration = limits.up / self.value("MPC_TKO_RAMP_T")
             body.goal = (body.goal[0], body.goal[1], self._rises_to)
             if abs(z - self._rises_to) < 0.1 and body.speed < 0.2:
                 self.doing = Doing.HOLD  # as the mode is completed
         elif self.doing is Doing.LAND:
-            if z < self.value("MPC_LAND_ALT2"):
-                body.limits.down = self.value("MPC_LAND_SPEED")
-            body.goal = (body.goal[0], body.goal[1], -1.0)
+            limits.down = self._sinks(z)
+            body.goal = (body.goal[0], body.goal[1], DEEP)
         elif self.doing is Doing.RETURN:
-            body.limits.level = self.value("MPC_XY_CRUISE")
+            limits.level = self.value("MPC_XY_CRUISE")
             body.goal = self.homewards(self.value("RTL_RETURN_ALT"), 0.5)  # navigator/rtl.cpp
+
+    def _sinks(self, height: float) -> float:
+        """Return how fast it lands: FlightTaskAuto.cpp, _prepareLandSetpoints, evenly slower between two heights."""
+        slow = self.value("MPC_LAND_SPEED")
+        fast = self.value("MPC_Z_V_AUTO_DN")
+        low = self.value("MPC_LAND_ALT2")
+        share = (height - low) / (self.value("MPC_LAND_ALT1") - low)
+        return slow + (fast - slow) * min(1.0, max(0.0, share))

@@ -9,13 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from math import atan2, hypot, inf, isfinite
+from math import atan2, hypot, inf, isfinite, radians, sqrt, tan
 from typing import ClassVar
 
 from pymavlink.dialects.v20 import common as mavlink
 
 from ..geodesy import Degrees, LocalPlane
 from ..shared.domain.airspace import inside
+from ..wind import CALM, SPEED_AT_45, Wind, power
 from .body import Body, Limits, Metres
 from .equipment import Around, Gripper
 
@@ -45,6 +46,8 @@ SENSORS = (
 READY = mavlink.MAV_SYS_STATUS_PREARM_CHECK
 SATELLITES = mavlink.MAV_SYS_STATUS_SENSOR_GPS
 ALL = SENSORS | SATELLITES | READY
+DEEP = -20.0
+"""Metres above the ground of the goal of a landing: it does not slow down for the ground."""
 TOUCHED = 0.02
 """Metres above the ground at which it has touched down."""
 
@@ -106,6 +109,7 @@ class Build:
     """Whether it has a gripper, and is set up for it."""
     senses: Mapping[str, str] = field(default_factory=dict)
     """The quantities that its companion computer tells, by the names of the values."""
+    wind: Wind = CALM
 
 
 @dataclass(slots=True)
@@ -138,6 +142,11 @@ class Record:
     """What its gripper has done: closed, or opened."""
     fell: bool = False
     landings: int = 0
+
+
+def leaning(degrees: float) -> float:
+    """Return how fast a tilt takes it through the air: the drag is that of ArduPilot's simulator, SIM_Frame.h."""
+    return SPEED_AT_45 * sqrt(tan(radians(degrees)))
 
 
 class Vehicle:
@@ -336,6 +345,7 @@ class Vehicle:
         if self.armed and not self.faults.dead:
             self.watch()
             self.steer()
+            body.wind = self.build.wind.at(self.now)
             body.fly(seconds)
             if self.high:
                 body.at[0] += self.faults.blown * seconds
@@ -359,7 +369,12 @@ class Vehicle:
             self.has_flown = True
 
     def _charge(self, seconds: float) -> None:
-        change = -1 / self.build.flight if self.armed else 1 / self.build.charge
+        body = self.body
+        if self.armed:
+            more = power(body.airspeed) / power(hypot(*body.velocity[:2])) if self.high else 1.0
+            change = -more / self.build.flight
+        else:
+            change = 1 / self.build.charge
         self.charge = min(1.0, max(0.0, self.charge + change * seconds))
         if self.charge == 0.0 and self.armed:
             self.disarm()

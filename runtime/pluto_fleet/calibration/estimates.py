@@ -24,6 +24,8 @@ _SAME = 1.4826
 """The standard deviation of a normal distribution, over its median absolute deviation."""
 
 
+_CLOSE = 1e-3
+"""The residual up to which a measurement counts no more than another: a few must not outweigh all the rest."""
 _LEAST = 1e-3
 """What is expected at least of a measurement that varies in proportion to itself."""
 
@@ -70,6 +72,22 @@ class Spread(Estimate):
 
 
 @dataclass(frozen=True, slots=True)
+class Rate(Estimate):
+    """A value of which the inverse was found from measurements: a speed, from seconds for each metre."""
+
+    @classmethod
+    def of(cls, inverse: Estimate) -> Rate:
+        """Return the value."""
+        return cls(1 / inverse.value, inverse.error / inverse.value**2, inverse.spare)
+
+    def interval(self, level: float) -> tuple[float, float]:
+        """Return the interval that holds the true value with this probability."""
+        inverse = Estimate(1 / self.value, self.error / self.value**2, self.spare)
+        low, high = inverse.interval(level)
+        return 1 / high, 1 / low if low > 0 else inf
+
+
+@dataclass(frozen=True, slots=True)
 class Fit:
     """The parameters that explain measurements best."""
 
@@ -96,7 +114,8 @@ def fitted(rows: Sequence[Row], *, relative: bool, finest: float, near: float) -
     if len(rows) <= count or not count:
         return None
     # the least sum of absolute residuals, as outliers move that little
-    robust = _solved(rows, relative, lambda off: 1 / max(abs(off), finest), rounds=40)
+    close = max(finest, _CLOSE)
+    robust = _solved(rows, relative, lambda off: 1 / max(abs(off), close), rounds=40)
     if robust is None:
         return None
     off = robust[2]
@@ -209,7 +228,7 @@ SURE = 0.95
 """The probability with which all intervals hold, all of them at once."""
 SPARE = 5
 """How many measurements there must be more than parameters."""
-WIDEST = {"pace": 0.2, "drain": 0.5, "charge": 0.5}
+WIDEST = {"pace": 0.2, "drain": 0.5, "charge": 0.5, "shape": 0.8}
 """Half an interval, as a share of its value, from which on that says nothing."""
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import dist, floor, log10, sqrt
+from math import dist, floor, inf, log10, sqrt
 from statistics import fmean, stdev
 from typing import Any
 
@@ -29,6 +29,7 @@ from .estimates import (
     Estimate,
     Fit,
     Found,
+    Rate,
     Row,
     fitted,
     student,
@@ -55,6 +56,28 @@ _FROM = {
 """From which commands each is found, and what people call these."""
 _OVERHEAD = {TAKE_OFF: "take_off", LAND: "landing"}
 """What such a command takes that no other does."""
+_SHAPES = {
+    "acceleration": (LEG, "leg"),
+    "down": (LAND, "landing"),
+    "up": (TAKE_OFF, "take-off"),
+    "touch_down": (LAND, "landing"),
+    "jerk": (LEG, "leg"),
+}
+"""On which a duration depends otherwise than in proportion, where drones speed up and brake; from which commands."""
+_VARIED = 1.2
+"""How much longer the longest of these must be than the shortest."""
+_ROUNDS = 12
+"""Of fits to what was found in the one before."""
+_BOLD = 3
+"""Of these rounds, those in which a value is changed to what was found, and not half as far."""
+_STARTS = (1.0, 0.6, 1.6)
+"""Times what is said of the acceleration: from where it is looked for."""
+_SETTLED = 1e-3
+"""By what share a value changes from one round to the next, once it is found."""
+_FURTHEST = 2.0
+"""By what factor it may change from one round to the next."""
+_STEP = 1e-3
+"""By what share a value is changed to see how durations change with it."""
 
 
 def find_durations(what: Calibration, done: Sequence[Command]) -> None:
@@ -70,14 +93,17 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
             f" were {what.model.settles:g} s"
         )
         fit = _fit_of(what.model, moves, known)
+    shapes: tuple[str, ...] = ()
+    if what.model.acceleration and "pace" not in known:
+        fit, shapes = _shaped(what, moves, known, fit)
     if fit is None or fit.spread.spare < SPARE:
         for name in (*_PARAMETERS, "spread"):
             what.untold.setdefault(name, too_few(len(moves), "flown command", SPARE + 4))
         return
     free = [name for name in _PARAMETERS if name not in known]
     kept = [one for one, off in zip(moves, fit.residuals, strict=True) if off is not None]
-    for name, estimate in zip(free, fit.values, strict=True):
-        kind, called = _FROM[name]
+    for name, estimate in zip((*free, *shapes), fit.values, strict=True):
+        kind, called = _FROM[name] if name in _FROM else _SHAPES[name]
         count = sum(one.what == kind for one in kept)
         what.found[name] = Found(estimate=estimate, count=count, of=called)
     what.found["spread"] = Found(estimate=fit.spread, count=len(kept), of="flown command")
@@ -85,7 +111,10 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
     _compare(what, "category", moves, fit)
     _compare(what, "drone", moves, fit)
     if "settles" in what.found:
-        _look_at_short_legs(what, moves, known)
+        flown = what.model
+        for name in shapes:
+            flown = _with(flown, name, what.found[name].value)
+        _look_at_short_legs(what, flown, moves, known)
 
 
 def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
@@ -100,19 +129,137 @@ def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
     return known
 
 
-def _fit_of(
-    model: Motion, moves: Sequence[Command], known: Mapping[str, float], *, short: float = 0.0
+def _shaped(
+    what: Calibration, moves: Sequence[Command], known: Mapping[str, float], plain: Fit | None
+) -> tuple[Fit | None, tuple[str, ...]]:
+    """Find also what of their shape the legs, climbs and landings tell; the rest counts as said."""
+    fit: Fit | None = None
+    shapes = [name for name in _SHAPES if getattr(what.model, name) and _vary(name, moves)]
+    while shapes:
+        fit = _bent(what.model, moves, known, shapes)
+        widths = [inf] if fit is None else _widths(fit, len(shapes))
+        if fit is not None and max(widths) < WIDEST["shape"] and not _leaves_pace_open(fit):
+            break
+        # one that cannot be told spoils all: of legs that is their jerk before their acceleration
+        least = _unknown(what.model, moves, known, shapes)
+        least = least or shapes[-1 if fit is None else widths.index(max(widths))]
+        shapes.remove("jerk" if least == "acceleration" and "jerk" in shapes else least)
+    for name in _SHAPES:
+        if getattr(what.model, name) and name not in shapes:
+            said = f"{getattr(what.model, name):g}"
+            what.untold[name] = (
+                f"the {_SHAPES[name][1]}s leave it open: the rest is found as if it were {said}"
+            )
+    return (fit if shapes else plain), tuple(shapes)
+
+
+def _vary(name: str, moves: Sequence[Command]) -> bool:
+    """Return whether commands that a value shapes are short and long enough to tell it, were all else known."""
+    metres = [one.metres for one in moves if one.what == _SHAPES[name][0]]
+    return len(metres) > SPARE and max(metres) > _VARIED * min(metres)
+
+
+def _unknown(
+    model: Motion, moves: Sequence[Command], known: Mapping[str, float], shapes: Sequence[str]
+) -> str | None:
+    """Return one of these that could not even be told if all others were as is said."""
+    for name in shapes:
+        if _bent(model, moves, known, [name]) is None:
+            return name
+    return None
+
+
+def _widths(fit: Fit, shapes: int) -> list[float]:
+    """Return half the interval of each of the last values, as a share of it."""
+    found = [(one.value, one.interval(SURE)) for one in fit.values[-shapes:]]
+    return [(high - low) / 2 / value for value, (low, high) in found]
+
+
+def _bent(
+    model: Motion, moves: Sequence[Command], known: Mapping[str, float], shapes: Sequence[str]
 ) -> Fit | None:
-    """Fit what is not known; with `short`, also what shorter legs take besides, as the last value."""
+    """Fit also these values of the model, the last ones; None: they cannot be told.
+
+    Where all legs would be long ones by what is said, they are not by another acceleration.
+    """
+    fits = []
+    for factor in _STARTS if "acceleration" in shapes else (1.0,):
+        begun = replace(model, acceleration=factor * model.acceleration)
+        fit = _followed(begun, moves, known, shapes)
+        fits += [] if fit is None else [fit]
+    return min(fits, key=lambda fit: (fit.left_out, fit.spread.value), default=None)
+
+
+def _followed(
+    model: Motion, moves: Sequence[Command], known: Mapping[str, float], shapes: Sequence[str]
+) -> Fit | None:
+    """Fit these values by how durations change with them, from what the model has; None: it leads nowhere."""
+    pace = 1.0
+    for turn in range(_ROUNDS):
+        fit = _fit_of(model, moves, known, shapes=shapes, pace=pace)
+        if fit is None:
+            return None
+        pace = fit.values[0].value
+        inverse = fit.values[-len(shapes) :]
+        found = dict(zip(shapes, inverse, strict=True))
+        if all(_is_near(1 / getattr(model, name), one) for name, one in found.items()):
+            rates = tuple(Rate.of(one) for one in inverse)
+            return replace(fit, values=(*fit.values[: -len(shapes)], *rates))
+        for name, one in found.items():
+            was = getattr(model, name)
+            now = 1 / max(one.value, 1 / was / _FURTHEST)
+            # a value that is found too far on either side in turn is between them
+            model = _with(model, name, now if turn < _BOLD else sqrt(was * now))
+    return None
+
+
+def _is_near(tried: float, found: Estimate) -> bool:
+    """Return whether a value was found where durations were compared with it."""
+    return abs(found.value - tried) < max(_SETTLED * tried, found.error / 10)
+
+
+def _fit_of(
+    model: Motion,
+    moves: Sequence[Command],
+    known: Mapping[str, float],
+    *,
+    short: float = 0.0,
+    shapes: Sequence[str] = (),
+    pace: float = 1.0,
+) -> Fit | None:
+    """Fit what is not known; with `short`, also what shorter legs take besides, as the last value.
+
+    `shapes`: values of the model whose inverses are fitted near what it has, at this pace, as the last ones: a
+    duration is nearly in proportion to these.
+    """
     plain = replace(model, pace=1.0, settles=0.0, take_off=0.0, landing=0.0)
     free = [at for at, name in enumerate(_PARAMETERS) if name not in known]
     rows = []
     for one in moves:
         factors = _factors(plain, one)
         given = sum(factors[at] * known.get(name, 0.0) for at, name in enumerate(_PARAMETERS))
-        besides = (float(one.what == LEG and one.metres < short),) if short else ()
+        besides = [float(one.what == LEG and one.metres < short)] if short else []
+        for name in shapes:
+            slope = pace * _slope(plain, one, name)
+            given -= slope / getattr(plain, name)
+            besides.append(slope)
         rows.append(Row((*[factors[at] for at in free], *besides), one.seconds, given))
     return fitted(rows, relative=True, finest=TICK, near=NEAR)
+
+
+def _slope(plain: Motion, one: Command, name: str) -> float:
+    """Return by how much a command takes longer for each unit that the inverse of a value is larger."""
+    inverse: float = 1 / getattr(plain, name)
+    step = _STEP * inverse
+    more = _factors(_with(plain, name, 1 / (inverse + step)), one)[0]
+    less = _factors(_with(plain, name, 1 / (inverse - step)), one)[0]
+    return (more - less) / (2 * step)
+
+
+def _with(model: Motion, name: str, value: float) -> Motion:
+    """Return a model with another value of this name."""
+    changed: dict[str, Any] = {name: value}
+    return replace(model, **changed)
 
 
 def _factors(plain: Motion, one: Command) -> tuple[float, float, float, float]:
@@ -148,14 +295,14 @@ def _compare(what: Calibration, key: str, commands: Sequence[Command], fit: Fit)
 
 
 def _look_at_short_legs(
-    what: Calibration, moves: Sequence[Command], known: Mapping[str, float]
+    what: Calibration, model: Motion, moves: Sequence[Command], known: Mapping[str, float]
 ) -> None:
     """Note that short legs take something besides, as a drone does that overshoots when it is hurried."""
     lengths = sorted(one.metres for one in moves if one.what == LEG)
     fits = [
         (length, fit.values[-1])
         for length in {lengths[len(lengths) * part // 8] for part in _SHORT}
-        if (fit := _fit_of(what.model, moves, known, short=length)) and fit.spread.spare >= SPARE
+        if (fit := _fit_of(model, moves, known, short=length)) and fit.spread.spare >= SPARE
     ]
     if not fits:
         return

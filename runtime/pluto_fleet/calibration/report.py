@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from math import floor, log10
 from pathlib import Path
@@ -18,11 +18,20 @@ from ..report.terminal import table
 from ..shared.alone.files import read_motion
 from ..shared.domain.errors import BadInput
 from ..shared.domain.text import counted, number
+from ..shared.domain.values import MOTION
 from .commands import Flights
 from .estimates import Calibration, Found
 
 IN_SECONDS = ("settles", "take_off", "landing")
-NAMES = ("pace", "take_off", "settles", "landing", "spread", "action_spread", "drain", "charge")
+_UNITS = {**dict.fromkeys(IN_SECONDS, "s"), "up": "m/s", "down": "m/s", "touch_down": "m/s"}
+BARE = {"acceleration": "m/s²", "jerk": "m/s³"}
+"""What has a unit that a fleet file does not know, where it is a number."""
+SPREADS = {"spread", "action_spread"}
+NAMES = (
+    *("pace", "take_off", "settles", "landing"),
+    *("acceleration", "jerk", "up", "down", "touch_down"),
+    *("spread", "action_spread", "drain", "charge"),
+)
 """What can be found, in the order in which it is shown: keys of `[motion]`, and `charge`."""
 
 _SAID_OF_CHARGE = 1.0
@@ -76,7 +85,7 @@ def _row(what: Calibration, name: str, found: Found) -> tuple[str, ...]:
         written(name, said(what, name)),
         written(name, found.value, digits),
         error,
-        f"{low.removesuffix(' %').removesuffix(' s')} … {high}",
+        f"{low.removesuffix(_unit(name)).rstrip()} … {high}",
         counted(found.count, found.of),
     )
 
@@ -88,20 +97,29 @@ def said(what: Calibration, name: str) -> float:
 
 def digits_of(name: str, found: Found) -> int:
     """Return how many decimals of a value mean something: two of its standard error."""
-    error = found.estimate.error * (1 if name in IN_SECONDS else 100)
+    error = found.estimate.error * _scale(name)
     return min(max(1 - floor(log10(error)), 0), 3) if error > 0 else 3
 
 
 def written(name: str, value: float, digits: int | None = None) -> str:
-    """Return a value as a fleet file has it, with its unit."""
-    amount, unit = (value, "s") if name in IN_SECONDS else (100 * value, "%")
-    return f"{number(amount) if digits is None else f'{amount:.{digits}f}'} {unit}"
+    """Return a value with its unit, as a fleet file has it where that knows the unit."""
+    amount = _scale(name) * value
+    return f"{number(amount) if digits is None else f'{amount:.{digits}f}'} {_unit(name)}"
 
 
-def in_file(name: str, found: Found) -> str:
+def _unit(name: str) -> str:
+    return {**_UNITS, **BARE}.get(name, "%")
+
+
+def _scale(name: str) -> int:
+    return 100 if _unit(name) == "%" else 1
+
+
+def in_file(name: str, found: Found) -> str | float:
     """Return a value that was found as it is put into a fleet file."""
-    factor = 1 if name in IN_SECONDS else 100
-    return written(name, round(factor * found.value, digits_of(name, found)) / factor)
+    factor = _scale(name)
+    value = round(factor * found.value, digits_of(name, found)) / factor
+    return value if name in BARE else written(name, value)
 
 
 def as_data(what: Calibration, journals: Sequence[Flights]) -> dict[str, Any]:
@@ -138,6 +156,8 @@ def write(what: Calibration, path: Path, text: str) -> Iterator[str]:
     Raises `BadInput` if a value may not stand there, or the file cannot be written; then it is as before.
     """
     values = {name: in_file(name, found) for name, found in what.found.items() if name != "charge"}
+    for name, why in _too_wide(values).items():
+        yield f"{path}: [motion] {name} stays as it is: {values.pop(name)} {why}"
     changed, after = _changed(path, text, values)
     if after != text:
         file = Path(os.path.realpath(path))
@@ -152,7 +172,20 @@ def write(what: Calibration, path: Path, text: str) -> Iterator[str]:
         yield f"{path}: nothing has changed"
 
 
-def _changed(path: Path, text: str, values: dict[str, str]) -> tuple[dict[str, object | None], str]:
+def _too_wide(values: Mapping[str, str | float]) -> dict[str, str]:
+    """Return the spreads that may not stand in a fleet file, and why: what is expected does not hang on them."""
+    refused: dict[str, str] = {}
+    for name in SPREADS & values.keys():
+        try:
+            MOTION[name](values[name])
+        except ValueError as error:
+            refused[name] = str(error)
+    return refused
+
+
+def _changed(
+    path: Path, text: str, values: dict[str, str | float]
+) -> tuple[dict[str, object | None], str]:
     """Return the keys that change, with what they were, and the new text."""
     try:
         document: Any = tomlkit.parse(text)

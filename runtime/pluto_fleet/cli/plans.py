@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet import FleetFile, fleet_of, moving_otherwise, shared_by_air, too_fast
+from ..files.fleet import FleetFile, fleet_of, gusty, moving_otherwise, shared_by_air, too_fast
 from ..files.missions import missions_of
 from ..files.plan_check import (
     endless,
@@ -203,6 +203,7 @@ def check(app: App, options: Options) -> int:
         *too_fast(app, plan.fleet),
         *shared_by_air(plan.fleet),
         *moving_otherwise(plan.fleet),
+        *gusty(plan.fleet),
         *idle_actions(app, plan.fleet),
     ]
     if scarce := uncharged(plan.missions, plan.app, plan.fleet):

@@ -122,9 +122,8 @@ async def take_off(vehicle: Vehicle, height: float) -> None:
         raise FlightFailed(Failure.REFUSED, why)
     vehicle.telemetry.rises_until, vehicle.looked_after = inf, False
     try:
-        await vehicle.go(
-            "take off", height / vehicle.climb, vehicle.navigation.takeoff, height, vehicle.climb
-        )
+        takeoff = vehicle.navigation.takeoff
+        await vehicle.go("take off", vehicle.climbs(height), takeoff, height, vehicle.climb)
     finally:
         if vehicle.linked:  # until it reports whether it flies: it may have received the command
             vehicle.telemetry.rises_until = vehicle.calls.clock() + RISING
@@ -186,8 +185,7 @@ async def land(vehicle: Vehicle) -> None:
         raise motors_cut(vehicle.id)
     if not vehicle.linked:
         vehicle.check()
-    seconds = max(0.0, vehicle.telemetry.location[2]) / vehicle.climb
-    await vehicle.go("land", seconds, vehicle.navigation.land, vehicle.climb)
+    await vehicle.go("land", vehicle.sinks, vehicle.navigation.land, vehicle.climb)
     vehicle.telemetry.rises_until = -inf
     # its telemetry may be older than that
     if not await vehicle.until(lambda: vehicle.telemetry.landed, LANDED_LIMIT):

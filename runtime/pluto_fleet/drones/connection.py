@@ -155,11 +155,7 @@ async def close(team: Sequence[tuple[Vehicle, Connection]]) -> None:
 
 def _seconds(vehicle: Vehicle) -> float:
     """Return how long a landing from where it is may take."""
-    return (
-        max(0.0, vehicle.telemetry.location[2]) / vehicle.climb * TIME_FACTOR
-        + TIME_MARGIN
-        + LANDED_LIMIT
-    )
+    return vehicle.sinks * TIME_FACTOR + TIME_MARGIN + LANDED_LIMIT
 
 
 async def _close(vehicle: Vehicle, connection: Connection, until: float) -> None:

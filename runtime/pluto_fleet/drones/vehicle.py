@@ -216,6 +216,19 @@ class Vehicle:
         self.speed = drone.category.speed
         motion = drone.category.motion
         self.climb = min(max(CLIMB_LIMIT, motion.up, motion.down), self.speed)
+        self._motion = motion
+
+    def climbs(self, height: float) -> float:
+        """Return the seconds of a take-off to a height, for its time-out."""
+        motion = self._motion
+        return height / self.climb if motion.smooth else motion.climb(height, self.speed)
+
+    @property
+    def sinks(self) -> float:
+        """The seconds of a landing from where it is, for its time-out."""
+        height = max(0.0, self.telemetry.location[2])
+        motion = self._motion
+        return height / self.climb if motion.smooth else motion.sink(height, self.speed)
 
     # Its state
 

@@ -29,11 +29,13 @@ from ..shared.domain.motion import CRAZYFLIE as CRAZYFLIE_MOTION
 from ..shared.domain.quantities import Type
 from ..shared.domain.text import number, quoted
 from ..shared.domain.values import Keys, Table
+from ..wind import Wind
 from .addresses import SUCH_AS, address_of, crowded_air, which
 from .landmarks import NO_LANDMARKS, Landmarks, read_landmarks
 from .reading import Document, PlanTable, listed, near, read, top
 from .vehicle_addresses import SUCH_AS as VEHICLE_SUCH_AS
 from .vehicle_addresses import is_vehicle, vehicle_address
+from .weather import blown, read_wind
 
 if TYPE_CHECKING:
     from ..app import App
@@ -252,6 +254,8 @@ class FleetFile(FleetData):
     tracker: str | None = None
     """What tells real drones what moves: a name, or `module:Class`."""
     tracker_options: Options = field(default_factory=dict)
+    wind: Wind | None = None
+    """That of a simulated world; `motion` counts with it."""
 
     @property
     def plane(self) -> LocalPlane | None:
@@ -288,12 +292,18 @@ def fleet_of(document: Document, app: App) -> FleetFile:
     if "tracker" in whole.data and "tracker" not in given:
         said = "is for what says where things move, which [fleet] names with tracker = …"
         whole.problem(f"[tracker] {said}", "tracker")
+    landmarks = read_landmarks(on_map, airspace)
+    motion = read_motion(whole)
+    wind = read_wind(whole, motion)
+    if wind is not None:
+        motion = blown(motion, wind, landmarks.north, max(kind.speed for kind in app.categories))
     used = [*dict.fromkeys([flown_by, *(one.navigation for one in drones if one.navigation)])]
     fleet = FleetFile(
         **given,
         airspace=airspace or Airspace(),
-        landmarks=read_landmarks(on_map, airspace),
-        motion=read_motion(whole),
+        landmarks=landmarks,
+        motion=motion,
+        wind=wind,
         options=navigation_options(whole, used),
         localization_options=options_in(whole.table("localization")),
         tracker_options=options_in(whole.table("tracker")),
@@ -374,6 +384,17 @@ def moving_otherwise(fleet: FleetFile) -> list[str]:
     who = listed([quoted(id) for id in named])
     how = 'say how they move, by [motion] legs = "steady"'
     return [f"{who} would be counted with as Crazyflies, which fly at 1 m/s: {how}"]
+
+
+def gusty(fleet: FleetFile) -> list[str]:
+    """Return a sentence if gusts are more than its vehicles can fly against."""
+    wind = fleet.wind
+    most = fleet.motion.airspeed
+    if wind is None or wind.speed + wind.gusts < most:
+        return []
+    strongest = number(wind.speed + wind.gusts)
+    at_most = f"{number(most)} m/s through the air (airspeed of [motion])"
+    return [f"gusts reach {strongest} m/s, and drones fly at up to {at_most}: they are blown away"]
 
 
 def shared_by_air(fleet: FleetFile) -> list[str]:

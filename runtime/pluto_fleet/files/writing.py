@@ -23,6 +23,7 @@ from ..shared.domain.motion import Motion, motion_of
 from ..shared.domain.values import MOTION, KeyPath
 from ..shared.events.declared import Along
 from ..shared.events.world import Mover
+from ..wind import Wind
 from .fleet import CRAZYFLIE, OWN, DroneEntry, FleetFile
 from .landmarks import Landmarks, Picture
 from .toml import headers, places, toml_text, toml_value
@@ -61,7 +62,7 @@ def fleet_text(fleet: FleetFile) -> str:
         "tracker": fleet.tracker_options or None,
         "navigation": fleet.options or None,
         "drone": [_drone(drone) for drone in fleet.drones],
-        "world": None if fleet.world is None else _world(fleet.world),
+        "world": _world(fleet.world, fleet.wind),
     }
     return toml_text(_given(file))
 
@@ -94,14 +95,21 @@ def _drone(drone: DroneEntry) -> dict[str, Any]:
     )
 
 
-def _world(world: WorldData) -> dict[str, Any]:
-    return {
+def _world(world: WorldData | None, wind: Wind | None) -> dict[str, Any] | None:
+    """Return what there is to see, and the wind; its direction in radians, as that is exact."""
+    blows = None if wind is None else {"speed": wind.speed, "from": wind.origin}
+    if blows is not None and wind is not None and wind.gusts:
+        blows["gusts"] = wind.gusts
+    if world is None:
+        return None if blows is None else {"wind": blows}
+    given = {
         "background": {**world.background},
         "source": [asdict(source) | {"at": [*source.at]} for source in world.sources],
         "feature": [asdict(feature) | {"at": [*feature.at]} for feature in world.features],
         "mover": [_mover(mover) for mover in world.movers],
         "event": [*world.events],
     }
+    return given if blows is None else {**given, "wind": blows}
 
 
 def _mover(mover: Mover) -> dict[str, Any]:

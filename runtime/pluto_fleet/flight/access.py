@@ -17,6 +17,7 @@ from ..journal.place import gateway_folder
 from ..process import respawn
 from ..shared.domain.actions import MEASURE
 from ..shared.domain.errors import BadInput
+from ..wind import CALM
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -112,6 +113,7 @@ class GatewayAccess:
             one.id: sensors(one.options, around.world) if one.id in can else {}
             for one in real.drones
         }
+        wind = CALM if fleet.wind is None else replace(fleet.wind, seed=self._flight.seed)
         simulated = SimulatedFleet(
             plane=fleet.plane,
             homes={drone.id: drone.home for drone in fleet.drones},
@@ -122,6 +124,7 @@ class GatewayAccess:
             },
             measures=measures,
             surroundings=around,
+            wind=wind,
         )
         uris = await asyncio.to_thread(start, self._folder, simulated)
         drones = (

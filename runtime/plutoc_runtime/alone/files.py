@@ -236,10 +236,10 @@ def read_drones(top: T, app: App, airspace: Airspace | None) -> Iterator[tuple[T
 
 def read_world(top: Table, parts: Sequence[Any] = ()) -> WorldData | None:
     """Return the world that is simulated, if the file describes one, as an app of these parts sees it."""
-    if "world" not in top.data:
-        return None
     table = top.table("world")
-    table.read({}, dict.fromkeys(("background", "feature", "source", "mover", "event")))
+    if "world" not in top.data or table.data.keys() == {"wind"}:  # which the library reads
+        return None
+    table.read({}, dict.fromkeys(("background", "feature", "source", "mover", "event", "wind")))
     levels = table.table("background")
     seen: Keys = {"kind": values.name, "at": values.corner}
     radius: Keys = {"radius": values.RADIUS}

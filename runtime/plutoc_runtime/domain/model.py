@@ -41,7 +41,7 @@ class Category:
     @property
     def endurance(self) -> float:
         """How many seconds in the air take a full battery."""
-        return self.flight_time / self.motion.drain
+        return self.flight_time / (self.motion.drain * self.motion.effort)
 
     def can(self, action: str) -> bool:
         """Return whether drones of this category can do the action."""

@@ -1,8 +1,7 @@
 """How drones move and charge: one model for simulations, plans and checks, in closed formulas.
 
-A Crazyflie flies each leg on a polynomial of the 7th order that begins and ends at rest (Bitcraze,
-high-level commander): its peak speed is 35/16 of its mean one. A multicopter outdoors speeds up, flies on at its
-speed, and brakes; it climbs and sinks at speeds of its own. Seconds, metres, shares of a battery.
+A Crazyflie flies each leg on a polynomial of the 7th order, from rest to rest (Bitcraze, high-level commander), a
+multicopter outdoors on an S-curve, with a limited jerk. Seconds, metres, shares of a battery.
 """
 
 from __future__ import annotations
@@ -19,8 +18,7 @@ if TYPE_CHECKING:
 Vector = tuple[float, float, float]
 CLIMB_SPEED = 0.3  # metres a second, straight up and down; on smooth legs about the mean
 PEAK = 2.19  # peak speed over mean speed of a smooth leg
-PUSH, MOST = 7.52, 4.0
-"""Peak acceleration of a smooth leg over distance and squared time; its limit in m/s²."""
+PUSH, MOST = 7.52, 4.0  # a smooth leg's peak acceleration over metres / s²; its limit in m/s²
 SHORTEST = 1.0  # seconds of a smooth leg at least: 3 m in half a second have flipped a drone
 TURNS = 1.0  # metres a second by which its velocity changes in a second, on its way from one leg to another
 STOPS = 0.8  # seconds in which a drone that comes at its speed comes to rest
@@ -34,12 +32,13 @@ class Motion:
     """How the drones of a fleet move, beside the speed of their category."""
 
     legs: str = "straight"
-    """`smooth`: the category's speed is the peak of each leg, and each climb peaks at 0.6 m/s.
-
-    `steady`: as `straight`, with what multicopters outdoors are usually set to.
-    """
+    """`smooth`: the category's speed is the peak; `steady`: as `straight`, with what multicopters are usually set to."""
     limit: float = 100.0  # metres per second that the position controller follows
     acceleration: float = 0.0  # m/s² at the ends of a leg that is not smooth; 0: at once
+    jerk: float = 0.0  # m/s³ with which that acceleration comes and goes; 0: at once
+    airspeed: float = 100.0  # metres per second through the air, at most
+    wind: tuple[float, ...] = ()  # metres per second to which it blows, along x and y
+    effort: float = 1.0  # what a second in that wind takes of the battery, over one in calm air
     up: float = CLIMB_SPEED  # metres per second straight up, where that is not smooth
     down: float = CLIMB_SPEED  # the same straight down
     low: float = 0.0  # metres above the ground below which it sinks more slowly
@@ -85,9 +84,8 @@ class Motion:
 
     def shortness(self, speed: float) -> float:
         """Return how many seconds a short leg can take more than its share of a long one."""
-        if not self.smooth:
-            rate = self.acceleration
-            return self.pace * min(speed, self.limit) / rate if rate else 0.0
+        if not self.smooth:  # one that peaks a little lower has 1/8 more, at most
+            return self.pace * 9 / 8 * self._quickens(min(speed, self.limit))
         most = PUSH / MOST * min(speed, self.limit) / (4 * PEAK)  # sqrt(pm) <= am + p / 4a
         return self.pace * max(SHORTEST, most)
 
@@ -106,11 +104,30 @@ class Motion:
 
     def _steadily(self, metres: float, speed: float) -> float:
         """Return the seconds from rest to rest, by way of a speed that a short way does not reach."""
-        if not self.acceleration:
+        if not self.acceleration or not metres:
             return metres / speed
-        if metres * self.acceleration < speed * speed:
-            return 2 * sqrt(metres / self.acceleration)
-        return metres / speed + speed / self.acceleration
+        half = self.acceleration**2 / self.jerk / 2 if self.jerk else 0.0
+        peak = sqrt(half * half + self.acceleration * metres) - half
+        if peak < 2 * half:  # too short for the acceleration, too
+            peak = (metres * sqrt(self.jerk) / 2) ** (2 / 3)
+        return metres / min(speed, peak) + self._quickens(min(speed, peak))
+
+    def _quickens(self, speed: float) -> float:
+        """Return the seconds from rest to a speed."""
+        if not self.acceleration:
+            return 0.0
+        rises = self.acceleration / self.jerk if self.jerk else 0.0
+        even = speed / self.acceleration
+        return even + rises if even >= rises else 2 * sqrt(speed / self.jerk)
+
+    def against(self, here: Vector, there: Vector, speed: float) -> float:
+        """Return the speed over ground at which a leg is flown in the wind."""
+        metres = dist(here[:2], there[:2])
+        if not self.wind or not metres:
+            return speed
+        along = sum(w * (b - a) / metres for w, a, b in zip(self.wind, here, there, strict=False))
+        rest = self.airspeed**2 + along**2 - sum(w * w for w in self.wind)
+        return min(speed, max(0.1, along + sqrt(max(0.0, rest))))
 
     def at_speed(self, metres: float, speed: float) -> float:
         """Return the seconds in which a drone flies so far without a stop."""
@@ -119,33 +136,26 @@ class Motion:
     def sent_on(self, velocity: Vector, here: Vector, there: Vector, speed: float) -> float:
         """Return the seconds of a leg on which a drone on its way is sent elsewhere, and its autopilot turns it."""
         metres = dist(here, there)
-        seconds = self.at_speed(metres, speed)
-        rate = TURNS if self.smooth else 2 * self.acceleration
-        if not rate:
-            return seconds
-        ahead = (
-            min(speed, self.limit) * (b - a) / metres for a, b in zip(here, there, strict=True)
-        )
-        return seconds + self.pace * dist(velocity, tuple(ahead)) / rate
+        rate = TURNS if self.smooth else 2 * self.acceleration or inf
+        part = min(speed, self.limit) / metres
+        ahead = tuple(part * (b - a) for a, b in zip(here, there, strict=True))
+        return self.at_speed(metres, speed) + self.pace * dist(velocity, ahead) / rate
 
     def stops(self, speed: float) -> float:
         """Return the seconds after a leg that was flown at speed, and not from rest, until a drone hovers."""
         if self.smooth:
             return self.pace * STOPS
-        rate = 2 * self.acceleration
-        return self.settles + (self.pace * min(speed, self.limit) / rate if rate else 0.0)
+        return self.settles + self.pace * self._quickens(min(speed, self.limit)) / 2
 
     def stages(
         self, way: Sequence[Vector], speed: float, rises: bool, lands: bool
     ) -> Iterator[tuple[Vector, float, float, float]]:
-        """Yield where each leg of a way ends, and the seconds before it, on it and after it.
-
-        A drone that `rises` stands below the first point; one that `lands` comes down from the last.
-        """
+        """Yield where each leg of a way ends, with the seconds before, on and after it; it may begin or end below."""
         if rises:
             yield way[0], self.take_off, self.climb(way[0][2], speed), self.settles
         for here, there in pairwise(way):
-            yield there, 0.0, self.leg(dist(here, there), speed), self.settles
+            seconds = self.leg(dist(here, there), self.against(here, there, speed))
+            yield there, 0.0, seconds, self.settles
         if lands:
             x, y, z = way[-1]
             yield (x, y, 0.0), 0.0, self.sink(z, speed), self.landing
@@ -200,22 +210,14 @@ def _progress(level: float, full: float, taper: float) -> float:
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
-_CLIMB = {"up": 1.5, "down": 1.5, "low": 5.0, "touch_down": 0.7}
-_WAITS = {"settles": 0.75, "landing": 2.1}
-STEADY = Motion(legs="steady", acceleration=3.0, slack=0.7, **_CLIMB, **_WAITS)
+_LEVEL: dict[str, Any] = {"acceleration": 3.0, "jerk": 4.0, "airspeed": 15.0}
+_UPRIGHT: dict[str, Any] = {"up": 1.5, "down": 1.5, "low": 7.0, "touch_down": 0.7}
+STEADY = Motion(legs="steady", settles=2.25, landing=1.7, slack=0.7, **_LEVEL, **_UPRIGHT)
 """A multicopter as PX4 sets it; the durations were measured with a simulated one (docs/motion.md)."""
 
-CRAZYFLIE = Motion(
-    legs="smooth",
-    limit=1.0,
-    take_off=1.94,
-    settles=0.15,
-    landing=2.1,
-    spread=0.01,
-    action_spread=0.03,
-    taper=0.2,
-    slack=0.15,
-)
+_TAKES: dict[str, Any] = {"take_off": 1.94, "settles": 0.15, "landing": 2.1}
+_VARIES: dict[str, Any] = {"spread": 0.01, "action_spread": 0.03}
+CRAZYFLIE = Motion(legs="smooth", limit=1.0, taper=0.2, slack=0.15, **_TAKES, **_VARIES)
 """A Crazyflie by its firmware's limits; the durations were measured (docs/motion.md)."""
 
 

@@ -141,6 +141,8 @@ MOTION: dict[str, Read] = {
     "legs": partial(one_of, ("smooth", "steady", "straight")),
     "limit": Quantity(Type.SPEED, 0.01, 100.0),
     "acceleration": Quantity(Type.FLOAT, 0.0, 100.0),
+    "jerk": Quantity(Type.FLOAT, 0.0, 1000.0),
+    "airspeed": Quantity(Type.SPEED, 0.5, 100.0),
     "up": Quantity(Type.SPEED, 0.05, 30.0),
     "down": Quantity(Type.SPEED, 0.05, 30.0),
     "low": Quantity(Type.LENGTH, 0.0, 100.0),

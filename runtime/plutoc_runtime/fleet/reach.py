@@ -61,7 +61,7 @@ def flight_seconds(
         if way is None:
             return inf
         for corner in way:
-            seconds += motion.flies(dist(here, corner), speed)
+            seconds += motion.flies(dist(here, corner), motion.against(here, corner, speed))
             here = corner
         here = there
     return seconds
@@ -278,17 +278,16 @@ class Reach:
         self, category: Category, seconds: float, target: Point, is_straight: bool
     ) -> Bounds:
         space = self.airspace
-        height = target[2]
         motion = category.motion
         speed = category.speed
-        upright = motion.rises(space.cruise_height, speed) + motion.lands(height, speed)
+        upright = motion.rises(space.cruise_height, speed) + motion.lands(target[2], speed)
         upright += 2 * motion.settles + seconds
         a_metre = motion.leg(_FAR, speed) / _FAR
         share = 1.0 / category.endurance
         least = category.reserve + share * upright * _LESS
         way = share * a_metre * _LESS
         enough = inf
-        if is_straight and self._is_open and not space.problem(target):
-            slack = a_metre * abs(height - space.cruise_height) + 2 * motion.shortness(speed)
+        if is_straight and self._is_open and not motion.wind and not space.problem(target):
+            slack = a_metre * abs(target[2] - space.cruise_height) + 2 * motion.shortness(speed)
             enough = (least + 2 * (hypot(*space.size) + _BEYOND) * way) * _MORE + share * slack
         return least, way, enough
