@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+import io
 import os
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from functools import partial
+from math import cos, sin
 from pathlib import Path
+from zipfile import ZipFile
 
+import exifread
 import pytest
+import shapely
+from exifread.utils import get_gps_coords
+from PIL import Image
+from pyproj import Transformer
 
+from pluto_fleet.app import App
 from pluto_fleet.cli import main as fleet_main
+from pluto_fleet.files.fleet import load_fleet
+from pluto_fleet.files.missions import load_missions
+from pluto_fleet.journal.place import gateway_folder
+from pluto_fleet.station.results.exports import write_archive
+from pluto_fleet.station.results.flights import ResultsOfFlights
 from tests.kit.apps import EXAMPLES, example
 from tests.kit.command import run
 
@@ -57,3 +72,45 @@ def test_simulated_autopilots_fly_it(make: str, tmp_path: Path) -> None:
     )
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert "4 of 4 missions completed" in ran.stdout
+    fleet_file = load_fleet(tmp_path / "outdoors.toml", one.app)
+    plan = load_missions(missions, one.app, fleet_file.airspace)
+    lines = [shapely.LineString([trip.source, trip.target]) for one in plan for trip in one.trips]
+    found = read_by_a_mosaic_program(one.app, tmp_path / "flown.journal")
+    assert len(found) == 40
+    for place, height in found:
+        assert min(line.distance(shapely.Point(place)) for line in lines) < 0.5
+        assert height > 19.5
+
+
+def read_by_a_mosaic_program(app: App, journal: Path) -> list[tuple[tuple[float, float], float]]:
+    """Return where the photos of a flight were taken, on the map, as their EXIF says and PROJ has it.
+
+    Its cameras keep their pictures: others stand in for them.
+    """
+    flown = ResultsOfFlights(app, journal.parent).of(journal.stem)
+    plane = flown.plane
+    assert plane is not None
+    files = gateway_folder(journal) / "files"
+    files.mkdir(exist_ok=True)
+    Image.new("RGB", (32, 24)).save(files / "photo.jpg")
+    numbers = [one.result["number"] for one in flown.rows if one.result["kind"] == "photo"]
+    flown = replace(flown, pictures=dict.fromkeys(numbers, "photo.jpg"))
+    on_map = Transformer.from_pipeline(
+        "+proj=pipeline +step +proj=cart +ellps=WGS84 +step +proj=topocentric +ellps=WGS84"
+        f" +lat_0={plane.latitude} +lon_0={plane.longitude} +h_0={plane.altitude}"
+    )
+    found = []
+    taken = []
+    with ZipFile(write_archive(flown, journal.parent / "archives")) as archive:
+        for number in numbers:
+            tags = exifread.process_file(io.BytesIO(archive.read(f"{number:05}.jpg")))
+            latitude, longitude = get_gps_coords(tags) or (0.0, 0.0)
+            east, north, _ = on_map.transform(longitude, latitude, plane.altitude)
+            turn = plane.bearing
+            x = east * cos(turn) - north * sin(turn)
+            y = north * cos(turn) + east * sin(turn)
+            altitude = float(tags["GPS GPSAltitude"].values[0])
+            found.append(((x, y), altitude - plane.altitude))
+            taken.append(f"{tags['EXIF DateTimeOriginal']}.{tags['EXIF SubSecTimeOriginal']}")
+    assert taken == sorted(taken)
+    return found

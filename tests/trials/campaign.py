@@ -73,7 +73,7 @@ def varied(fleet: FleetFile, rng: Random) -> FleetFile:
     drones = fleet.drones[: rng.randrange(1, len(fleet.drones) + 1)]
     if rng.random() < 0.5:
         drones = fleet.drones
-    after_trip = rng.choice((AfterTrip.HOME, AfterTrip.STAY, AfterTrip.NEXT))
+    after_trip = rng.choice(list(AfterTrip))
     airborne = rng.choice((None, None, 1, 2))
     return replace(fleet, drones=drones, after_trip=after_trip, max_airborne=airborne)
 

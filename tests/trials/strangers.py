@@ -99,7 +99,7 @@ def random_fleet(rng: Random) -> FleetFile:
     return FleetFile(
         airspace=Airspace(size=size),
         drones=drones,
-        after_trip=rng.choice((AfterTrip.HOME, AfterTrip.HOME, AfterTrip.STAY, AfterTrip.NEXT)),
+        after_trip=rng.choice((AfterTrip.HOME, *AfterTrip)),
         apart=rng.choice((0.5, 0.5, 0.3)),
         max_airborne=rng.choice((None, None, 1, 2)),
     )

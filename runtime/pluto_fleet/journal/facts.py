@@ -363,6 +363,7 @@ _FACTS: Mapping[str, Mapping[str, Any]] = {
     ),
     DRAINED: {"drone": str, "level": float},
     "drone.not_ready": {"drone": str, "reason": str},
+    "drone.offered": {"drone": str},
     "drone.brought_back": {**_DRONE, "lost?": bool},
     "drone.joined": {"drone": str, "entry": dict[str, Any]},
     "drone.mishap": {"drone": str, "kind": str},

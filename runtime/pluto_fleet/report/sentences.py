@@ -249,6 +249,7 @@ _JOURNAL_SENTENCES: Mapping[str, Say] = {
     "trip.reset": "trip {trip} waits for attempt {attempt}",
     "action.begun": "the action of trip {trip} begins ({drone})",
     "drone.free": "{drone} is free",
+    "drone.offered": "{drone} hovers, and any trip may have it",
     "drone.busy": "{drone} stays with its mission",
     "drone.returning": "{drone} returns home",
     "drone.charging": "{drone} charges",

@@ -32,6 +32,7 @@ class ServesOneMission:
         self.hears = {
             "brain.began": self._begin,
             "drone.free": self._free,
+            "drone.offered": self._free,
             "drone.returning": self._leave,
             **dict.fromkeys(UNWELL, self._leave),
             "trip.allocated": self._allocate,

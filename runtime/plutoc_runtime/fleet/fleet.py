@@ -200,7 +200,8 @@ class Fleet:
 
     async def _stay(self, drone: Drone) -> None:
         if self._after_trip is AfterTrip.ONWARD and not drone.telemetry.landed:
-            put(drone, status=_FREE)  # for this instant alone, without an event
+            put(drone, status=_FREE)  # for this instant alone
+            self._trace.note("drone.offered", drone=drone.id)
             self.queue.moved(drone)
             await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
             if drone.status is _FREE:  # no mission has taken it

@@ -47,7 +47,9 @@ def corner(code: int) -> tuple[float, float]:
     return x, y
 
 
-def a_tiff(file: Path, code: int | None, side: float, mode: str = "RGB", **more: object) -> Path:
+def a_tiff(
+    file: Path, code: int | None, side: float, mode: str = "RGB", compression: str = "raw"
+) -> Path:
     """Write a TIFF whose pixels have a side, in metres or degrees; without a code it says nothing of itself."""
     tags = ImageFileDirectory_v2()
     if code is not None:
@@ -57,7 +59,7 @@ def a_tiff(file: Path, code: int | None, side: float, mode: str = "RGB", **more:
         tags[33922] = (0.0, 0.0, 0.0, x, y, 0.0)
         tags.tagtype[34735] = 3
         tags[34735] = (1, 1, 0, 2, 1025, 0, 1, 1, key, 0, 1, code)
-    Image.new(mode, PIXELS).save(file, tiffinfo=tags, **more)
+    Image.new(mode, PIXELS).save(file, tiffinfo=tags, compression=compression)
     return file
 
 

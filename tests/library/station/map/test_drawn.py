@@ -276,7 +276,7 @@ def test_anything_else_is_refused(content: bytes) -> None:
 
 
 def test_of_a_tiff_it_is_said_how_to_make_what_is_shown() -> None:
-    with pytest.raises(BadInput, match="`pluto-fleet map FLEET[.]toml FIELD[.]tif` makes a picture"):
+    with pytest.raises(BadInput, match=r"`pluto-fleet map FLEET\.toml FIELD\.tif` makes a picture"):
         ending_of(b"II*\0...")
 
 
