@@ -181,17 +181,23 @@ class ArduPilot(Vehicle):
         return ACCEPTED
 
     def grip(self, asked: Asked) -> int:
-        """Move the servo: handle_command_do_gripper, and libraries/AP_Gripper/AP_Gripper_Servo.cpp.
+        """Move the servo: MAV_CMD_DO_GRIPPER, and libraries/AP_Gripper/AP_Gripper_Servo.cpp.
 
-        That is accepted at once, and nothing is told of when it has moved.
+        That is accepted at once, also if no kind of gripper is set, and nothing is told of when it has moved.
         """
         action = asked.values[1]
-        there = self.value("GRIP_ENABLE") and self.value("GRIP_TYPE") and not self.faults.slack
-        if not there or not isfinite(action) or int(action) not in (0, 1):
+        if (
+            not self.value("GRIP_ENABLE")
+            or self.faults.slack
+            or not isfinite(action)
+            or int(action) not in (0, 1)
+        ):
             return FAILED
         closes = int(action) == mavlink.GRIPPER_ACTION_GRAB
-        if self.gripper.wanted is not closes and self.gripper.closed is not closes:
-            self.gripper.move(closes, self.now)
+        gripper = self.gripper
+        moves = gripper.wanted is not closes and gripper.closed is not closes
+        if self.value("GRIP_TYPE") and moves:
+            gripper.move(closes, self.now)
             does = "grabbing" if closes else "releasing"
             self.tell(mavlink.MAV_SEVERITY_INFO, f"Gripper load {does}")
         return ACCEPTED

@@ -13,7 +13,7 @@ from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 from ..drones.equipment import no_gripper, no_source, quantity_of
-from ..drones.protocol import ActionNotDone, InView, Rejected
+from ..drones.protocol import ActionNotDone, InView, LinkLost, Rejected
 from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
 from ..shared.domain.model import Photo, Sighting
 from ..shared.domain.text import quoted
@@ -31,12 +31,16 @@ _SILENT = 5.0
 _LOOK = 0.05
 _GRIPPER = 15.0
 """Seconds within which a gripper must have got there."""
+_PARAMETER = 6.0
+"""The time-out of a parameter: of one that there is not nothing is told."""
 _ANEW = 0.5
 """Seconds after which a command is given again that was in progress."""
 _MOST_SEEN = 1000
 
-_SWITCHES = {"PX4": ("PD_GRIPPER_TYPE", -1.0, 0), "ArduPilot": ("GRIP_ENABLE", 0.0, 1)}
-"""By make: the parameter of a gripper, its value if there is none, and the one to set."""
+_NONE = {"PX4": {"PD_GRIPPER_TYPE": -1.0}, "ArduPilot": {"GRIP_ENABLE": 0.0, "GRIP_TYPE": 0.0}}
+"""By make: the parameters of a gripper, and the value of each that means that there is none."""
+_USUAL = {"PD_GRIPPER_TYPE": 0, "GRIP_ENABLE": 1, "GRIP_TYPE": 1}
+"""What they are for a servo."""
 
 
 class Actions:
@@ -66,13 +70,14 @@ class Actions:
         self._no_gripper = ""
         if self._options.grip is None:
             return
-        name, off, usual = _SWITCHES[make]
-        try:
-            is_off = await self._ask("read", 6.0, name=name) == off
-        except Rejected:
-            is_off = True
-        if is_off:
-            self._no_gripper = f"its {make} has no gripper: set its parameter {name} to {usual}"
+        for name, none in _NONE[make].items():
+            try:
+                is_there = await self._ask("read", _PARAMETER, name=name) != none
+            except (LinkLost, Rejected):  # it has no such parameter
+                is_there = False
+            if not is_there:
+                self._no_gripper = f"its {make} has no gripper: set {name} to {_USUAL[name]}"
+                return
 
     def why_not(
         self, state: VehicleState | None, action: str, parameters: Mapping[str, Plain]
@@ -166,7 +171,7 @@ class Actions:
             told: int = await self._ask(
                 "command", _GRIPPER, system=system, message=order.message, fields=order.fields
             )
-        except Rejected as error:
+        except (LinkLost, Rejected) as error:
             raise ActionNotDone(f"{self._drone} does not answer: {error}") from error
         return told
 

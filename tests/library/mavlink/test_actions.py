@@ -84,9 +84,17 @@ async def cannot_grip(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     why = flies.why_not("pick_item", {})
     assert why is not None
     parameter = "GRIP_ENABLE to 1" if vehicle.build.make == "ardupilot" else "PD_GRIPPER_TYPE to 0"
-    assert f"has no gripper: set its parameter {parameter}" in why
+    assert f"has no gripper: set {parameter}" in why
     with pytest.raises(ActionNotDone, match="has no gripper"):
         await flies.act("pick_item", {}, PILLS)
+
+
+async def is_of_no_kind(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """An ArduPilot would accept what it does not do then."""
+    kind = "GRIP_TYPE" if vehicle.build.make == "ardupilot" else "PD_GRIPPER_TYPE"
+    let(vehicle, f"parameter {kind}", 0 if kind == "GRIP_TYPE" else -1)
+    await flies.connect()
+    assert f"has no gripper: set {kind} to" in str(flies.why_not("pick_item", {}))
 
 
 async def has_none(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
@@ -114,6 +122,7 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     repeats: GRIP,
     grips_no_more: GRIP,
     cannot_grip: GRIP,
+    is_of_no_kind: GRIP,
     has_none: {},
     sees: {},
 }
@@ -198,6 +207,9 @@ def test_an_ardupilot_accepts_at_once_and_tells_nothing_more() -> None:
     vehicle.step(0.6)
     assert _told(vehicle, GRAB) == "accepted"
     assert _told(vehicle, 2.0) == "failed"
+    vehicle.parameters["GRIP_TYPE"].value = 0.0  # it is enabled, and of no kind
+    assert _told(vehicle, RELEASE) == "accepted"
+    vehicle.step(0.6)
     assert (vehicle.done, vehicle.record.grips) == ([], [True])
 
 
