@@ -96,6 +96,8 @@ class Actions:
                     f"{drone} tells no value {quoted(name)} (NAMED_VALUE_FLOAT): it tells {told};"
                     f" start what tells it, or name another as its measure.{quantity} in the fleet file"
                 )
+            if state is not None and time.monotonic() - state.values[name][-1][0] > _SILENT:
+                return self._silent(name)
             return None
         if action == PHOTO:
             if state is not None and not state.cameras:
@@ -145,8 +147,11 @@ class Actions:
             if told:
                 return fmean(told)
             if time.monotonic() - began > seconds + _SILENT:
-                raise ActionNotDone(f"{self._drone} tells its value {quoted(name)} no more")
+                raise ActionNotDone(self._silent(name))
             await asyncio.sleep(_LOOK)
+
+    def _silent(self, name: str) -> str:
+        return f"{self._drone} tells its value {quoted(name)} no more: see what has become of its sensor"
 
     # Its gripper
 

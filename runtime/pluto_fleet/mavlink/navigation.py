@@ -517,7 +517,9 @@ class MavlinkVehicle:
         make = self._known_make
         await self._read_failsafes()
         does = own_failsafes.described(make.name, self._parameters, self._highest)
-        return {"autopilot": make.name, "mode": make.mode_name(self._state.mode), **does}
+        mode = make.mode_name(self._state.mode)
+        tells = ", ".join(sorted(self._state.values)) or "no values"
+        return {"autopilot": make.name, "mode": mode, **does, "tells": tells}
 
     @staticmethod
     def canonical_uri(uri: str) -> str:

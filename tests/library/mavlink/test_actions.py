@@ -49,11 +49,14 @@ async def falls_silent(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     let(vehicle, "numb", True)
     with pytest.raises(ActionNotDone, match='tells its value "dust" no more'):
         await flies.act("measure", {"quantity": "pm10"}, None)
+    why = flies.why_not("measure", {"quantity": "pm10"})
+    assert why is not None and 'tells its value "dust" no more' in why
 
 
 async def is_not_heard(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     why = flies.why_not("measure", {"quantity": "pm10"})
     assert why is not None
+    assert (await flies.facts())["tells"] == "dust"
     assert 'tells no value "smog" (NAMED_VALUE_FLOAT): it tells dust; start what tells it' in why
 
 
