@@ -200,12 +200,16 @@ class Fleet:
 
     async def _stay(self, drone: Drone) -> None:
         if self._after_trip is AfterTrip.ONWARD and not drone.telemetry.landed:
-            put(drone, status=_FREE)  # for this instant alone
-            self._trace.note("drone.offered", drone=drone.id)
-            self.queue.moved(drone)
-            await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-            if drone.status is _FREE:  # no mission has taken it
-                await self.fly_home(drone)
+            for seconds in (0.5, 0.0):  # a hook may take so long to say how its mission goes on
+                put(drone, status=_FREE)  # for this instant alone
+                self._trace.note("drone.offered", drone=drone.id)
+                self.queue.moved(drone)
+                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+                if drone.status is not _FREE:  # a mission has taken it
+                    return
+                self.become(drone, DroneStatus.RETURNING)
+                await self._kernel.sleep(seconds, EventKind.ALLOCATE, self._key(drone))
+            await self.fly_home(drone)
             return
         if self._after_trip is AfterTrip.NEXT and not drone.telemetry.landed:
             if self.queue.waiting:  # the queue is served at the end of this instant
@@ -348,9 +352,6 @@ class Fleet:
 _FREE = DroneStatus.FREE
 _SETTLED = (DroneStatus.FREE, DroneStatus.CHARGING, DroneStatus.LOST)
 """With one of these a repair is settled."""
-_UNDER_WAY = (
-    DroneStatus.RETURNING,
-    DroneStatus.RECOVERING,
-)  # and not one that has stood there before
+_UNDER_WAY = (DroneStatus.RETURNING, DroneStatus.RECOVERING)  # and not one that has stood there
 FLIGHTS_HOME = 3  # how often a drone flies home that lands beside its dock, where it is not charged
 LONGEST = 500  # characters of the reason why a drone is lost
