@@ -8,7 +8,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..files.fleet import FleetFile, fleet_of, gusty, moving_otherwise, shared_by_air, too_fast
+from ..files.fleet import (
+    FleetFile,
+    fleet_of,
+    gusty,
+    moving_otherwise,
+    shared_by_air,
+    too_fast,
+)
 from ..files.missions import missions_of
 from ..files.plan_check import (
     endless,

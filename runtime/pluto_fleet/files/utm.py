@@ -5,7 +5,20 @@ By the series of Krüger to the fourth power of the third flattening, which are 
 
 from __future__ import annotations
 
-from math import asin, atan, atan2, atanh, cos, cosh, degrees, hypot, sin, sinh, sqrt, tan
+from math import (
+    asin,
+    atan,
+    atan2,
+    atanh,
+    cos,
+    cosh,
+    degrees,
+    hypot,
+    sin,
+    sinh,
+    sqrt,
+    tan,
+)
 
 _EQUATOR = 6_378_137.0
 _FLATTENING = 1 / 298.257223563
