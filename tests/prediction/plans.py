@@ -79,14 +79,17 @@ MOTIONS: Mapping[str, Mapping[str, object]] = {
     "px4": {"legs": "steady"},
     "ardupilot": {
         "legs": "steady",
-        "acceleration": 2.5,  # WPNAV_ACCEL
-        "up": 2.5,  # WPNAV_SPEED_UP
-        "low": 10.0,  # LAND_ALT_LOW
-        "touch_down": 0.5,  # LAND_SPEED
+        "acceleration": 2.5,
+        "jerk": 5.0,
+        "airspeed": 11.0,
+        "up": 2.5,
+        "low": 10.0,
+        "touch_down": 0.5,
+        "settles": 1.2,
         "landing": 1.1,
     },
 }
-"""How vehicles of each make move that are set as they come."""
+"""How vehicles of each make move that are set as they come (docs/motion.md)."""
 
 
 def outdoors(name: str, make: str) -> Plan:
