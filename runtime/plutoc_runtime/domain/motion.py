@@ -139,7 +139,16 @@ class Motion:
         rate = TURNS if self.smooth else 2 * self.acceleration or inf
         part = min(speed, self.limit) / metres
         ahead = tuple(part * (b - a) for a, b in zip(here, there, strict=True))
-        return self.at_speed(metres, speed) + self.pace * dist(velocity, ahead) / rate
+        seconds = self.at_speed(metres, speed) + self.pace * dist(velocity, ahead) / rate
+        return max(seconds, self.descent(here, there))
+
+    def descent(self, here: Vector, there: Vector) -> float:
+        """Return the seconds that a leg takes at least as it leads down: a multicopter sinks slowly, in any leg."""
+        metres = here[2] - there[2]
+        if self.legs != "steady" or metres <= 0:
+            return 0.0
+        # `settles` counts with a brake from a higher speed
+        return self.pace * (metres / self.down + self._quickens(self.down) / 2)
 
     def stops(self, speed: float) -> float:
         """Return the seconds after a leg that was flown at speed, and not from rest, until a drone hovers."""
@@ -155,7 +164,7 @@ class Motion:
             yield way[0], self.take_off, self.climb(way[0][2], speed), self.settles
         for here, there in pairwise(way):
             seconds = self.leg(dist(here, there), self.against(here, there, speed))
-            yield there, 0.0, seconds, self.settles
+            yield there, 0.0, max(seconds, self.descent(here, there)), self.settles
         if lands:
             x, y, z = way[-1]
             yield (x, y, 0.0), 0.0, self.sink(z, speed), self.landing

@@ -84,6 +84,20 @@ def test_a_leg_takes_what_is_counted_with(make: type[Vehicle], speed: float, met
     assert seconds == pytest.approx(MOTIONS[make].flies(metres, speed), rel=0.05, abs=0.9)
 
 
+@pytest.mark.parametrize("make", MAKES)
+@pytest.mark.parametrize("metres", [0.0, 20.0])
+def test_a_leg_that_leads_down_takes_what_a_descent_takes(
+    make: type[Vehicle], metres: float
+) -> None:
+    """It sinks more slowly than it flies."""
+    vehicle = hovering(make)
+    vehicle.body.at[2] = 35.0
+    *_, seconds = flying(vehicle, metres, 5.0)
+    motion = MOTIONS[make]
+    ((_, _, on, after),) = motion.stages([(0.0, 0.0, 35.0), (metres, 0.0, 20.0)], 5.0, False, False)
+    assert seconds == pytest.approx(on + after, rel=0.05, abs=0.9)
+
+
 @pytest.mark.parametrize("along", [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.6, 0.8)])
 @pytest.mark.parametrize("speed", [4.0, 8.0, 11.0])
 def test_a_leg_in_the_wind_takes_what_is_counted_with(
