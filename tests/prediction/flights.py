@@ -82,6 +82,6 @@ def _said(flight: Flight, command: str, *flags: str) -> str:
 
 
 def _outcome(said: str) -> str:
-    """Return the duration of the line that says what a simulation has come to."""
-    (line,) = (line for line in said.splitlines() if " completed in " in line)
-    return line.partition(" completed in ")[2]
+    """Return the duration of the line that says what a simulation has come to; nothing if a mission failed."""
+    lines = (line for line in said.splitlines() if " completed in " in line)
+    return next(lines, "").partition(" completed in ")[2]
