@@ -12,14 +12,16 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import shutil
 import sys
+import tempfile
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import count
-from typing import Any
+from typing import Any, NoReturn
 
 from mavsdk.asyncio import Configuration, Mavsdk
 from mavsdk.asyncio.plugins.camera import CameraAsync
@@ -316,7 +318,7 @@ async def _run(out: int) -> None:
         try:
             os.write(out, json.dumps(message).encode() + b"\n")
         except OSError:  # the gateway has ended
-            os._exit(0)
+            _leave(0)
 
     desk = Desk(tell)
     asked = asyncio.StreamReader()
@@ -341,6 +343,7 @@ def _is_noise(level: LogLevel, _: str, file: str | None, __: int) -> bool:
 
 def main(_: Sequence[str]) -> int:
     """Serve the gateway until it has enough, or says nothing; never returns, as to destroy MAVSDK may abort."""
+    os.environ["TMPDIR"] = tempfile.mkdtemp(prefix="pluto-mavsdk-")  # where it leaves its folders
     out = os.dup(1)
     os.dup2(2, 1)  # where MAVSDK and its wrappers print
     code = 0
@@ -353,5 +356,10 @@ def main(_: Sequence[str]) -> int:
             file=sys.stderr,
         )
         code = 1
+    _leave(code)
+
+
+def _leave(code: int) -> NoReturn:
+    shutil.rmtree(os.environ["TMPDIR"], ignore_errors=True)
     sys.stderr.flush()
     os._exit(code)
