@@ -46,6 +46,8 @@ CAMPAIGNS = (
     "python -m tests.kill --brain 500 --gateway 100",
     "python -m tests.flights_crazyflie.campaign",
     "python -m tests.flights_mavlink.campaign --times 3",
+    "python -m tests.flights_mavlink.campaign --seeds 20",
+    "python -m tests.flights_mavlink.kills --brain 45 --gateway 15",
     "python -m tests.flights_crazyflie.examples",
     "python -m tests.flights_mavlink.examples --times 10",
     "python -m tests.waits --flights 6 --load 8",

@@ -61,6 +61,7 @@ def _parameters() -> dict[str, Parameter]:
         "SYSID_MYGCS": Parameter(255.0, whole=True),
         "BATT_FS_LOW_ACT": Parameter(0.0, whole=True),
         "BATT_LOW_VOLT": Parameter(10.5),
+        "BATT_LOW_TIMER": Parameter(10.0, whole=True),
         "FENCE_ENABLE": Parameter(0.0, whole=True),
         "FENCE_TYPE": Parameter(7.0, whole=True),
         "FENCE_ACTION": Parameter(1.0, whole=True),
@@ -80,6 +81,7 @@ class ArduPilot(Vehicle):
         Doing.GO: GUIDED,
         Doing.RETURN: RTL,
         Doing.LAND: LAND,
+        Doing.SINK: LOITER,
     }
     disarms_after = 1.0
 
@@ -105,6 +107,7 @@ class ArduPilot(Vehicle):
         self.mode = STABILIZE
         self._speed = limits.level
         self._lost = False
+        self._low_since: float | None = None
 
     @property
     def mode_number(self) -> int:
@@ -162,8 +165,7 @@ class ArduPilot(Vehicle):
             return FAILED
         self.mode = number
         self.doing = doing
-        if doing in (Doing.HOLD, Doing.GO):
-            self.stop_here()
+        self.stop_here()
         return ACCEPTED
 
     def change_speed(self, asked: Asked) -> int:
@@ -207,6 +209,7 @@ class ArduPilot(Vehicle):
             return FAILED
         self.doing = doing
         self.mode = self.MODES[doing]
+        self.stop_here()
         return ACCEPTED
 
     # ArduCopter/events.cpp
@@ -216,6 +219,7 @@ class ArduPilot(Vehicle):
         if self.faults.blind:
             self.fail_safe(Doing.LAND, "EKF Failsafe: changed to LAND Mode")
         self._watch_fence()
+        self._watch_battery()
         silent = self.now - self.heard
         act = {1: Doing.RETURN, 5: Doing.LAND}.get(int(self.value("FS_GCS_ENABLE")))
         # without a station that it ever heard there is nothing to lose
@@ -223,6 +227,17 @@ class ArduPilot(Vehicle):
         self._lost = self.value("FS_GCS_TIMEOUT") < silent < 1e6
         if act is not None and self._lost and not was_lost:
             self.fail_safe(act, "GCS Failsafe")
+
+    def _watch_battery(self) -> None:
+        """Act once its voltage has been low for a while: libraries/AP_BattMonitor/AP_BattMonitor_Backend.cpp."""
+        act = {1: Doing.LAND, 2: Doing.RETURN}.get(int(self.value("BATT_FS_LOW_ACT")))
+        if self.volts >= self.value("BATT_LOW_VOLT") and self._low_since != inf:
+            self._low_since = None
+        elif self._low_since is None:
+            self._low_since = self.now
+        elif act is not None and self.now - self._low_since > self.value("BATT_LOW_TIMER"):
+            self._low_since = inf  # it acts once, until it is restarted
+            self.fail_safe(act, "Battery Failsafe")
 
     # libraries/AC_Fence/AC_Fence.cpp, ArduCopter/fence.cpp
 
@@ -252,7 +267,7 @@ class ArduPilot(Vehicle):
         body.limits.down = self.value("WPNAV_SPEED_DN") / 100
         if self.doing is Doing.TAKE_OFF and abs(z - body.goal[2]) < 0.1 and body.speed < 0.2:
             self.doing = Doing.GO
-        elif self.doing is Doing.LAND:
+        elif self.doing in (Doing.LAND, Doing.SINK):
             # ArduCopter/mode.cpp, land_run_vertical_control, with the usual PSC_POSZ_P
             above = max(0.0, z - self.value("LAND_ALT_LOW") / 100)
             slows = root(above, 1.0, body.limits.down_acceleration)

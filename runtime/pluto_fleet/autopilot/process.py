@@ -163,7 +163,7 @@ def _build(fleet: SimulatedFleet, id: str, number: int, home: Point) -> Build:
 def _told(vehicle: Vehicle) -> dict[str, object]:
     record = vehicle.record
     return {
-        "at": vehicle.body.at,
+        "at": vehicle.truth,
         "level": vehicle.charge,
         "doing": vehicle.doing.value,
         "armed": vehicle.armed,
@@ -172,6 +172,7 @@ def _told(vehicle: Vehicle) -> dict[str, object]:
         "grips": record.grips,
         "fell": record.fell,
         "landings": record.landings,
+        "overruled": record.overruled,
     }
 
 

@@ -21,6 +21,7 @@ from .vehicle import (
     FAILED,
     FORCED,
     IN_PROGRESS,
+    UNSUPPORTED,
     Asked,
     Build,
     Doing,
@@ -29,6 +30,7 @@ from .vehicle import (
     leaning,
 )
 
+_POSITION = 3
 _AUTO = 4
 _SUB_MODES = {Doing.TAKE_OFF: 2, Doing.HOLD: 3, Doing.GO: 3, Doing.RETURN: 5, Doing.LAND: 6}
 """commander/px4_custom_mode.h."""
@@ -83,7 +85,10 @@ def _parameters() -> dict[str, Parameter]:
 
 class Px4(Vehicle):
     MAKE = mavlink.MAV_AUTOPILOT_PX4
-    MODES: ClassVar = {doing: _AUTO << 16 | sub << 24 for doing, sub in _SUB_MODES.items()}
+    MODES: ClassVar = {
+        Doing.SINK: _POSITION << 16,
+        **{doing: _AUTO << 16 | sub << 24 for doing, sub in _SUB_MODES.items()},
+    }
 
     def __init__(self, build: Build, around: Around | None = None) -> None:
         parameters = _parameters()
@@ -144,8 +149,9 @@ class Px4(Vehicle):
         if self.is_beyond(self.goal_of(asked), self._highest):
             self.tell(mavlink.MAV_SEVERITY_CRITICAL, "Reposition is outside geofence")
             return DENIED
-        if int(flags) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE:
-            self.switch(Doing.GO)
+        if not int(flags) & mavlink.MAV_DO_REPOSITION_FLAGS_CHANGE_MODE:
+            return UNSUPPORTED
+        self.switch(Doing.GO)
         given = isfinite(speed) and speed > 0
         self.body.limits.level = min(
             speed if given else self.value("MPC_XY_CRUISE"), self.value("MPC_XY_VEL_MAX")
@@ -195,7 +201,7 @@ class Px4(Vehicle):
         if self.faults.blind and doing is not Doing.LAND:
             return BUSY
         self.doing = doing
-        if doing is Doing.HOLD:
+        if doing not in (Doing.TAKE_OFF, Doing.GO):
             self.stop_here()
         return ACCEPTED
 
@@ -259,7 +265,7 @@ class Px4(Vehicle):
             body.goal = (body.goal[0], body.goal[1], self._rises_to)
             if abs(z - self._rises_to) < 0.1 and body.speed < 0.2:
                 self.doing = Doing.HOLD  # as the mode is completed
-        elif self.doing is Doing.LAND:
+        elif self.doing in (Doing.LAND, Doing.SINK):
             limits.down = self._sinks(z)
             body.goal = (body.goal[0], body.goal[1], DEEP)
         elif self.doing is Doing.RETURN:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+from collections import defaultdict, deque
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -36,7 +38,28 @@ def _level(vehicle: Vehicle, level: Value) -> None:
 
 
 def _pilot(vehicle: Vehicle, mode: Value) -> None:
-    vehicle.switch(Doing(mode))
+    doing = Doing(mode)
+    vehicle.switch(doing)
+    gives_back = doing is Doing.GO
+    if gives_back:
+        vehicle.stop_here()
+    vehicle.acts_by_itself(vehicle.armed and not gives_back)
+
+
+def _astray(vehicle: Vehicle, metres: Value) -> None:
+    vehicle.err(float(metres))
+
+
+def _system(vehicle: Vehicle, number: Value) -> None:
+    vehicle.build = replace(vehicle.build, system=int(number))
+
+
+def _aloft(vehicle: Vehicle, height: Value) -> None:
+    """Have it hover there already."""
+    vehicle.arm()
+    vehicle.switch(Doing.GO)
+    vehicle.body.at[2] = float(height)
+    vehicle.stop_here()
 
 
 def _reboot(vehicle: Vehicle, _: Value) -> None:
@@ -44,6 +67,8 @@ def _reboot(vehicle: Vehicle, _: Value) -> None:
     vehicle.armed = False
     vehicle.doing = Doing.HOLD
     vehicle.now = 0.0
+    vehicle.err(0.0)
+    vehicle.acts_by_itself(False)
     vehicle.faults = Faults()
 
 
@@ -55,9 +80,13 @@ _OTHERS: Mapping[str, Callable[[Vehicle, Value], None]] = {
     "level": _level,
     "pilot": _pilot,
     "reboot": _reboot,
+    "astray": _astray,
+    "system": _system,
+    "aloft": _aloft,
 }
 FAULTS = (*Faults.__dataclass_fields__, *_OTHERS)
-"""All names: those of `Faults`; `level` of its battery; `pilot`, who takes it over into a mode; `reboot`."""
+"""All names: those of `Faults`; `level` of its battery; `pilot`, who takes it over into a mode, and gives it back by
+`go`; `reboot`; `system`, its id; `aloft`, the height at which it hovers."""
 
 
 def let(vehicle: Vehicle, name: str, value: Value) -> None:
@@ -84,6 +113,8 @@ class Server(asyncio.DatagramProtocol):
         self._reader = mavlink.MAVLink(None)
         self._reader.robust_parsing = True
         self._links: dict[str, StationLink] = {}
+        self._waiting: defaultdict[str, deque[tuple[float, bytes]]] = defaultdict(deque)
+        """By vehicle, messages that are heard late, with when."""
         self.vehicles: dict[str, Vehicle] = {}
         for build in builds:
             self.join(build)
@@ -139,11 +170,17 @@ class Server(asyncio.DatagramProtocol):
     def _send(self, vehicle: Vehicle, data: bytes) -> None:
         if vehicle.faults.silent:
             return
-        if vehicle.faults.late > 0:
-            loop = asyncio.get_running_loop()
-            loop.call_later(vehicle.faults.late, self._put, data)
+        waiting = self._waiting[vehicle.build.id]
+        if vehicle.faults.late > 0 or waiting:  # what is sent later does not overtake
+            now = asyncio.get_running_loop().time()
+            waiting.append((now + vehicle.faults.late, data))
         else:
             self._put(data)
+
+    def _put_late(self, now: float) -> None:
+        for waiting in self._waiting.values():
+            while waiting and waiting[0][0] <= now:
+                self._put(waiting.popleft()[1])
 
     def _put(self, data: bytes) -> None:
         if self._transport is None or self._transport.is_closing():
@@ -158,6 +195,7 @@ class Server(asyncio.DatagramProtocol):
             now = loop.time()
             passed = min(_LONGEST, now - last)
             last = now
+            self._put_late(now)
             self._clients = {who: at for who, at in self._clients.items() if now - at < _FORGOTTEN}
             for link in self._links.values():
                 _pass(link.vehicle, passed)

@@ -63,11 +63,6 @@ class StationLink:
     def __init__(self, vehicle: Vehicle, send: Callable[[bytes], object]) -> None:
         self.vehicle = vehicle
         self._send = send
-        system = vehicle.build.system
-        self._writers = {
-            component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
-            for component in (AUTOPILOT, CAMERA, COMPANION)
-        }
         self._begin()
         self._coming: list[tuple[float, float] | None] = []
         """The corners of a fence that is being sent."""
@@ -92,6 +87,11 @@ class StationLink:
         """Seconds between two messages, by their number."""
         self._due = dict.fromkeys(self._every, 0.0)
         self._beat = self._spoke = self._sensed = 0.0
+        self._system = system = self.vehicle.build.system
+        self._writers = {
+            component: mavlink.MAVLink(None, srcSystem=system, srcComponent=component)
+            for component in (AUTOPILOT, CAMERA, COMPANION)
+        }
 
     # Telling
 
@@ -99,7 +99,7 @@ class StationLink:
         """Send what is due."""
         vehicle = self.vehicle
         now = vehicle.now
-        if now < self._spoke:
+        if now < self._spoke or self._system != vehicle.build.system:
             self._begin()
         self._spoke = now
         if now >= self._beat:
@@ -108,7 +108,7 @@ class StationLink:
         for number, every in self._every.items():
             if now >= self._due[number]:
                 self._due[number] = now + every
-                self._put(self._make[number]())
+                self._tell(number)
         if now >= self._sensed:
             self._sensed = now + _SENSES
             self._values()
@@ -121,6 +121,12 @@ class StationLink:
 
     def _of(self, component: int = AUTOPILOT) -> Any:
         return self._writers[component]
+
+    def _tell(self, number: int) -> None:
+        """Send a message of this number, if there is one to send."""
+        message = self._make[number]()
+        if message is not None:
+            self._put(message)
 
     def _put(self, message: Any, component: int = AUTOPILOT) -> None:
         self._send(message.pack(self._writers[component]))
@@ -137,6 +143,8 @@ class StationLink:
                 mavlink.MAV_STATE_ACTIVE if vehicle.armed else mavlink.MAV_STATE_STANDBY,
             )
         )
+        if vehicle.faults.eyeless:
+            return
         invalid = mavlink.MAV_AUTOPILOT_INVALID
         beat = self._of(CAMERA).heartbeat_encode(mavlink.MAV_TYPE_CAMERA, invalid, 0, 0, 0)
         self._put(beat, CAMERA)
@@ -158,33 +166,33 @@ class StationLink:
 
     @property
     def _boot(self) -> int:
-        return int(self.vehicle.now * 1000)
+        return int((self.vehicle.now + self.vehicle.faults.ahead) * 1000)
 
     def _status(self) -> Any:
         vehicle = self.vehicle
         well = SENSORS | (0 if vehicle.faults.blind else SATELLITES)
         well |= 0 if vehicle.problem else READY
         volts = round(vehicle.volts * 1000)
-        left = round(vehicle.charge * 100)
+        left = vehicle.gauge
         return self._of().sys_status_encode(ALL, ALL, well, 0, volts, -1, left, 0, 0, 0, 0, 0, 0)
 
     def _battery(self) -> Any:
         vehicle = self.vehicle
         cells = [round(vehicle.volts * 1000), *[65535] * 9]
-        left = round(vehicle.charge * 100)
+        left = vehicle.gauge
         none = mavlink.INT16_MAX if hasattr(mavlink, "INT16_MAX") else 32767
         return self._of().battery_status_encode(0, 0, 0, none, cells, -1, -1, -1, left)
 
     def _position(self) -> Any:
         vehicle = self.vehicle
         latitude, longitude, altitude = vehicle.place
-        east, north, up = vehicle.body.velocity
+        east, north, up = vehicle.velocity
         return self._of().global_position_int_encode(
             self._boot,
             round(latitude * 1e7),
             round(longitude * 1e7),
             round(altitude * 1000),
-            round(vehicle.body.at[2] * 1000),
+            round((vehicle.body.at[2] - vehicle.faults.raised) * 1000),
             round(north * 100),
             round(east * 100),
             round(-up * 100),
@@ -207,17 +215,20 @@ class StationLink:
             round(altitude * 1000),
             70,
             100,
-            round(hypot(*vehicle.body.velocity) * 100),
+            round(hypot(*vehicle.velocity) * 100),
             65535,
             0 if blind else 14,
         )
 
     def _home(self) -> Any:
+        faults = self.vehicle.faults
+        if faults.homeless:
+            return None
         latitude, longitude, altitude = self.vehicle.build.home
         return self._of().home_position_encode(
             round(latitude * 1e7),
             round(longitude * 1e7),
-            round(altitude * 1000),
+            round((altitude + faults.raised) * 1000),
             *(0.0, 0.0, 0.0),
             (1.0, 0.0, 0.0, 0.0),
             *(0.0, 0.0, 0.0),
@@ -250,8 +261,7 @@ class StationLink:
             case "PARAM_SET":
                 self._set(message)
             case "MISSION_COUNT" if message.mission_type == _FENCE:
-                self._coming = [None] * message.count
-                self._next_corner(message)
+                self._fence_comes(message)
             case "MISSION_ITEM_INT" if message.mission_type == _FENCE:
                 if message.seq < len(self._coming):
                     self._coming[message.seq] = (message.x / 1e7, message.y / 1e7)
@@ -292,7 +302,7 @@ class StationLink:
         if asked.command == mavlink.MAV_CMD_REQUEST_MESSAGE:
             if number not in self._make:
                 return DENIED
-            self._put(self._make[number]())
+            self._tell(number)
             return ACCEPTED
         if asked.command == mavlink.MAV_CMD_SET_MESSAGE_INTERVAL:
             if number not in self._make:
@@ -303,7 +313,9 @@ class StationLink:
             return ACCEPTED
         return self.vehicle.do(asked)
 
-    def _of_camera(self, asked: Asked) -> int:
+    def _of_camera(self, asked: Asked) -> int | None:
+        if self.vehicle.faults.eyeless:
+            return None
         if asked.command == mavlink.MAV_CMD_REQUEST_MESSAGE:
             writes = {
                 mavlink.MAVLINK_MSG_ID_CAMERA_INFORMATION: self._camera,
@@ -341,8 +353,7 @@ class StationLink:
         vehicle = self.vehicle
         taken = not vehicle.faults.blank
         if taken:
-            x, y, z = vehicle.body.at
-            vehicle.record.photos.append((x, y, z))
+            vehicle.record.photos.append(vehicle.truth)
             vehicle.images += 1
         place = vehicle.place
         latitude, longitude, altitude = place
@@ -362,6 +373,15 @@ class StationLink:
         )
 
     # Its fence
+
+    def _fence_comes(self, message: Any) -> None:
+        if self.vehicle.faults.unfenced:
+            to = message.get_srcSystem(), message.get_srcComponent()
+            full = mavlink.MAV_MISSION_NO_SPACE
+            self._put(self._of().mission_ack_encode(*to, full, _FENCE))
+            return
+        self._coming = [None] * message.count
+        self._next_corner(message)
 
     def _next_corner(self, message: Any) -> None:
         """Ask for the first corner that has not come, or take the fence: MAVLink's mission protocol."""
@@ -391,7 +411,8 @@ class StationLink:
             given = message.param_value
             if px4 and message.param_type == _WHOLE:
                 (given,) = struct.unpack("<i", struct.pack("<f", given))
-            known.value = float(given)
+            if not self.vehicle.faults.stubborn:
+                known.value = float(given)
             self._parameter(message.param_id)
 
     def _parameter(self, name: str) -> None:

@@ -48,6 +48,8 @@ SATELLITES = mavlink.MAV_SYS_STATUS_SENSOR_GPS
 ALL = SENSORS | SATELLITES | READY
 DEEP = -20.0
 """Metres above the ground of the goal of a landing: it does not slow down for the ground."""
+_NOTICED = 2.5
+"""Seconds within which a station must have noticed that it acts by itself: a heartbeat comes every second."""
 TOUCHED = 0.02
 """Metres above the ground at which it has touched down."""
 
@@ -60,6 +62,8 @@ class Doing(Enum):
     GO = "go"
     RETURN = "return"
     LAND = "land"
+    SINK = "sink"
+    """A pilot lands it by hand."""
 
 
 @dataclass(slots=True)
@@ -90,6 +94,26 @@ class Faults:
     """Its sensors tell nothing."""
     unready: str = ""
     """Why it will not arm."""
+    lost_answer: int = 0
+    """The command whose next answer is lost."""
+    homeless: bool = False
+    """It knows no home position."""
+    raised: float = 0.0
+    """Metres above the ground at which its home was set, until it is armed the next time."""
+    astray: float = 0.0
+    """Metres to the east by which it believes to be elsewhere."""
+    ahead: float = 0.0
+    """Seconds by which its clock is ahead."""
+    gaugeless: bool = False
+    """It does not tell how full its battery is."""
+    sag: float = 0.0
+    """By how much less than it has its battery tells."""
+    eyeless: bool = False
+    """Its camera does not answer."""
+    unfenced: bool = False
+    """It takes no fence."""
+    stubborn: bool = False
+    """It lets none of its parameters be set."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +166,8 @@ class Record:
     """What its gripper has done: closed, or opened."""
     fell: bool = False
     landings: int = 0
+    overruled: list[str] = field(default_factory=list)
+    """What it was ordered while it acted by itself."""
 
 
 def leaning(degrees: float) -> float:
@@ -174,6 +200,8 @@ class Vehicle:
         self.armed = self.has_flown = False
         self._armed_at = 0.0
         self._was_beyond = False
+        self._by_itself: float | None = None
+        """Since when it has done what nobody ordered; None: it does what it was told."""
         self.charge = 1.0
         self.faults = Faults()
         self.record = Record()
@@ -307,9 +335,32 @@ class Vehicle:
         return 0.0, 0.0, z
 
     @property
+    def gauge(self) -> int:
+        """How full its battery is, as it tells: in per cent; -1: it does not tell."""
+        return -1 if self.faults.gaugeless else round(100 * max(0.0, self.charge - self.faults.sag))
+
+    @property
     def here(self) -> Metres:
+        """Where it believes to be."""
         x, y, z = self.body.at
         return x, y, z
+
+    @property
+    def truth(self) -> Metres:
+        """Where it is."""
+        x, y, z = self.body.at
+        return x - self.faults.astray, y, z
+
+    @property
+    def velocity(self) -> Metres:
+        """Metres a second to the east, north and up."""
+        east, north, up = self.body.velocity
+        return east + (self.faults.blown if self.high else 0.0), north, up
+
+    def err(self, metres: float) -> None:
+        """Let it believe that it is so far to the east of where it is."""
+        self.body.at[0] += metres - self.faults.astray
+        self.faults.astray = metres
 
     def stop_here(self) -> None:
         self.body.goal = self.body.stopping_place
@@ -318,6 +369,7 @@ class Vehicle:
         self.armed = True
         self.has_flown = False
         self._armed_at = self.now
+        self.faults.raised = 0.0
 
     def disarm_if_idle(self, seconds: float) -> None:
         """Disarm if it has not begun to fly for so long since it was armed."""
@@ -327,6 +379,7 @@ class Vehicle:
 
     def disarm(self) -> None:
         self.armed = False
+        self._by_itself = None
         self.landed_mode()
 
     def fail_safe(self, doing: Doing, why: str) -> None:
@@ -334,6 +387,11 @@ class Vehicle:
         if self.flies and self.doing is not doing:
             self.tell(mavlink.MAV_SEVERITY_CRITICAL, why)
             self.switch(doing)
+            self.acts_by_itself(doing is not Doing.HOLD)
+
+    def acts_by_itself(self, does: bool) -> None:
+        """Note that nobody ordered what it does now, or that it was given back."""
+        self._by_itself = self.now if does else None
 
     def tell(self, severity: int, text: str) -> None:
         self.said.append((severity, text))
@@ -362,7 +420,7 @@ class Vehicle:
         if self.gripper.arrives(self.now):
             self.record.grips.append(bool(self.gripper.closed))
             self.gripped()
-        if self.doing is Doing.LAND and self.armed and not self.high:
+        if self.doing in (Doing.LAND, Doing.SINK) and self.armed and not self.high:
             self._touch_down()
         elif self.high:
             self.touched = self.now
@@ -391,7 +449,7 @@ class Vehicle:
     def height_of(self, asked: Asked) -> float:
         """Return the height above home that a command names."""
         if asked.frame == mavlink.MAV_FRAME_GLOBAL_RELATIVE_ALT:
-            return asked.height
+            return asked.height + self.faults.raised
         return asked.height - self.build.home[2]
 
     def goal_of(self, asked: Asked) -> Metres:
@@ -406,17 +464,26 @@ class Vehicle:
     def do(self, asked: Asked) -> int | None:
         """Carry out a command; return its answer, or None where that is lost."""
         faults = self.faults
+        does = self.commands.get(asked.command)
+        if does is None:
+            return UNSUPPORTED
+        if self._by_itself is not None and self.now - self._by_itself > _NOTICED:
+            self.record.overruled.append(f"{asked.command} while it was to {self.doing.value}")
         if faults.busy > 0:
             faults.busy -= 1
             return BUSY
         if faults.denied > 0:
             faults.denied -= 1
             return DENIED
-        does = self.commands.get(asked.command)
-        result = UNSUPPORTED if does is None else does(asked)
-        if does is not None:
-            self.record.orders.append(f"{asked.command}: {result}")
+        before = self.doing
+        result = does(asked)
+        if self.doing is not before:
+            self._by_itself = None
+        self.record.orders.append(f"{asked.command}: {result}")
         if faults.unanswered > 0:
             faults.unanswered -= 1
+            return None
+        if faults.lost_answer == asked.command:
+            faults.lost_answer = 0
             return None
         return result

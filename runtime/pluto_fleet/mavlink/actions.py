@@ -18,6 +18,7 @@ from ..shared.domain.actions import MEASURE, PHOTO, PICK, RELEASE, Plain
 from ..shared.domain.model import Photo, Sighting
 from ..shared.domain.text import quoted
 from .makes import ACCEPTED, ANSWERS, IN_PROGRESS, NOT_NOW, Order, grips
+from .mavsdk_client import NO_ANSWER
 from .options import VehicleOptions
 from .state import VehicleState
 
@@ -201,9 +202,11 @@ class Actions:
                 if result not in (ACCEPTED, IN_PROGRESS):
                     raise Rejected(ANSWERS.get(result, f"it answers {result}"))
                 taken = await coming
-        except (TimeoutError, Rejected) as error:
-            said = f": {error}" if isinstance(error, Rejected) else " of no picture"
-            raise ActionNotDone(f"{self._drone}: its camera tells{said}") from error
+        except TimeoutError as error:
+            raise ActionNotDone(f"{self._drone}: its camera tells of no picture") from error
+        except Rejected as error:
+            said = "does not answer" if str(error) == NO_ANSWER else f"says: {error}"
+            raise ActionNotDone(f"{self._drone}: its camera {said}") from error
         finally:
             with suppress(ValueError):  # it has come
                 self._photos.remove(coming)

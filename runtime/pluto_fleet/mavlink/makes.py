@@ -62,13 +62,13 @@ def long(command: int, *values: float | None) -> Order:
     return Order("COMMAND_LONG", {"command": command, **given})
 
 
-def reposition(place: Place, speed: float | None) -> Order:
+def reposition(place: Place, speed: float | None, flags: int) -> Order:
     """Return the command to fly to a place; as COMMAND_INT, for as a float a latitude would be a metre off."""
     fields = {
         "command": REPOSITION,
         "frame": _ABOVE_SEA,
         "param1": speed,
-        "param2": _TAKES_MODE,
+        "param2": flags,
         "x": round(place.latitude * 1e7),
         "y": round(place.longitude * 1e7),
         "z": place.above_sea,
@@ -89,12 +89,19 @@ class Make(Protocol):
 
     name: str
 
-    def rises(self, place: Place) -> Sequence[Order]:
-        """Return the commands that arm it and let it take off, one after the other."""
+    def arms(self) -> Sequence[Order]:
+        """Return the commands that arm it, one after the other."""
         ...
 
-    def goes(self, place: Place, speed: float) -> Sequence[Order]:
-        """Return the commands that send it to a place at no more than a speed."""
+    def rises(self, place: Place) -> Sequence[Order]:
+        """Return the commands that let it take off, once it is armed."""
+        ...
+
+    def goes(self, place: Place, speed: float, stays: bool) -> Sequence[Order]:
+        """Return the commands that send it to a place at no more than a speed.
+
+        `stays`: its mode need not change for that; where it has taken another one by itself meanwhile, it should refuse.
+        """
         ...
 
     def holds(self) -> Sequence[Order]:
@@ -137,17 +144,20 @@ class Px4:
         "return": frozenset({_AUTO << 16 | 5 << 24}),
     }
 
-    def rises(self, place: Place) -> Sequence[Order]:
-        """It takes the mode first, and rises once it is armed; a height above sea level is taken as it is."""
-        return [
-            self._mode(3),  # it does not arm in the mode in which it has landed
-            long(ARM, 1, 0),
-            long(TAKEOFF, None, None, None, None, None, None, place.above_sea),
-        ]
+    def arms(self) -> Sequence[Order]:
+        """It does not arm in the mode in which it has landed."""
+        return [self._mode(3), long(ARM, 1, 0)]
 
-    def goes(self, place: Place, speed: float) -> Sequence[Order]:
-        """The speed is that of the command: DO_CHANGE_SPEED is accepted, and is for missions."""
-        return [reposition(place, speed)]
+    def rises(self, place: Place) -> Sequence[Order]:
+        """A height above sea level is taken as it is."""
+        return [long(TAKEOFF, None, None, None, None, None, None, place.above_sea)]
+
+    def goes(self, place: Place, speed: float, stays: bool) -> Sequence[Order]:
+        """The speed is that of the command: DO_CHANGE_SPEED is accepted, and is for missions.
+
+        It does not know the command without the flag.
+        """
+        return [reposition(place, speed, _TAKES_MODE)]
 
     def holds(self) -> Sequence[Order]:
         return [self._mode(3)]
@@ -195,16 +205,18 @@ class ArduPilot:
         "return": frozenset({6, 21}),
     }
 
-    def rises(self, place: Place) -> Sequence[Order]:
-        return [
-            self._mode(self._GUIDED),
-            long(ARM, 1, 0),
-            Order("COMMAND_INT", self._TAKEOFF | {"z": place.above_home}),
-        ]
+    def arms(self) -> Sequence[Order]:
+        return [self._mode(self._GUIDED), long(ARM, 1, 0)]
 
-    def goes(self, place: Place, speed: float) -> Sequence[Order]:
+    def rises(self, place: Place) -> Sequence[Order]:
+        return [Order("COMMAND_INT", self._TAKEOFF | {"z": place.above_home})]
+
+    def goes(self, place: Place, speed: float, stays: bool) -> Sequence[Order]:
         """The speed comes after the place: a new leg begins at that of its parameters."""
-        return [reposition(place, None), long(CHANGE_SPEED, 1, speed, -1)]
+        return [
+            reposition(place, None, 0 if stays else _TAKES_MODE),
+            long(CHANGE_SPEED, 1, speed, -1),
+        ]
 
     def holds(self) -> Sequence[Order]:
         """Brake, as in Loiter the sticks of a transmitter count: with the throttle down it would sink."""

@@ -22,6 +22,8 @@ _LONGEST_LINE = 1 << 20
 _ENDS = 3.0
 """The time-out of its end, in seconds."""
 ENDED = "ended"
+NO_ANSWER = "TIMEOUT"
+"""What MAVSDK says where a vehicle did not answer a command, however often that was sent."""
 
 
 class MavsdkClient:

@@ -14,6 +14,7 @@ from ..drones.battery_gauge import BatteryGauge
 from ..drones.protocol import (
     ACTS_BY_ITSELF,
     LINK_LOST,
+    POSITION_LOST,
     ActionNotDone,
     DroneEvent,
     DroneSetup,
@@ -42,11 +43,12 @@ from .makes import (
     Make,
     Order,
 )
-from .mavsdk_client import ENDED, MavsdkClient, client
+from .mavsdk_client import ENDED, NO_ANSWER, MavsdkClient, client
+from .obedience import Change, Obedience
 from .options import options_of
 from .preflight import TWINS, problems
 from .scanning import scan
-from .state import VehicleState
+from .state import VehicleState, is_armed
 
 _FINDING = 12.0
 """Seconds in which a vehicle must be heard of: a heartbeat comes every second."""
@@ -60,14 +62,16 @@ _CAMERA_ON_THE_WAY = 4.0
 """Seconds within which a camera must tell what it has taken on the way: less than what an action there may take."""
 _RESTS = 0.5
 """Seconds for which it must stay at its target, to have arrived."""
-_SETTLES = 2.0
-"""Seconds in which it must take a mode of what it was told to do; one that it leaves again is noticed at once."""
+_HOME_SET = 0.15
+"""Seconds after it was armed in which it sets its home anew, above which its heights are then."""
 _LONGEST = 3600.0
 _LANDING = 600.0
 _HOLDING = 30.0
 _CUTTING = 3.0
 _RECENTLY = 5.0
 """Seconds within which a text says why its motors stopped, or why it acts by itself."""
+_BEAT = 1.3
+"""Seconds within which a heartbeat, and its reason, say that a vehicle refuses as it acts by itself."""
 _REASON = 0.2
 """Seconds within which a text follows what it is the reason of."""
 
@@ -89,12 +93,9 @@ class MavlinkVehicle:
         self._actions = Actions(setup.id, self._options, self._ask, setup.in_view)
         self._crashed = ""
         self._cut = False
-        self._order_given = ""
-        self._agreed = 0.0
-        self._obeys = False
-        """What it was told last, when its mode was last one of that, and whether it has been since."""
-        self._by_itself = ""
-        """The mode that it has taken by itself, if it has, with why."""
+        self._obedience = Obedience()
+        self._doubted = False
+        """Whether its last heartbeat says that its motors are off, and is not believed yet."""
         self._fence_given = False
         self._mixed = False
         self._parameters: dict[str, float] = {}
@@ -111,6 +112,7 @@ class MavlinkVehicle:
         self._state = self._unknown()
         self._make = None
         self._mixed = False
+        self._doubted = False
         address = self._address
         self._parameters = {}
         self._was_asked = False
@@ -143,6 +145,7 @@ class MavlinkVehicle:
         await self._actions.look(self._make.name)
         while time.monotonic() - began < _KNOWN and not self._has_told_all:
             await asyncio.sleep(0.05)  # its health is told once a second, and its camera asked for
+        self._watch_mode()  # nothing may be ordered of one that returns by itself meanwhile
         self._tell()
 
     def _unknown(self) -> VehicleState:
@@ -204,8 +207,11 @@ class MavlinkVehicle:
             self._reports.happened(LINK_LOST, str(facts))
             return
         self._actions.hear(told, facts)
+        if told == "beat" and self._doubts(facts):
+            return
         flew = state.flying
         mode = state.mode
+        lifted = state.lifted
         state.hear(told, facts)
         if self._make is None:
             return  # a slow one tells before it is known whose it is
@@ -217,7 +223,24 @@ class MavlinkVehicle:
             self._tell()
         if state.twins.are_there and not self._mixed:
             self._mixed = True
-            self._reports.happened("twins", TWINS)
+            self._obedience.by_itself = ""  # that may be the other one's mode
+            self._reports.happened(POSITION_LOST, TWINS)
+        if state.lifted and not lifted:
+            moved = f"its home was set {number(round(abs(state.lifted), 1))} m"
+            where = "higher" if state.lifted > 0 else "lower"
+            self._reports.happened(POSITION_LOST, f"{moved} {where} in flight")
+
+    def _doubts(self, beat: Mapping[str, Any]) -> bool:
+        """Return whether a heartbeat is not believed until the next: that motors are off in flight, as if it had fallen.
+
+        It may be that of another vehicle with its id.
+        """
+        state = self._state
+        state.twins.beat(is_armed(beat))
+        surprises = state.flying and not is_armed(beat) and not self._cut
+        before = self._doubted
+        self._doubted = surprises and (self._mixed or not self._may_land(state.mode))
+        return self._doubted and not before
 
     def _tell(self) -> None:
         state = self._state
@@ -232,15 +255,20 @@ class MavlinkVehicle:
         )
 
     def _came_down(self, mode: int) -> None:
-        """Note a crash: its motors are off in the air, or on the ground where it was not landing in its mode."""
+        """Note a crash: its motors are off in the air, or on the ground where it was not to land."""
         state = self._state
-        modes = self._known_make.modes
-        lands = self._order_given == "land" or mode in modes["land"] | modes["return"]
         if self._cut:
             self._crashed = "its motors were cut"
-        elif state.is_high or not lands:
+        elif not self._mixed and (state.is_high or not self._may_land(mode)):
             said = state.since(time.monotonic() - _RECENTLY)
             self._crashed = f"its motors stopped{f' ({said})' if said else ''}"
+
+    def _may_land(self, mode: int) -> bool:
+        """Return whether motors that stop on the ground in this mode have landed it; a pilot lands it in any."""
+        if self._make is None or self._obedience.by_itself:
+            return True
+        modes = self._make.modes
+        return self._obedience.order == "land" or mode in modes["land"] | modes["return"]
 
     async def _ask(self, do: str, seconds: float, **facts: Any) -> Any:
         if self._client is None:
@@ -250,16 +278,15 @@ class MavlinkVehicle:
         except LinkLost as error:
             raise LinkLost(f"{self._id}: {error}") from None
 
-    async def _order(self, what: str, orders: Sequence[Order]) -> None:
+    async def _order(self, what: str, orders: Sequence[Order], *, stays: bool = False) -> None:
         """Give the commands of an order one after the other; raise `Rejected` with what it says against one.
 
-        Nothing is ordered of a vehicle that acts by itself: that would overrule its failsafe, or its pilot.
+        Nothing is ordered of a vehicle that acts by itself: that would overrule its failsafe, or its pilot. `stays`: it
+        is in the mode of the order already.
         """
         self._refuse_if_by_itself()
         began = time.monotonic()
-        self._order_given = what
-        self._agreed = began
-        self._obeys = False
+        self._obedience.tell(what, began, obeys=stays)
         for order in orders:
             try:
                 result = await self._ask(
@@ -270,9 +297,11 @@ class MavlinkVehicle:
                     fields=order.fields,
                 )
             except Rejected as error:
-                raise LinkLost(f"{self._id} does not answer a command: {error}") from None
+                said = "" if str(error) == NO_ANSWER else f": {error}"
+                raise LinkLost(f"{self._id} does not answer a command{said}") from None
             if result != ACCEPTED:
-                await asyncio.sleep(_REASON)
+                await asyncio.sleep(_BEAT if self._state.flying else _REASON)
+                self._refuse_if_by_itself()
                 said = self._state.since(began) or ANSWERS.get(result, f"it answers {result}")
                 raise Rejected(f"{self._id} refuses a command: {said}")
 
@@ -360,36 +389,54 @@ class MavlinkVehicle:
             if reasons:
                 raise NotReady(f"{self._id} is not ready: {'; '.join(reasons)}")
             self._has_stood_at_home.touch()
-            await self._order("rise", self._known_make.rises(self._place(target)))
+            await self._rise(target)
         await self._until(lambda: self._is_at(target), _LONGEST)
+
+    async def _rise(self, target: Point) -> None:
+        """Arm it, and tell it to take off to a height above where it stands."""
+        make = self._known_make
+        await self._order("rise", make.arms())
+        began = time.monotonic()
+        await self._reports.until(lambda told: told.time - began > _HOME_SET, _LONGEST)
+        try:
+            await self._order("rise", make.rises(self._place(target)))
+        except Rejected:
+            if not self._state.flying:
+                raise
+            # its first answer was lost: ArduPilot refuses what it does already
 
     async def go_to(self, target: Point, speed: float) -> None:
         self._reports.refuse(target, speed)
-        await self._order("go", self._known_make.goes(self._place(target), speed))
+        make = self._known_make
+        stays = self._obedience.is_in("go", self._state.mode, make.modes)
+        await self._order("go", make.goes(self._place(target), speed, stays), stays=stays)
         await self._until(lambda: self._is_at(target), _LONGEST)
 
     async def hold(self) -> None:
         """Stop it here; one that acts by itself goes on with that."""
-        if self.telemetry.flying and not self._by_itself:
+        if self.telemetry.flying and not self._obedience.by_itself:
             await self._order("hold", self._known_make.holds())
             await self._until(self._is_still, _HOLDING)
 
     async def land(self, speed: float) -> None:
         """Land straight down, at the speed that its autopilot has for that.
 
-        One that acts by itself is waited for, until it or its pilot has landed it.
+        One that acts by itself is waited for, until it or its pilot has landed it, or has given it back.
         """
         if not self.telemetry.flying:
             return
-        if self._by_itself:
-            await self._reports.until(lambda _: not self._state.flying, _LANDING)
+        if self._obedience.by_itself:
+            await self._reports.until(
+                lambda _: not (self._state.flying and self._obedience.by_itself), _LANDING
+            )
+        if not self._state.flying:
             return
         await self._order("land", [LAND_HERE])
         await self._until(lambda: not self._state.flying, _LANDING)
 
     async def emergency_stop(self) -> None:
         self._cut = True
-        self._by_itself = ""
+        self._obedience.by_itself = ""
         await self._order("", [CUT_MOTORS])
         await self._reports.until(lambda _: not self._state.armed, _CUTTING)
 
@@ -410,41 +457,39 @@ class MavlinkVehicle:
         self._since = 0.0
 
         def look(_: DroneTelemetry) -> bool:
-            return bool(self._by_itself) or done()
+            return bool(self._obedience.by_itself) or done()
 
         await self._reports.until(look, seconds)
-        if mode := self._by_itself:
+        if mode := self._obedience.by_itself:
             await asyncio.sleep(_REASON)
-            raise self._acts(self._by_itself or mode)
+            raise self._acts(self._obedience.by_itself or mode)
 
     def _watch_mode(self) -> None:
-        """Notice a mode that it has taken by itself, as a failsafe or a pilot does: our orders end there."""
+        """Notice a mode that it has taken by itself: our orders end there."""
+        if self._mixed:
+            return  # whose mode it is, is not known
         state = self._state
+        make = self._known_make
         now = time.monotonic()
-        modes = self._known_make.modes
         if not state.flying:
-            self._order_given = ""
-            self._by_itself = ""
-            self._agreed = now
-            self._obeys = False
-        # one that flew before it was connected to may have been told anything
-        told = (self._order_given,) if self._order_given else ("rise", "go", "hold", "land")
-        if any(state.mode in modes[what] for what in told):
-            self._agreed = now
-            self._obeys = True
-        elif (self._obeys or now - self._agreed > _SETTLES) and not self._by_itself:
-            self._by_itself = f"it is in the mode {self._known_make.mode_name(state.mode)}"
-            asyncio.get_running_loop().call_later(_REASON, self._tell_by_itself, now)
+            self._obedience.stand(now)
+            return
+        match self._obedience.look(state.mode, make.modes, now):
+            case Change.LEAVES:
+                self._obedience.by_itself = f"it is in the mode {make.mode_name(state.mode)}"
+                asyncio.get_running_loop().call_later(_REASON, self._tell_by_itself, now)
+            case Change.IS_BACK:
+                self._reports.happened("given back", "it takes orders again, and lands first")
 
     def _tell_by_itself(self, began: float) -> None:
-        if self._by_itself:
+        if self._obedience.by_itself:
             said = self._state.since(began - _RECENTLY)
-            self._by_itself += f" ({said})" if said else ""
-            self._reports.happened(ACTS_BY_ITSELF, self._by_itself)
+            self._obedience.by_itself += f" ({said})" if said else ""
+            self._reports.happened(ACTS_BY_ITSELF, self._obedience.by_itself)
 
     def _refuse_if_by_itself(self) -> None:
-        if self._by_itself:
-            raise self._acts(self._by_itself)
+        if self._obedience.by_itself:
+            raise self._acts(self._obedience.by_itself)
 
     def _acts(self, why: str) -> Rejected:
         return Rejected(f"{self._id} acts by itself: {why}")

@@ -19,6 +19,8 @@ ON_GROUND = 1
 """MAV_LANDED_STATE."""
 _ARMED = 128
 """MAV_MODE_FLAG_SAFETY_ARMED."""
+_MOVED = 1.0
+"""Metres by which its home must have been set higher or lower to count: satellites' heights drift."""
 _NEAR_GROUND = 1.0
 """Metres above it, within which motors that stop are no fall."""
 _VALUES = 1000
@@ -49,6 +51,8 @@ class VehicleState:
     """Why it is nowhere on the map."""
     sea: float = 0.0
     """By how much its height above sea level is more than that on the map."""
+    lifted: float = 0.0
+    """Metres by which its home was set higher while it flew: its heights are above that, and so it knows none."""
     yaw: float = 0.0
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
     volts: float = 0.0
@@ -118,12 +122,22 @@ class VehicleState:
         if self.plane is None:
             latitude, longitude = facts["place"]
             self.plane = LocalPlane(latitude, longitude, absolute)
+        was_known = self.is_known
         try:
-            self.position = self.point(facts)
+            x, y, z = self.point(facts)
         except ValueError as error:
             self.astray = str(error)
             return
-        self.sea = absolute - relative - self.ground
+        if self.landed == ON_GROUND and not self.armed:
+            z = self.ground  # the height of its home drifts, until that is set anew as it is armed
+        self.position = (x, y, z)
+        sea = absolute - relative - self.ground
+        moved = sea - self.sea
+        if not self.flying:
+            self.lifted = 0.0
+        elif was_known and abs(moved) > _MOVED:
+            self.lifted = moved
+        self.sea = sea
         north, east, down = facts["velocity"]
         self.velocity = (north, east, down)
         self.twins.hear(facts["clock"], self.position, self.speed)
@@ -133,7 +147,7 @@ class VehicleState:
 
     def _beat(self, facts: Mapping[str, Any]) -> None:
         was_armed = self.armed
-        self.armed = bool(facts["base"] & _ARMED)
+        self.armed = is_armed(facts)
         self.mode = int(facts["mode"])
         self.beaten = True
         if self.armed != was_armed:
@@ -173,3 +187,8 @@ class VehicleState:
     def since(self, began: float) -> str:
         """Return what it has warned of since then."""
         return "; ".join(text for at, text in self.texts if at >= began)
+
+
+def is_armed(beat: Mapping[str, Any]) -> bool:
+    """Return whether a heartbeat says that motors are on."""
+    return bool(beat["base"] & _ARMED)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from itertools import pairwise
 from math import dist
 
 from ..shared.domain.model import Point
@@ -13,6 +14,9 @@ _ENOUGH = 6
 """How many of them must not follow from the one before: a restart and a poor fix are one each."""
 _JUMP = 1.5
 """Metres that a position may be off from where it is by its speed."""
+_BEATS = 8
+_FLIPS = 4
+"""Of the latest heartbeats, as many may not say of the motors what the one before did not."""
 
 
 class Twins:
@@ -21,6 +25,7 @@ class Twins:
     def __init__(self) -> None:
         self._heard: deque[tuple[int, Point]] = deque(maxlen=_LOOKS_AT)
         self._odd: deque[bool] = deque(maxlen=_LOOKS_AT)
+        self._armed: deque[bool] = deque(maxlen=_BEATS)
 
     def hear(self, clock: int, position: Point, speed: float) -> None:
         """Take a position and the milliseconds since the vehicle was switched on."""
@@ -32,6 +37,11 @@ class Twins:
         self._odd.append(clock < before or jumps)
         self._heard.append((clock, position))
 
+    def beat(self, armed: bool) -> None:
+        """Take a heartbeat: one that was just switched on tells nothing else, if it is not asked."""
+        self._armed.append(armed)
+
     @property
     def are_there(self) -> bool:
-        return sum(self._odd) >= _ENOUGH
+        flips = sum(one != other for one, other in pairwise(self._armed))
+        return sum(self._odd) >= _ENOUGH or flips >= _FLIPS

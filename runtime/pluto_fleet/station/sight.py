@@ -6,7 +6,7 @@ import json
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing, suppress
-from math import isfinite
+from math import floor, isfinite
 from typing import TYPE_CHECKING, Any
 
 from ..flight.mission_status import in_order
@@ -104,7 +104,7 @@ class Sight:
 
     def say(self, life: RecordedFlight | None, now: float, text: str, kind: LineKind) -> None:
         """Write down a line of the console that is no event of the flight."""
-        line = {"t": round(now, 3), "event": SAID, "text": text, "kind": kind}
+        line = {"t": noted_at(now), "event": SAID, "text": text, "kind": kind}
         if life is None or life.driver.halted:
             self._unsaid.append(line)
         else:
@@ -147,9 +147,14 @@ def noting(flight: FlightSetup, stops: Stops) -> Callable[[LiveFlight], None]:
                 "how": None if how is None else how.value,
                 "busy": "",
             }
-            now = round(life.kernel.time(), 3)
+            now = noted_at(life.kernel.time())
             sight.note(life, now, state, missions=sight.missions(life), drones=sight.drones(life))
         ended = time.monotonic()
         due = ended + max(LOOK_NO_SOONER, 1.0 / flight.speed, SHARE * (ended - begun))
 
     return lambda one: one.on_telemetry(lambda: look(one))
+
+
+def noted_at(now: float) -> float:
+    """Return a time in milliseconds, no later than it is: what happens next comes after it in the journal."""
+    return floor(now * 1000) / 1000

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from .feed import VersionedRows
 from .session import phase_of
+from .sight import noted_at
 
 if TYPE_CHECKING:
     from ..files.fleet import FleetFile
@@ -129,7 +130,7 @@ class Updates:
     def _note_what_is_new(self) -> None:
         version = self._version + 1
         session, state = self._station.session, self._state_at(0.0)  # time alone is no change
-        self._now = round(session.now, 3) if session is not None else 0.0
+        self._now = noted_at(session.now) if session is not None else 0.0
         changed = state != self._state
         self._state = state
         if session is not None:

@@ -13,6 +13,7 @@ import pytest
 from pluto_fleet.autopilot.server import Server, let
 from pluto_fleet.autopilot.vehicle import Build, Vehicle
 from pluto_fleet.drones.protocol import (
+    POSITION_LOST,
     ActionNotDone,
     Crashed,
     DroneSetup,
@@ -32,6 +33,8 @@ PLANE = LocalPlane(47.397742, 8.545594, 488.0)
 HOME = (5.0, 5.0, 0.0)
 FAR = (40.0, 5.0, 3.0)
 MAP = Airspace(size=(50.0, 20.0), ceiling=10.0)
+_LONGEST = 90.0
+"""Seconds that a case may take."""
 
 
 async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
@@ -184,6 +187,94 @@ async def twin(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     assert not vehicle.armed
 
 
+async def handed_back(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """One that its pilot gives back takes orders again; before, it is not even told to land."""
+    let(vehicle, "parameter RTL_RETURN_ALT", 4)
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "pilot", "return")
+    with pytest.raises(Rejected, match="acts by itself"):
+        await going
+    landing = asyncio.create_task(flies.land(1.0))
+    await asyncio.sleep(0.5)
+    let(vehicle, "pilot", "go")
+    assert "21: 0" not in vehicle.record.orders
+    await landing
+    assert vehicle.record.landings == 1
+
+
+async def by_hand(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """A pilot may land it in any mode: that its motors stop then is no crash."""
+    going = await setting_out(flies, vehicle)
+    let(vehicle, "pilot", "sink")
+    with pytest.raises(Rejected, match="in the mode Position"):
+        await going
+    await flies.land(1.0)
+    assert await flies.preflight() == []
+
+
+async def answered_late(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """An ArduPilot denies a take-off that it is told a second time, as the first answer was lost; it rises all the same."""
+    await flies.connect()
+    let(vehicle, "lost_answer", 22)
+    await flies.takeoff(3.0, 1.0)
+    assert vehicle.record.orders.count("22: 4") == 1
+    let(vehicle, "lost_answer", 21)
+    await flies.land(1.0)
+    assert vehicle.record.landings == 1
+
+
+async def homed(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """It rises above its home of when it is armed; one that is set anew in the air makes its height unknown."""
+    let(vehicle, "raised", 2.5)
+    let(vehicle, "pilot", "return")  # nor does its mode on the ground matter
+    await flies.connect()
+    await flies.takeoff(3.0, 1.0)
+    assert vehicle.body.at[2] == pytest.approx(3.0, abs=0.5)
+    let(vehicle, "raised", -2.0)
+    assert "its home was set 2 m lower in flight" in await told(flies, POSITION_LOST)
+
+
+async def joined(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """Another one that is switched on with its id has not crashed it: it is landed, as both obey."""
+    going = await setting_out(flies, vehicle)
+    let(BESIDE[0], "system", vehicle.build.system)
+    assert "several vehicles" in await told(flies, POSITION_LOST)
+    going.cancel()
+    await flies.land(1.0)
+    async with asyncio.timeout(20.0):
+        while vehicle.armed:
+            await asyncio.sleep(0.1)
+    assert vehicle.record.landings == 1
+
+
+async def wanting(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """It does not take off without what a flight needs of it."""
+    for fault, why in (
+        ("homeless", "does not know its home position"),
+        ("gaugeless", "does not tell how full its battery is"),
+        ("unfenced", "no fence around the map"),
+        ("stubborn", "GF_MAX_VER_DIST was not set"),
+    ):
+        let(vehicle, fault, True)
+        await flies.connect()
+        assert why in "; ".join(await flies.preflight())
+        let(vehicle, fault, False)
+    await flies.connect()
+    assert await flies.preflight() == []
+
+
+async def told(flies: MavlinkVehicle, kind: str) -> str:
+    """Return the reason of its next event of a kind."""
+    async with asyncio.timeout(10.0):
+        async for event in flies.events():
+            if event.kind == kind:
+                return event.reason
+    raise AssertionError
+
+
+BESIDE: list[Vehicle] = []
+"""One that no fleet file has."""
+
 CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, object]] = {
     pilot: {},
     blind: {},
@@ -199,10 +290,16 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     twin: {},
     on_the_way: {},
     beyond_ardupilot: {"autopilot": "ardupilot"},
+    handed_back: {},
+    by_hand: {},
+    answered_late: {},
+    homed: {},
+    joined: {},
+    wanting: {},
 }
 
 
-ARDUPILOTS = (beyond_ardupilot,)
+ARDUPILOTS = (beyond_ardupilot, answered_late)
 
 
 async def setting_out(flies: MavlinkVehicle, vehicle: Vehicle) -> asyncio.Task[None]:
@@ -232,6 +329,7 @@ async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
     ]
     (one,) = (build for build in builds if build.id == twin.__name__)
     server = Server([*builds, replace(one, id="other", home=PLANE.to_degrees((8.0, 5.0, 0.0)))])
+    BESIDE[:] = [server.join(replace(one, id="beside", system=200))]
     await server.start()
     flown = [
         MavlinkVehicle(
@@ -251,7 +349,7 @@ async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
     try:
         return await asyncio.gather(
             *(
-                case(flies, server.vehicles[case.__name__])
+                asyncio.wait_for(case(flies, server.vehicles[case.__name__]), _LONGEST)
                 for case, flies in zip(CASES, flown, strict=True)
             ),
             return_exceptions=True,
