@@ -97,6 +97,8 @@ def truth_of(case: int) -> Motion:
         return drawn
     return replace(
         drawn,
+        settles=chance.uniform(1.0, 3.0),
+        take_off=chance.uniform(0.5, 2.0),
         acceleration=chance.uniform(1.5, 4.0),
         down=chance.uniform(0.8, 2.5),
         spread=chance.uniform(0.01, 0.03),

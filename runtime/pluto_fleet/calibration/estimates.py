@@ -228,7 +228,7 @@ SURE = 0.95
 """The probability with which all intervals hold, all of them at once."""
 SPARE = 5
 """How many measurements there must be more than parameters."""
-WIDEST = {"pace": 0.2, "drain": 0.5, "charge": 0.5, "shape": 0.8}
+WIDEST = {"pace": 0.2, "drain": 0.5, "charge": 0.5, "shape": 0.5}
 """Half an interval, as a share of its value, from which on that says nothing."""
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from math import dist, floor, inf, log10, sqrt
+from math import dist, floor, log10, sqrt
 from statistics import fmean, stdev
 from typing import Any
 
@@ -137,13 +137,21 @@ def _shaped(
     shapes = [name for name in _SHAPES if getattr(what.model, name) and _vary(name, moves)]
     while shapes:
         fit = _bent(what.model, moves, known, shapes)
-        widths = [inf] if fit is None else _widths(fit, len(shapes))
-        if fit is not None and max(widths) < WIDEST["shape"] and not _leaves_pace_open(fit):
-            break
+        if fit is None:
+            least = _unknown(what.model, moves, known, shapes) or shapes[-1]
+        else:
+            widths = _widths(fit, len(shapes))
+            least = shapes[widths.index(max(widths))]
+            if max(widths) < WIDEST["shape"] and not _leaves_pace_open(fit):
+                break
         # one that cannot be told spoils all: of legs that is their jerk before their acceleration
-        least = _unknown(what.model, moves, known, shapes)
-        least = least or shapes[-1 if fit is None else widths.index(max(widths))]
         shapes.remove("jerk" if least == "acceleration" and "jerk" in shapes else least)
+    others = [name for name in shapes if name != "acceleration"]
+    if others != shapes:
+        without = _bent(what.model, moves, known, others) if others else plain
+        if fit is None or (without is not None and _order(without) <= _order(fit)):
+            fit = without  # no leg is long enough to tell it: what is said explains as much
+            shapes = others
     for name in _SHAPES:
         if getattr(what.model, name) and name not in shapes:
             said = f"{getattr(what.model, name):g}"
@@ -172,7 +180,7 @@ def _unknown(
 def _widths(fit: Fit, shapes: int) -> list[float]:
     """Return half the interval of each of the last values, as a share of it."""
     found = [(one.value, one.interval(SURE)) for one in fit.values[-shapes:]]
-    return [(high - low) / 2 / value for value, (low, high) in found]
+    return [(high - low) / 2 / abs(value) for value, (low, high) in found]
 
 
 def _bent(
@@ -187,7 +195,12 @@ def _bent(
         begun = replace(model, acceleration=factor * model.acceleration)
         fit = _followed(begun, moves, known, shapes)
         fits += [] if fit is None else [fit]
-    return min(fits, key=lambda fit: (fit.left_out, fit.spread.value), default=None)
+    return min(fits, key=_order, default=None)
+
+
+def _order(fit: Fit) -> float:
+    """Return how badly a fit explains what was measured: what it leaves out counts, too."""
+    return fit.spread.value * (1 + fit.left_out / (fit.spread.spare + fit.left_out))
 
 
 def _followed(
