@@ -13,7 +13,7 @@ of its own, which is named.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from pathlib import Path
 from statistics import median
@@ -33,7 +33,7 @@ from tests.prediction.table import ERROR, POINTS, error, points
 
 FORMS = tuple(sorted(file.parent.name for file in EXAMPLES.glob("*/outdoors.toml")))
 MAKES = ("px4", "ardupilot")
-SEEDS = 20
+SEEDS = 10
 _PATIENCE = 1800.0
 _HEADER = (
     "| form, make | trips completed | flown: median | least–most | simulated | off"
@@ -103,10 +103,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     print(f"flights in {folder}", flush=True)
     plans = {plan.name: plan for plan in (outdoors(*both) for both in product(names, makes))}
     sources = {name: plan.compiled(folder / name / "app") for name, plan in plans.items()}
-    promises: Mapping[str, Promise] = {
-        name: promise(plan, sources[name], folder / name / "simulated", SEEDS, VehicleFlight)
-        for name, plan in plans.items()
-    }
+
+    def promised(name: str) -> Promise:
+        place = folder / name / "simulated"
+        return promise(plans[name], sources[name], place, SEEDS, VehicleFlight)
 
     def flown(case: tuple[str, int]) -> tuple[Flown | None, list[str]]:
         name, number = case
@@ -121,6 +121,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             done.setdefault(name, []).append(came)
         if wrong:
             campaign.found(f"{name}, {nth}", *wrong)
+    promises = {name: promised(name) for name in done}
     for name, flights in done.items():
         if off := list(broken(promises[name], flights)):
             campaign.found(name, *off)
