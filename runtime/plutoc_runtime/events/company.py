@@ -278,11 +278,12 @@ class Company(Part):
         if source is None:
             return
         # others in its way may have it fly higher, or lower, down to the cruise height
-        least = min(source[2], self._core.airspace.cruise_height) - AT
+        near = max(AT, flight.flier.category.motion.slack)  # it turns there as near as it flies
+        least = min(source[2], self._core.airspace.cruise_height) - near
         while True:
             x, y, z = flight.flier.location
             left = dist((x, y), source[:2])
-            if left <= AT and z >= least:
+            if left <= near and z >= least:
                 return
             await kernel.sleep(_soon(flight.flier, left), key=state.key)
 
