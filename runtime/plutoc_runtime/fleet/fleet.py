@@ -200,15 +200,16 @@ class Fleet:
 
     async def _stay(self, drone: Drone) -> None:
         if self._after_trip is AfterTrip.ONWARD and not drone.telemetry.landed:
-            for seconds in (0.5, 0.0):  # a hook may take so long to say how its mission goes on
-                put(drone, status=_FREE)  # for this instant alone
-                self._trace.note("drone.offered", drone=drone.id)
-                self.queue.moved(drone)
-                await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
-                if drone.status is not _FREE:  # a mission has taken it
-                    return
-                self.become(drone, DroneStatus.RETURNING)
-                await self._kernel.sleep(seconds, EventKind.ALLOCATE, self._key(drone))
+            for again in range(6):  # a hook may take half a second to say how its mission goes on
+                if self.queue.waiting or not again:
+                    put(drone, status=_FREE)  # for this instant alone
+                    self._trace.note("drone.offered", drone=drone.id)
+                    self.queue.moved(drone)
+                    await self._kernel.sleep(0, EventKind.ALLOCATE, self._key(drone))
+                    if drone.status is not _FREE:  # a mission has taken it
+                        return
+                    self.become(drone, DroneStatus.RETURNING)
+                await self._kernel.sleep(0.1, EventKind.ALLOCATE, self._key(drone))
             await self.fly_home(drone)
             return
         if self._after_trip is AfterTrip.NEXT and not drone.telemetry.landed:

@@ -243,7 +243,7 @@ def test_drones_go_where_the_fleet_file_says(after: str, x: float, metres: float
     assert flown.flown["cf1"] == pytest.approx(metres, abs=0.01)
 
 
-@pytest.mark.parametrize(("later", "is_taken"), [(0.4, True), (0.6, False)])
+@pytest.mark.parametrize(("later", "is_taken"), [(0.4, True), (0.7, False)])
 def test_one_that_flies_onward_is_offered_for_a_moment(later: float, is_taken: bool) -> None:
     """A hook takes a moment to say how a mission goes on."""
     on = apps.fleet(HOMES[0], after=AfterTrip.ONWARD)
@@ -252,7 +252,7 @@ def test_one_that_flies_onward_is_offered_for_a_moment(later: float, is_taken: b
     waits = apps.mission("b", apps.trip("1", 9.0, delay=ends + later))
     flown = apps.flown(*missions("a", x=9.0), waits, on=on, clock=True)
     began = apps.moments(flown, "trip.launched")["b"]
-    assert (began == pytest.approx(ends + 0.5)) is is_taken
+    assert (began < ends + 0.6) is is_taken
 
 
 # What policies are asked
