@@ -74,9 +74,10 @@ def effort(motion: Motion, speed: float) -> float:
     """
     x, y = motion.wind
     still = power(hypot(x, y))
-    ways = []
+    used = seconds = 0.0
     for east, north in _COURSES:
         over_ground = motion.against((0.0, 0.0, 0.0), (east, north, 0.0), speed)
         through = hypot(over_ground * east - x, over_ground * north - y)
-        ways.append(power(through) / power(over_ground))
-    return max(still, sum(ways) / len(ways))
+        seconds += 1 / over_ground
+        used += power(through) / power(over_ground) / over_ground
+    return max(still, used / seconds)
