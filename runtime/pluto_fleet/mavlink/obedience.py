@@ -53,8 +53,8 @@ class Obedience:
         """Take its mode; return whether it leaves what it was told, has come back to that, or is at it as before."""
         if self.by_itself:
             return self._comes_back(mode in modes["go"] | modes["hold"], now)
-        # one that flew before it was connected to may have been told anything
-        told = (self.order,) if self.order else ("rise", "go", "hold", "land")
+        # one that flew before it was connected to may have been told anything; if it lands, it is let land
+        told = (self.order,) if self.order else ("rise", "go", "hold")
         if any(mode in modes[what] for what in told):
             self._agreed = now
             self._obeys = True
