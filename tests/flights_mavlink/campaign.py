@@ -50,8 +50,7 @@ def fly_drawn(case: Drawn, source: Path, folder: Path) -> tuple[Flight, list[str
     def during(_: Flight) -> None:
         case.go_on(flight)
 
-    wrong = seen_through(flight, judged, during, LIMIT)
-    return flight, wrong
+    return flight, seen_through(flight, judged, during, LIMIT)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
