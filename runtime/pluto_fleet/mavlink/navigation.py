@@ -6,7 +6,7 @@ import asyncio
 import time
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import suppress
-from math import dist, inf
+from math import dist
 from typing import Any
 from urllib.parse import quote
 
@@ -31,9 +31,7 @@ from ..geodesy import Degrees
 from ..shared.domain.actions import MEASURE, PHOTO, Plain
 from ..shared.domain.model import Item, Point, Sighting
 from ..shared.domain.text import number
-from . import own_failsafes
 from .actions import Actions
-from .fence import fence_of, settings
 from .makes import (
     ACCEPTED,
     ANSWERS,
@@ -48,6 +46,7 @@ from .obedience import Change, Obedience
 from .options import options_of
 from .preflight import TWINS, problems
 from .scanning import scan
+from .settings import AutopilotSettings
 from .state import VehicleState, is_armed
 
 _FINDING = 12.0
@@ -56,8 +55,6 @@ _KNOWN = 3.0
 """Seconds in which it must then tell where it is, and how it is."""
 _ANSWER = 6.0
 """Seconds for a command, which is sent again three times."""
-_UPLOAD = 10.0
-"""Seconds for a fence, of some messages each way."""
 _CAMERA_ON_THE_WAY = 4.0
 """Seconds within which a camera must tell what it has taken on the way: less than what an action there may take."""
 _RESTS = 0.5
@@ -91,16 +88,13 @@ class MavlinkVehicle:
         self._client: MavsdkClient | None = None
         self._number = 0
         self._actions = Actions(setup.id, self._options, self._ask, setup.in_view)
+        self._settings = AutopilotSettings(setup, self._options, self._ask)
         self._crashed = ""
         self._cut = False
         self._obedience = Obedience()
         self._doubted = False
         """Whether its last heartbeat says that its motors are off, and is not believed yet."""
-        self._fence_given = False
         self._mixed = False
-        self._parameters: dict[str, float] = {}
-        self._was_asked = False
-        """Those of `own_failsafes`, and whether it was asked for them."""
         self._since = 0.0
         """Since when it has been where it is to be."""
 
@@ -114,9 +108,7 @@ class MavlinkVehicle:
         self._mixed = False
         self._doubted = False
         address = self._address
-        self._parameters = {}
-        self._was_asked = False
-        self._fence_given = False
+        self._settings.forget()
         self._client = client()
         self._number = self._client.join(self._hear)
         try:
@@ -320,63 +312,22 @@ class MavlinkVehicle:
             return []
         if self._crashed:
             return [f"{self._crashed}, and nobody has looked after it since"]
-        await self._read_failsafes()
-        most = own_failsafes.fastest(self._known_make.name, self._parameters)
-        if most is not None and self._setup.speed > most:
-            slower = f"it flies no faster than {number(most)} m/s (MPC_XY_VEL_MAX)"
-            return [f"its category's speed is {number(self._setup.speed)} m/s, and {slower}"]
+        make = self._known_make.name
+        await self._read_settings(make)
+        if (why := self._settings.too_slow(make)) is not None:
+            return [why]
         home = None if self._has_stood_at_home.exists() else self._setup.home
         if found := problems(self._state, home, self._options):
             return found
-        why = await self._fenced_in()
+        why = await self._settings.fence_in(make)
         return [] if why is None else [why]
 
-    async def _fenced_in(self) -> str | None:
-        """Give it the map as its fence, once; return why it has none."""
-        airspace = self._setup.airspace
-        plane = self._setup.plane
-        if self._fence_given or not self._options.fence or airspace is None or plane is None:
-            return None
-        try:
-            make = self._known_make.name
-            beyond = self._options.beyond
-            corners = fence_of(airspace, plane, beyond)
-            await self._ask("fence", _UPLOAD, corners=corners)
-            # one that climbs through its fence to return would hold there, until its battery is empty
-            returns = own_failsafes.return_height(make, self._parameters)
-            height = max(self._highest, returns or 0.0) + beyond
-            for name, value in settings(make, height).items():
-                await self.write(name, value)
-        except (ValueError, NavigationError) as error:
-            return (
-                f"it has no fence around the map ({error}); fence = false in [navigation.mavlink] flies"
-                " without one"
-            )
-        self._fence_given = True
-        return None
-
-    async def _read_failsafes(self) -> None:
-        """Read once what it does by itself, and say it; a parameter that it does not have, or tell, is passed over."""
-        if self._was_asked:
-            return
-        make = self._known_make.name
-        for name in own_failsafes.PARAMETERS[make]:
-            try:
-                self._parameters[name] = await self._ask("read", _ANSWER, name=name)
-            except Rejected:
-                continue
-            except LinkLost:
-                break  # it tells none, or is not heard at all, which the next command says
-        self._was_asked = True
-        does = own_failsafes.described(make, self._parameters, self._highest)
-        said = ", ".join(f"{when}: {what}" for when, what in does.items())
-        self._reports.happened("failsafes", f"what it does by itself: {said}")
-
-    @property
-    def _highest(self) -> float:
-        """The height above its home up to which it may fly."""
-        airspace = self._setup.airspace
-        return inf if airspace is None else airspace.ceiling - self._setup.home[2]
+    async def _read_settings(self, make: str) -> None:
+        """Read what it does by itself, and say it, once."""
+        if await self._settings.look(make):
+            does = self._settings.does(make)
+            said = ", ".join(f"{when}: {what}" for when, what in does.items())
+            self._reports.happened("failsafes", f"what it does by itself: {said}")
 
     async def takeoff(self, height: float, speed: float) -> None:
         """Take off straight up, at the speed that its autopilot has for that."""
@@ -542,16 +493,13 @@ class MavlinkVehicle:
         if told in self._state.values:
             return await self._actions.mean(self._state, told, 0.0)
         try:
-            return float(await self._ask("read", _ANSWER, name=name))
+            return await self._settings.read(name)
         except Rejected:
             raise Rejected(f"{self._id} neither tells a value nor has a parameter {name}") from None
 
     async def write(self, name: str, value: float) -> None:
         """Set a parameter of its autopilot."""
-        try:
-            await self._ask("write", _ANSWER, name=name, value=value)
-        except Rejected as error:
-            raise Rejected(f"{self._id}: {name} was not set: {error}") from None
+        await self._settings.write(name, value)
 
     @property
     def degrees(self) -> Degrees | None:
@@ -560,8 +508,8 @@ class MavlinkVehicle:
 
     async def facts(self) -> Mapping[str, str]:
         make = self._known_make
-        await self._read_failsafes()
-        does = own_failsafes.described(make.name, self._parameters, self._highest)
+        await self._read_settings(make.name)
+        does = self._settings.does(make.name)
         mode = make.mode_name(self._state.mode)
         tells = ", ".join(sorted(self._state.values)) or "no values"
         return {"autopilot": make.name, "mode": mode, **does, "tells": tells}
