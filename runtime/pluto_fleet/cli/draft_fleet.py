@@ -80,6 +80,7 @@ def _file_on_earth(
     yield 'legs = "steady"'
     yield ""
     yield "[fleet]"
+    yield 'after_trip = "onward"  # to the next one without a landing'
     yield f"apart = {number(_APART_OUTDOORS)}  # metres"
     categories = cycle(category.name for category in app.categories)
     for index, (one, (latitude, longitude, _), category) in enumerate(
