@@ -24,6 +24,7 @@ from ..drones.protocol import (
     NotReady,
     OutsideArea,
     Rejected,
+    TargetTimeout,
 )
 from ..drones.telemetry import Reports
 from ..files.vehicle_addresses import SUCH_AS, VehicleAddress, vehicle_address
@@ -47,7 +48,7 @@ from .options import options_of
 from .preflight import TWINS, problems
 from .scanning import scan
 from .settings import AutopilotSettings
-from .state import VehicleState, is_armed
+from .state import ON_GROUND, VehicleState, is_armed
 
 _FINDING = 12.0
 """Seconds in which a vehicle must be heard of: a heartbeat comes every second."""
@@ -64,6 +65,7 @@ _HOME_SET = 0.15
 _LONGEST = 3600.0
 _LANDING = 600.0
 _HOLDING = 30.0
+_DISARMING = 15.0
 _CUTTING = 3.0
 _RECENTLY = 5.0
 """Seconds within which a text says why its motors stopped, or why it acts by itself."""
@@ -352,11 +354,14 @@ class MavlinkVehicle:
         try:
             await self._order("rise", make.rises(self._place(target)))
         except Rejected:
+            # if its first answer was lost, an ArduPilot refuses what it does already
+            with suppress(TargetTimeout):
+                await self._reports.until(lambda _: self._state.flying, _BEAT)
             if not self._state.flying:
                 raise
-            # its first answer was lost: ArduPilot refuses what it does already
 
     async def go_to(self, target: Point, speed: float) -> None:
+        await self._has_touched_down()
         self._reports.refuse(target, speed)
         make = self._known_make
         stays = self._obedience.is_in("go", self._state.mode, make.modes)
@@ -365,9 +370,20 @@ class MavlinkVehicle:
 
     async def hold(self) -> None:
         """Stop it here; one that acts by itself goes on with that."""
+        if await self._has_touched_down():
+            return
         if self.telemetry.flying and not self._obedience.by_itself:
             await self._order("hold", self._known_make.holds())
             await self._until(self._is_still, _HOLDING)
+
+    async def _has_touched_down(self) -> bool:
+        """Wait until one that has just landed has its motors off, and return whether it has: it flies nowhere before."""
+        state = self._state
+        if self._obedience.order == "land" and state.flying and state.landed == ON_GROUND:
+            await self._reports.until(
+                lambda _: not state.flying or state.landed != ON_GROUND, _DISARMING
+            )
+        return not state.flying
 
     async def land(self, speed: float) -> None:
         """Land straight down, at the speed that its autopilot has for that.

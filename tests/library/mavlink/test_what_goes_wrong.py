@@ -167,6 +167,23 @@ async def restarted(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     assert await flies.preflight() == []
 
 
+async def stopped_as_it_lands(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
+    """One that has touched down is told nothing until its motors are off: it would stay there, and seem to have fallen."""
+    await flies.connect()
+    await flies.takeoff(3.0, 1.0)
+    landing = asyncio.create_task(flies.land(1.0))
+    while vehicle.high:
+        await asyncio.sleep(0.02)
+    await asyncio.sleep(0.5)
+    assert vehicle.armed
+    landing.cancel()
+    await flies.hold()
+    assert not vehicle.armed
+    with pytest.raises(Rejected, match="stands on the ground"):
+        await flies.go_to((8.0, 5.0, 3.0), 2.0)
+    assert await flies.preflight() == []
+
+
 async def slow(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     """One that is heard late, as by a telemetry radio, flies, and keeps no other from being heard."""
     let(vehicle, "late", 0.3)
@@ -286,6 +303,7 @@ CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, obje
     silent: {},
     beyond: {},
     slow: {},
+    stopped_as_it_lands: {},
     restarted: {},
     twin: {},
     on_the_way: {},
