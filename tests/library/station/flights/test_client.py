@@ -100,7 +100,8 @@ def test_an_event_in_json_happens_as_the_page_says_and_what_cannot_be_is_told_wi
     answered = station.ask("POST", path, given)  # a refusal of an event is not kept for its id
     assert answered.body.decode() == answer
     happened = [one for one in station.events("event.raised") if one["id"] == given["id"]]
-    assert [(one["at"][:2], one["fields"]) for one in happened] == [(given["at"], given["fields"])]
+    fields = {"reach": 0.7, "bound": 5.0, **given["fields"]}  # the others by default
+    assert [(one["at"][:2], one["fields"]) for one in happened] == [(given["at"], fields)]
 
 
 def test_who_watches_sees_what_is_flown_and_by_whom_and_commands_nothing(serve: Serve) -> None:
