@@ -219,14 +219,32 @@ def _progress(level: float, full: float, taper: float) -> float:
 
 STRAIGHT = Motion()  # straight legs at the category's speed, that take nothing beside
 
-_LEVEL: dict[str, Any] = {"acceleration": 3.0, "jerk": 4.0, "airspeed": 15.0}
-_UPRIGHT: dict[str, Any] = {"up": 1.5, "down": 1.5, "low": 7.0, "touch_down": 0.7}
-STEADY = Motion(legs="steady", settles=2.25, landing=1.7, slack=0.7, **_LEVEL, **_UPRIGHT)
+STEADY = Motion(
+    legs="steady",
+    acceleration=3.0,
+    jerk=4.0,
+    airspeed=15.0,
+    up=1.5,
+    down=1.5,
+    low=7.0,
+    touch_down=0.7,
+    settles=2.25,
+    landing=1.7,
+    slack=0.7,
+)
 """A multicopter as PX4 sets it; the durations were measured with a simulated one (docs/motion.md)."""
 
-_TAKES: dict[str, Any] = {"take_off": 1.94, "settles": 0.15, "landing": 2.1}
-_VARIES: dict[str, Any] = {"spread": 0.01, "action_spread": 0.03}
-CRAZYFLIE = Motion(legs="smooth", limit=1.0, taper=0.2, slack=0.15, **_TAKES, **_VARIES)
+CRAZYFLIE = Motion(
+    legs="smooth",
+    limit=1.0,
+    take_off=1.94,
+    settles=0.15,
+    landing=2.1,
+    spread=0.01,
+    action_spread=0.03,
+    taper=0.2,
+    slack=0.15,
+)
 """A Crazyflie by its firmware's limits; the durations were measured (docs/motion.md)."""
 
 

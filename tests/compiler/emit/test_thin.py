@@ -14,12 +14,12 @@ from tests.paths import EXAMPLES
 
 NAMES = sorted(path.name for path in EXAMPLES.iterdir())
 SMALLEST = "drugs_distribution"
-MOST_LINES = 8_740
+MOST_LINES = 8_760
 MOST_FILES = 65
 MOST_OWN_LINES = 250
 """Of the package of the thesis's basic flow: all of its Python, its tests included, with 3 % of room; and without the brain."""
 MOST_LINES_WITHOUT_EVENTS = 10_780
-MOST_LINES_OF_ANY = 12_980
+MOST_LINES_OF_ANY = 13_000
 REACT = ("aerial_mapping", "pursue")
 """The examples with events, or with actions on the way."""
 
