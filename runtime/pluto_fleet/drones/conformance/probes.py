@@ -20,6 +20,7 @@ LOOK = 0.01
 """The sampling interval, in seconds."""
 LOOKS = 10
 """This many in a row are 100 ms: a machine with much else to do holds a loop up for 50, too."""
+_KIT = Path(__file__).parent
 _IDLE = ("select", "poll", "_run_once", "run_forever")
 """The functions in which an idle loop is."""
 
@@ -57,7 +58,10 @@ class LoopWatch:
         while not self._over.wait(LOOK):
             frame = sys._current_frames().get(self._watched)
             if frame is not None and not _waits(frame) and self._turns == turns:
-                looks, where = looks + 1, _place(frame)
+                inner = _outside_library(frame)
+                if Path(inner.f_code.co_filename).parent != _KIT:  # the machine's delay, too
+                    looks += 1
+                    where = _place(inner)
                 continue
             if looks >= LOOKS:
                 self.found.append(f"{looks * LOOK:.2f} s {where}")
@@ -76,14 +80,17 @@ def _waits(frame: FrameType) -> bool:
     return frame.f_code.co_name in _IDLE
 
 
-def _place(frame: FrameType) -> str:
-    """Return a thread's current line of code: the innermost outside of the standard library."""
+def _outside_library(frame: FrameType) -> FrameType:
+    """Return the innermost frame outside of the standard library."""
     library = str(Path(asyncio.__file__).parent.parent)
     at: FrameType | None = frame
     while at is not None and at.f_code.co_filename.startswith((library, "<")):
         at = at.f_back
-    at = at or frame
-    return f"in {at.f_code.co_name}, {at.f_code.co_filename}:{at.f_lineno}"
+    return at or frame
+
+
+def _place(frame: FrameType) -> str:
+    return f"in {frame.f_code.co_name}, {frame.f_code.co_filename}:{frame.f_lineno}"
 
 
 _EXECUTOR = "asyncio_"
