@@ -15,6 +15,7 @@ from pathlib import Path
 import tomlkit
 
 from tests.kit.apps import EXAMPLES, NAMES, compiled_file
+from tests.paths import ROOT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,19 +76,16 @@ def example(name: str) -> Plan:
     return replace(plan, missions=missions, fleet=_WORLD.sub("", plan.fleet) + EMPTY_WORLD)
 
 
+def _told_of_ardupilot() -> Mapping[str, object]:
+    """Return the `[motion]` that the page says of an ArduPilot as it comes."""
+    page = (ROOT / "docs" / "motion.md").read_text(encoding="utf-8")
+    (said,) = re.findall(r"For ArduPilot as it comes, say (.*?)\. `pluto", page, re.DOTALL)
+    return tomllib.loads("\n".join(re.findall(r"`(\w+ = [^`]+)`", said)))
+
+
 MOTIONS: Mapping[str, Mapping[str, object]] = {
     "px4": {"legs": "steady"},
-    "ardupilot": {
-        "legs": "steady",
-        "acceleration": 2.5,
-        "jerk": 5.0,
-        "airspeed": 11.0,
-        "up": 2.5,
-        "low": 10.0,
-        "touch_down": 0.5,
-        "settles": 1.2,
-        "landing": 1.1,
-    },
+    "ardupilot": {"legs": "steady", **_told_of_ardupilot()},
 }
 """How vehicles of each make move that are set as they come (docs/motion.md)."""
 

@@ -18,7 +18,7 @@ TICK = 0.02
 REACH, STILL, RESTS = 0.5, 0.3, 0.5
 """When a leg counts as flown, as for real vehicles."""
 MAKES = (Px4, ArduPilot)
-MOTIONS = {Px4: STEADY, ArduPilot: replace(STEADY, acceleration=2.5, jerk=5.0, settles=1.2)}
+MOTIONS = {Px4: STEADY, ArduPilot: replace(STEADY, acceleration=2.5, jerk=5.0, settles=0.85)}
 """By their parameters, with what braking takes in their own ways besides."""
 EAST = (1.0, 0.0)
 
