@@ -3,7 +3,7 @@
     python -m tests.calibrating --cases 100
 
 A case is told right if every value is in its interval: pace, overheads, spreads, drain and charge, and of multicopters
-outdoors accelerations and speeds. Fewer than 90 of 100 are a failure, or more than 15 that leave open how legs are shaped.
+outdoors accelerations and speeds. Fewer than 95 of 100 are a failure, or more than 15 that leave open how legs are shaped.
 """
 
 from __future__ import annotations

@@ -16,7 +16,7 @@ from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STEADY, STRAIGHT, Motion, varied
 from tests.calibrating.flights import surveyed
 
-SHARE = 0.9
+SHARE = 0.95
 """Of the cases, at least, every value must be in its interval."""
 OPEN = 0.15
 """Of the cases, at most, may leave open what shapes their legs."""
@@ -89,9 +89,7 @@ def truth_of(case: int) -> Motion:
         take_off=chance.uniform(0.0, 1.5),
         settles=chance.uniform(0.0, 1.0),
         landing=chance.uniform(0.0, 3.0),
-        spread=chance.uniform(
-            0.02, 0.1
-        ),  # below that the heights at which drones hover vary by as much
+        spread=chance.uniform(0.005, 0.1),
         action_spread=chance.uniform(0.01, 0.15),
         drain=chance.uniform(0.7, 1.4),
     )

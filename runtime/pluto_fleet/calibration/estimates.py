@@ -5,9 +5,10 @@ Plain Python: a journal has thousands of commands at most, and four parameters e
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import inf, sqrt
+from itertools import pairwise
+from math import exp, inf, log, sqrt
 from operator import mul
 from statistics import NormalDist, median
 from typing import NamedTuple
@@ -23,11 +24,18 @@ _NORMAL = NormalDist()
 _SAME = 1.4826
 """The standard deviation of a normal distribution, over its median absolute deviation."""
 
-
 _CLOSE = 1e-3
 """The residual up to which a measurement counts no more than another: a few must not outweigh all the rest."""
 _LEAST = 1e-3
 """What is expected at least of a measurement that varies in proportion to itself."""
+_ROBUST = 20
+"""Rounds in which the least sum of absolute residuals is found."""
+_EVEN = 6
+"""Rounds in which it is found by how much each kind of measurements varies."""
+_BETWEEN = 8
+"""Parts into which the way from one point of a profile to the next is cut."""
+SPARE = 5
+"""How many measurements there must be more than parameters."""
 
 Matrix = list[list[float]]
 
@@ -39,6 +47,8 @@ class Row(NamedTuple):
     measured: float
     given: float = 0.0
     """What is added to that sum."""
+    kind: str = ""
+    """Measurements of a kind vary alike."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +58,8 @@ class Estimate:
     value: float
     error: float
     """Its standard error."""
-    spare: int
-    """How many measurements there were more than parameters."""
+    spare: float
+    """How many measurements there were more than parameters; of several kinds, as many as tell as much."""
 
     def interval(self, level: float) -> tuple[float, float]:
         """Return the interval that holds the true value with this probability."""
@@ -72,18 +82,59 @@ class Spread(Estimate):
 
 
 @dataclass(frozen=True, slots=True)
+class Profile(Estimate):
+    """A value found together with one on which measurements do not depend in proportion."""
+
+    points: tuple[Point, ...]
+    """By ascending values of that other one."""
+
+    def interval(self, level: float) -> tuple[float, float]:
+        """Return the interval that holds the true value with this probability."""
+        reach = student((1 + level) / 2, self.spare)
+        low, high = inf, -inf
+        for point in _filled(self.points):
+            if abs(point.off) <= reach:
+                rest = sqrt(reach**2 - point.off**2) * point.error
+                low = min(low, point.value - rest)
+                high = max(high, point.value + rest)
+        if abs(self.points[0].off) <= reach or abs(self.points[-1].off) <= reach:
+            return -inf, inf  # what lies beyond may be as well
+        return low, high
+
+
+class Point(NamedTuple):
+    """What is found if another value is taken as given."""
+
+    off: float
+    """How many standard errors that other value is off: the root of what it adds to the sum of squares."""
+    value: float
+    error: float
+    """The value's, if the other were known."""
+
+
+def _filled(points: Sequence[Point]) -> Iterator[Point]:
+    """Yield the points, and some between them: all change nearly evenly from one to the next."""
+    for one, other in pairwise(points):
+        for at in range(_BETWEEN):
+            part = at / _BETWEEN
+            yield Point(*[a + part * (b - a) for a, b in zip(one, other, strict=True)])
+    yield points[-1]
+
+
+@dataclass(frozen=True, slots=True)
 class Rate(Estimate):
     """A value of which the inverse was found from measurements: a speed, from seconds for each metre."""
+
+    inverse: Estimate
 
     @classmethod
     def of(cls, inverse: Estimate) -> Rate:
         """Return the value."""
-        return cls(1 / inverse.value, inverse.error / inverse.value**2, inverse.spare)
+        return cls(1 / inverse.value, inverse.error / inverse.value**2, inverse.spare, inverse)
 
     def interval(self, level: float) -> tuple[float, float]:
         """Return the interval that holds the true value with this probability."""
-        inverse = Estimate(1 / self.value, self.error / self.value**2, self.spare)
-        low, high = inverse.interval(level)
+        low, high = self.inverse.interval(level)
         return 1 / high, 1 / low if low > 0 else inf
 
 
@@ -92,89 +143,163 @@ class Fit:
     """The parameters that explain measurements best."""
 
     values: tuple[Estimate, ...]
-    spread: Spread
-    """The standard deviation of a measurement: as a share of it, if the fit is relative."""
+    spreads: Mapping[str, Spread]
+    """The standard deviation of a measurement, by its kind: as a share of it, if the fit is relative."""
     residuals: tuple[float | None, ...]
     """By how much each measurement is off, in the same unit; None: it was left out."""
+    weights: tuple[float, ...]
+    """Of those that were not left out, the inverse of each one's variance."""
 
     @property
     def left_out(self) -> int:
         """How many measurements are so far off that they do not count."""
         return sum(one is None for one in self.residuals)
 
+    @property
+    def spare(self) -> int:
+        """How many measurements there were more than parameters."""
+        return len(self.weights) - len(self.values)
+
+    @property
+    def scatter(self) -> float:
+        """How badly it explains what was measured: what it leaves out counts, too."""
+        spare = sum(one.spare for one in self.spreads.values())
+        typical = sum(one.spare * log(one.value) for one in self.spreads.values()) / spare
+        return exp(typical) * (1 + self.left_out / (self.spare + self.left_out))
+
 
 def fitted(rows: Sequence[Row], *, relative: bool, finest: float, near: float) -> Fit | None:
     """Fit the parameters to measurements; None: these do not determine them.
 
-    `relative`: each measurement varies in proportion to itself; otherwise all vary alike.
+    `relative`: each measurement varies in proportion to itself; otherwise all of a kind vary alike.
     `finest`: the standard deviation that comes from rounding alone. `near`: what is not further off
     than that is never left out.
     """
     count = len(rows[0].factors) if rows else 0
     if len(rows) <= count or not count:
         return None
-    # the least sum of absolute residuals, as outliers move that little
-    close = max(finest, _CLOSE)
-    robust = _solved(rows, relative, lambda off: 1 / max(abs(off), close), rounds=40)
-    if robust is None:
+    off = _robustly(rows, relative, max(finest, _CLOSE))
+    if off is None:
         return None
-    off = robust[2]
-    typical = max(_SAME * median(sorted(map(abs, off))[count:]), finest)
-    judged = len(rows) - count >= JUDGED_FROM
-    furthest = max(OUTLIER * typical, near)
-    kept = [not judged or abs(one) <= furthest for one in off]
+    kept = [True] * len(rows)
+    if len(rows) - count >= JUDGED_FROM:
+        typical = max(_SAME * median(sorted(map(abs, off))[count:]), finest)
+        furthest = {
+            kind: max(OUTLIER * max(typical, _SAME * median(map(abs, those))), near)
+            for kind, those in _by_kind(rows, off).items()
+        }
+        kept = [abs(one) <= furthest[row.kind] for row, one in zip(rows, off, strict=True)]
     good = [row for row, keep in zip(rows, kept, strict=True) if keep]
-    solved = _solved(good, relative, lambda _: 1.0, rounds=10)
-    spare = len(good) - count
-    if solved is None or spare < 1:
-        return None
-    values, inverse, off = solved
-    deviation = max(sqrt(sum(one**2 for one in off) / spare), finest)
-    estimates = tuple(
-        Estimate(value, deviation * sqrt(inverse[at][at]), spare) for at, value in enumerate(values)
-    )
+    return _evenly(good, kept, relative, finest) if len(good) > count else None
+
+
+def _by_kind(rows: Sequence[Row], what: Sequence[float]) -> dict[str, list[float]]:
+    kinds: dict[str, list[float]] = {}
+    for row, one in zip(rows, what, strict=True):
+        kinds.setdefault(row.kind, []).append(one)
+    return kinds
+
+
+def _robustly(rows: Sequence[Row], relative: bool, close: float) -> list[float] | None:
+    """Return the residuals of the least sum of absolute residuals, as outliers move that little."""
+    off = [1.0] * len(rows)
+    scale = _scale(relative, [row.measured for row in rows])
+    for _ in range(_ROBUST):
+        weights = [1 / (max(abs(o), close) * s * s) for o, s in zip(off, scale, strict=True)]
+        solved = solve(rows, weights)
+        if solved is None:
+            return None
+        scale = _scale(relative, solved.expected)
+        off = _off(rows, solved.expected, scale)
+    return off
+
+
+def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: float) -> Fit | None:
+    """Find the least sum of squares, and by how much each kind of measurements varies."""
+    scale = _scale(relative, [row.measured for row in rows])
+    spreads = {row.kind: Spread(1.0, 0.0, 1.0) for row in rows}
+    whole = len(rows) - len(rows[0].factors)
+    for _ in range(_EVEN):
+        weights = [
+            1 / (spreads[row.kind].value * one) ** 2 for row, one in zip(rows, scale, strict=True)
+        ]
+        solved = solve(rows, weights)
+        if solved is None:
+            return None
+        scale = _scale(relative, solved.expected)
+        off = _off(rows, solved.expected, scale)
+        pooled = sqrt(sum(one**2 for one in off) / whole)
+        parts = {kind: _part(rows, weights, kind) for kind in spreads}
+        for kind, those in _by_kind(rows, off).items():
+            spare = len(those) - _trace(solved.inverse, parts[kind])
+            value = sqrt(sum(one**2 for one in those) / spare) if spare >= SPARE else pooled
+            spare = spare if spare >= SPARE else whole  # by too few it is not told
+            spreads[kind] = Spread(max(value, finest), value / sqrt(2 * spare), spare)
+    estimates = []
+    for at, value in enumerate(solved.values):
+        line = solved.inverse[at]
+        variance = line[at]
+        # Welch and Satterthwaite: what each kind adds to the variance
+        adds = {kind: _twice(line, part) for kind, part in parts.items()}
+        spare = variance**2 / sum(adds[kind] ** 2 / spreads[kind].spare for kind in adds)
+        estimates.append(Estimate(value, sqrt(variance), spare))
     remaining = iter(off)
     residuals = tuple(next(remaining) if keep else None for keep in kept)
-    return Fit(estimates, Spread(deviation, deviation / sqrt(2 * spare), spare), residuals)
+    return Fit(tuple(estimates), spreads, residuals, tuple(weights))
 
 
-def _solved(
-    rows: Sequence[Row], relative: bool, weigh: Callable[[float], float], *, rounds: int
-) -> tuple[list[float], Matrix, list[float]] | None:
-    """Return the parameters, the inverse of the normal equations' matrix, and the residuals.
+def _scale(relative: bool, expected: Sequence[float]) -> list[float]:
+    return [max(abs(one), _LEAST) if relative else 1.0 for one in expected]
 
-    In each round a measurement's weight follows from its residual of the last one, and, if it varies
-    in proportion to itself, from what was expected of it.
-    """
-    off, scale = [0.0] * len(rows), [abs(row.measured) if relative else 1.0 for row in rows]
-    weights, values = [1.0] * len(rows), list[float]()
-    inverse: Matrix | None = None
-    for _ in range(rounds):
-        matrix, right = _normal_equations(
-            rows,
-            [weight / max(one, _LEAST) ** 2 for weight, one in zip(weights, scale, strict=True)],
-        )
-        inverse = _inverse(matrix)
-        if inverse is None:
-            return None
-        values = [sum(map(mul, line, right)) for line in inverse]
-        expected = [row.given + sum(map(mul, row.factors, values)) for row in rows]
-        if relative:
-            scale = [max(abs(one), _LEAST) for one in expected]
-        off = [(row.measured - e) / s for row, e, s in zip(rows, expected, scale, strict=True)]
-        weights = [weigh(one) for one in off]
-    return None if inverse is None else (values, inverse, off)
+
+def _off(rows: Sequence[Row], expected: Sequence[float], scale: Sequence[float]) -> list[float]:
+    return [(row.measured - e) / s for row, e, s in zip(rows, expected, scale, strict=True)]
+
+
+def _part(rows: Sequence[Row], weights: Sequence[float], kind: str) -> Matrix:
+    """Return what one kind adds to the matrix of the normal equations."""
+    those = [(row, one) for row, one in zip(rows, weights, strict=True) if row.kind == kind]
+    matrix, _ = _normal_equations([row for row, _ in those], [one for _, one in those])
+    return matrix
+
+
+def _trace(matrix: Matrix, other: Matrix) -> float:
+    """Return the trace of the product of two symmetric matrices."""
+    return sum(sum(map(mul, a, b)) for a, b in zip(matrix, other, strict=True))
+
+
+def _twice(line: Sequence[float], matrix: Matrix) -> float:
+    """Return the product of a line, a matrix, and the line again."""
+    return sum(one * sum(map(mul, line, row)) for one, row in zip(line, matrix, strict=True))
+
+
+class Solution(NamedTuple):
+    """What solves normal equations."""
+
+    values: list[float]
+    inverse: Matrix
+    """Of the equations' matrix."""
+    expected: list[float]
+    """What it makes of each measurement."""
+
+
+def solve(rows: Sequence[Row], weights: Sequence[float]) -> Solution | None:
+    """Return the parameters with the least weighted sum of squares; None: nothing determines them."""
+    matrix, right = _normal_equations(rows, weights)
+    inverse = _inverse(matrix)
+    if inverse is None:
+        return None
+    values = [sum(map(mul, line, right)) for line in inverse]
+    expected = [row.given + sum(map(mul, row.factors, values)) for row in rows]
+    return Solution(values, inverse, expected)
 
 
 def _normal_equations(rows: Sequence[Row], weights: Sequence[float]) -> tuple[Matrix, list[float]]:
-    count = len(rows[0].factors)
-    matrix, right = [[0.0] * count for _ in range(count)], [0.0] * count
-    for row, weight in zip(rows, weights, strict=True):
-        for i, factor in enumerate(row.factors):
-            right[i] += weight * factor * (row.measured - row.given)
-            for j, other in enumerate(row.factors):
-                matrix[i][j] += weight * factor * other
-    return matrix, right
+    columns = [list(column) for column in zip(*[row.factors for row in rows], strict=True)]
+    weighted = [[*map(mul, column, weights)] for column in columns]
+    measured = [row.measured - row.given for row in rows]
+    right = [sum(map(mul, column, measured)) for column in weighted]
+    return [[sum(map(mul, one, other)) for other in columns] for one in weighted], right
 
 
 def _inverse(matrix: Matrix) -> Matrix | None:
@@ -206,7 +331,7 @@ def _inverse(matrix: Matrix) -> Matrix | None:
 # Quantiles
 
 
-def student(probability: float, spare: int) -> float:
+def student(probability: float, spare: float) -> float:
     """Return a quantile of Student's t distribution (Abramowitz and Stegun 26.7.5)."""
     z, n = _NORMAL.inv_cdf(probability), spare
     return float(
@@ -218,7 +343,7 @@ def student(probability: float, spare: int) -> float:
     )
 
 
-def chi_square(probability: float, spare: int) -> float:
+def chi_square(probability: float, spare: float) -> float:
     """Return a quantile of the chi-square distribution (Wilson and Hilferty 1931)."""
     part = 2 / (9 * spare)
     return float(spare * max(1 - part + _NORMAL.inv_cdf(probability) * sqrt(part), 0.0) ** 3)
@@ -226,8 +351,6 @@ def chi_square(probability: float, spare: int) -> float:
 
 SURE = 0.95
 """The probability with which all intervals hold, all of them at once."""
-SPARE = 5
-"""How many measurements there must be more than parameters."""
 WIDEST = {"pace": 0.2, "drain": 0.5, "charge": 0.5, "shape": 0.5}
 """Half an interval, as a share of its value, from which on that says nothing."""
 
@@ -287,7 +410,7 @@ class Calibration:
     def bound(self) -> None:
         """Give each value its interval, so that all hold at once; drop those that say nothing."""
         while self.found:
-            level = 1 - (1 - SURE) / len(self.found)
+            level = sure_of_each(len(self.found) + len(self.untold))
             for name, found in self.found.items():
                 low, high = found.estimate.interval(level)
                 self.found[name] = replace(found, low=max(low, 0.0), high=max(high, 0.0))
@@ -301,6 +424,11 @@ class Calibration:
             for name, found in vague.items():
                 del self.found[name]
                 self.untold[name] = f"{counted(found.count, found.of)} leave it open"
+
+
+def sure_of_each(values: int) -> float:
+    """Return with which probability each of so many values must be in its interval, so that all are at once."""
+    return 1 - (1 - SURE) / values
 
 
 def too_few(count: int, of: str, least: int) -> str:
