@@ -3,7 +3,8 @@
     python -m tests.calibrating --cases 100
 
 A case is told right if every value is in its interval: pace, overheads, spreads, drain and charge, and of multicopters
-outdoors accelerations and speeds. Fewer than 95 of 100 are a failure, or more than 15 that leave open how legs are shaped.
+outdoors accelerations and speeds. The intervals say that 95 of 100 are. So few that chance brings them about less than once
+in twenty times are a failure (90 of 100, 937 of 1000), or more than 15 of 100 that leave open how legs are shaped.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from tests.calibrating.cases import OPEN, SHARE, Tally, fitted
+from tests.calibrating.cases import CHANCE, OPEN, Tally, fitted
 from tests.kit.campaign import Campaign
 
 
@@ -23,7 +24,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     tally = Tally()
     for number, case in campaign.each(fitted, campaign.numbers):
         tally.add(number, *case)
-    if tally.whole < SHARE * tally.cases:
+    if tally.chance < CHANCE:
         campaign.found("too few cases were told right")
     if len(tally.open) > OPEN * (tally.cases + len(tally.open)):
         campaign.found("too many cases were left open")

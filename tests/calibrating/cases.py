@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import comb, inf
 from pathlib import Path
 from random import Random
 from tempfile import TemporaryDirectory
 
 from pluto_fleet.calibration.commands import read_flights
-from pluto_fleet.calibration.estimates import Calibration
+from pluto_fleet.calibration.estimates import SURE, Calibration
 from pluto_fleet.calibration.fit import calibrated
 from pluto_fleet.calibration.report import NAMES
 from pluto_fleet.shared.domain.motion import CRAZYFLIE, STEADY, STRAIGHT, Motion, varied
 from tests.calibrating.flights import surveyed
 
-SHARE = 0.95
-"""Of the cases, at least, every value must be in its interval."""
+CHANCE = 0.05
+"""How probable it must be at least that no more cases are told right, if all intervals hold as often as they say."""
 OPEN = 0.15
 """Of the cases, at most, may leave open what shapes their legs."""
 
@@ -36,6 +36,14 @@ class Tally:
     """What was noted, though in all cases there is nothing to note."""
     open: list[str] = field(default_factory=list)
     """What could not be told, and is not as was said: what else was found hangs on that, and is not judged."""
+
+    @property
+    def chance(self) -> float:
+        """How probable it is that no more cases are told right than are, if intervals hold as often as they say."""
+        return sum(
+            comb(self.cases, right) * SURE**right * (1 - SURE) ** (self.cases - right)
+            for right in range(self.whole + 1)
+        )
 
     def add(self, case: int, truth: Motion, what: Calibration) -> None:
         """Count a case."""

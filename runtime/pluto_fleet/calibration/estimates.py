@@ -218,6 +218,7 @@ def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: f
     """Find the least sum of squares, and by how much each kind of measurements varies."""
     scale = _scale(relative, [row.measured for row in rows])
     spreads = {row.kind: Spread(1.0, 0.0, 1.0) for row in rows}
+    estimates: tuple[Estimate, ...] = ()
     whole = len(rows) - len(rows[0].factors)
     for _ in range(_EVEN):
         weights = [
@@ -232,20 +233,30 @@ def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: f
         parts = {kind: _part(rows, weights, kind) for kind in spreads}
         for kind, those in _by_kind(rows, off).items():
             spare = len(those) - _trace(solved.inverse, parts[kind])
-            value = sqrt(sum(one**2 for one in those) / spare) if spare >= SPARE else pooled
-            spare = spare if spare >= SPARE else whole  # by too few it is not told
-            spreads[kind] = Spread(max(value, finest), value / sqrt(2 * spare), spare)
-    estimates = []
-    for at, value in enumerate(solved.values):
-        line = solved.inverse[at]
-        variance = line[at]
-        # Welch and Satterthwaite: what each kind adds to the variance
-        adds = {kind: _twice(line, part) for kind, part in parts.items()}
-        spare = variance**2 / sum(adds[kind] ** 2 / spreads[kind].spare for kind in adds)
-        estimates.append(Estimate(value, sqrt(variance), spare))
+            value = pooled
+            if spare < SPARE:  # these few do not tell it
+                spare = whole
+            else:
+                value = sqrt(sum(one**2 for one in those) / spare)
+            value = max(value, finest)
+            spreads[kind] = Spread(value, value / sqrt(2 * spare), spare)
+        estimates = _estimates(solved, parts, spreads)
     remaining = iter(off)
     residuals = tuple(next(remaining) if keep else None for keep in kept)
-    return Fit(tuple(estimates), spreads, residuals, tuple(weights))
+    return Fit(estimates, spreads, residuals, tuple(weights))
+
+
+def _estimates(
+    solved: Solution, parts: Mapping[str, Matrix], spreads: Mapping[str, Spread]
+) -> tuple[Estimate, ...]:
+    estimates: list[Estimate] = []
+    for value, line in zip(solved.values, solved.inverse, strict=True):
+        # Welch and Satterthwaite: what each kind adds to the variance
+        adds = {kind: _twice(line, part) for kind, part in parts.items()}
+        variance = sum(adds.values())
+        spare = variance**2 / sum(adds[kind] ** 2 / spreads[kind].spare for kind in adds)
+        estimates.append(Estimate(value, sqrt(variance), spare))
+    return tuple(estimates)
 
 
 def _scale(relative: bool, expected: Sequence[float]) -> list[float]:
@@ -265,12 +276,12 @@ def _part(rows: Sequence[Row], weights: Sequence[float], kind: str) -> Matrix:
 
 def _trace(matrix: Matrix, other: Matrix) -> float:
     """Return the trace of the product of two symmetric matrices."""
-    return sum(sum(map(mul, a, b)) for a, b in zip(matrix, other, strict=True))
+    return float(sum(sum(map(mul, a, b)) for a, b in zip(matrix, other, strict=True)))
 
 
 def _twice(line: Sequence[float], matrix: Matrix) -> float:
     """Return the product of a line, a matrix, and the line again."""
-    return sum(one * sum(map(mul, line, row)) for one, row in zip(line, matrix, strict=True))
+    return float(sum(one * sum(map(mul, line, row)) for one, row in zip(line, matrix, strict=True)))
 
 
 class Solution(NamedTuple):

@@ -21,6 +21,7 @@ from ..shared.domain.text import LONGEST, counted, cut_off, number, printable, q
 from .commands import Acted, Command, Flights
 from .estimates import (
     SPARE,
+    SURE,
     ActionTime,
     Calibration,
     Estimate,
@@ -63,22 +64,25 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
             f" were {what.model.settles:g} s"
         )
         fit = fit_of(what.model, moves, known)
-    shapes: tuple[str, ...] = ()
-    if what.model.acceleration and "pace" not in known:
-        fit, shapes = shaped(what, moves, known, fit)
+    fit, shapes = _with_shapes(what, moves, known, fit)
+    below = _less_than_none(fit, known)
+    if below:  # what else was found counts with that: without it all else is otherwise
+        known |= dict.fromkeys(below, 0.0)
+        fit, shapes = _with_shapes(what, moves, known, fit_of(what.model, moves, known))
     if fit is None or fit.spare < SPARE:
         for name in (*PARAMETERS, "spread"):
             what.untold.setdefault(name, too_few(len(moves), "flown command", SPARE + 4))
         return
     free = [name for name in PARAMETERS if name not in known]
     kept = [one for one, off in zip(moves, fit.residuals, strict=True) if off is not None]
-    for name, estimate in zip((*free, *shapes), fit.values, strict=True):
+    values = zip((*free, *shapes), fit.values, strict=True)
+    for name, estimate in (*values, *below.items()):
         kind, called = _FROM[name] if name in _FROM else SHAPES[name]
         count = sum(one.what == kind for one in kept)
         what.found[name] = Found(estimate=estimate, count=count, of=called)
     legs = sum(one.what == LEG for one in kept)
-    if "pace" in known:
-        what.untold["spread"] = too_few(legs, "leg", SPARE)
+    if legs < SPARE + 2:
+        what.untold["spread"] = too_few(legs, "leg", SPARE + 2)
     else:
         what.found["spread"] = Found(estimate=fit.spreads[LEG], count=legs, of="leg")
     what.far_off += fit.left_out
@@ -101,6 +105,24 @@ def _known(what: Calibration, moves: Sequence[Command]) -> dict[str, float]:
             what.untold[name] = too_few(count, called, least)
             known[name] = getattr(what.model, name) if kind == LEG else 0.0
     return known
+
+
+def _with_shapes(
+    what: Calibration, moves: Sequence[Command], known: Mapping[str, float], plain: Fit | None
+) -> tuple[Fit | None, tuple[str, ...]]:
+    """Return a fit with what shapes legs, where drones speed up and brake, and the names of that."""
+    if not what.model.acceleration or "pace" in known:
+        return plain, ()
+    return shaped(what, moves, known, plain)
+
+
+def _less_than_none(fit: Fit | None, known: Mapping[str, float]) -> dict[str, Estimate]:
+    """Return the overheads that were found to be less than none by more than chance, as legs are not as modelled."""
+    free = [name for name in PARAMETERS if name not in known]
+    found = {} if fit is None else dict(zip(free, fit.values, strict=False))
+    return {
+        name: one for name, one in found.items() if name != "pace" and one.interval(SURE)[1] < 0
+    }
 
 
 def _compare(what: Calibration, key: str, commands: Sequence[Command], fit: Fit) -> None:

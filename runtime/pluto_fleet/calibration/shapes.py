@@ -1,8 +1,8 @@
 """What shapes legs, climbs and landings, found together with all else that commands tell.
 
-Durations depend on the inverse of each such value nearly in proportion, so Gauss and Newton's method finds them. An
-acceleration is another matter: one may explain short legs as well as another that is twice as large. So all is found
-again for accelerations to either side, as far as they explain what was measured: that gives the intervals.
+Durations depend on the inverse of each such value nearly in proportion, so Gauss and Newton's method finds them. With
+an acceleration that is so only nearby: one that is twice as large may explain legs as well. So all else is found again
+for accelerations to either side, as far as they explain what was measured: from that come the intervals.
 """
 
 from __future__ import annotations
@@ -80,6 +80,7 @@ def shaped(
         shapes.remove("jerk" if least == ACCELERATION and "jerk" in shapes else least)
         fit = plain
     for name in SHAPES:
+        what.untold.pop(name, None)
         if getattr(what.model, name) and name not in shapes:
             said = f"{getattr(what.model, name):g}"
             what.untold[name] = (
@@ -128,13 +129,7 @@ def _bent(
     fit, found = min(fits, key=lambda one: one[0].scatter)
     values = fit.values
     if ACCELERATION in shapes:
-        walk = _Walk(fit, found, moves, known, shapes)
-        values = walk.profiles()
-        if walk.better is not None:
-            followed = _followed(walk.better, moves, known, shapes)
-            if followed is not None and followed[0].scatter < fit.scatter:
-                fit, found = followed
-                values = _Walk(fit, found, moves, known, shapes).profiles()
+        values = _Walk(fit, found, moves, known, shapes).profiles()
     first = len(values) - len(shapes)
     return replace(fit, values=(*values[:first], *map(Rate.of, values[first:])))
 
@@ -195,8 +190,6 @@ class _Walk:
         known: Mapping[str, float],
         shapes: Sequence[str],
     ) -> None:
-        self.better: Motion | None = None
-        """One that explains it better than what was found, if the walk has met it."""
         self._fit = fit
         self._model = model
         self._moves = [
@@ -218,8 +211,6 @@ class _Walk:
             *self._side(begun, error),
         ]
         best = min(stops, key=lambda one: one.squares)
-        if best.squares < begun.squares - _SETTLED:
-            self.better = best.model
         profiles: list[Estimate] = []
         for at, one in enumerate(self._fit.values):
             points = tuple(self._point(stop, best, at) for stop in stops)
@@ -245,6 +236,7 @@ class _Walk:
 
     def _stop(self, model: Motion) -> _Stop | None:
         """Return what is found for the acceleration of a model; None: that determines nothing."""
+        stop: _Stop | None = None
         for _ in range(_ROUNDS):
             rows = [
                 *measured(model, self._moves, self._known, shapes=self._others, pace=model.pace)
@@ -252,18 +244,20 @@ class _Walk:
             solution = solve(rows, self._fit.weights)
             if solution is None:
                 return None
+            off = [
+                (row.measured - one) ** 2 for row, one in zip(rows, solution.expected, strict=True)
+            ]
             first = len(solution.values) - len(self._others)
             found = dict(zip(self._others, solution.values[first:], strict=True))
-            is_near = all(
-                abs(one * getattr(model, name) - 1) < _SETTLED for name, one in found.items()
-            )
+            changed = {name: one * getattr(model, name) for name, one in found.items()}
             model = replace(model, pace=solution.values[0])
-            for name, one in found.items():
-                model = with_value(model, name, 1 / max(one, 1 / getattr(model, name) / _FURTHEST))
-            if is_near:
+            for name, factor in changed.items():
+                slower = max(factor, 1 / _FURTHEST)
+                model = with_value(model, name, getattr(model, name) / slower)
+            stop = _Stop(model, solution, sum(map(mul, self._fit.weights, off)))
+            if all(abs(factor - 1) < _SETTLED for factor in changed.values()):
                 break
-        off = [(row.measured - one) ** 2 for row, one in zip(rows, solution.expected, strict=True)]
-        return _Stop(model, solution, sum(map(mul, self._fit.weights, off)))
+        return stop
 
     def _point(self, stop: _Stop, best: _Stop, at: int) -> Point:
         """Return what is found there of the value at a place among all."""

@@ -13,8 +13,9 @@ from msgspec import structs
 from pluto_fleet.calibration.commands import Command, Flights, read_flights
 from pluto_fleet.calibration.estimates import Calibration, Row, chi_square, fitted, student
 from pluto_fleet.calibration.fit import calibrated
-from pluto_fleet.shared.domain.model import Category
-from pluto_fleet.shared.domain.motion import CRAZYFLIE, Motion, varied
+from pluto_fleet.jobs.flown import DONE, LEG
+from pluto_fleet.shared.domain.model import Category, Point
+from pluto_fleet.shared.domain.motion import CRAZYFLIE, STEADY, Motion, varied
 from pluto_fleet.shared.time.kernel import Kernel
 from pluto_fleet.simulation.radio import ANSWER, Radio
 from tests.calibrating.cases import Tally
@@ -58,6 +59,67 @@ def test_what_does_not_vary_is_found_exactly(tmp_path: Path) -> None:
     assert what.found["spread"].value < 1e-3
     assert what.found["charge"].value == pytest.approx(1, abs=1e-3)
     assert (what.untold, what.notes, what.far_off) == ({}, [], 0)
+
+
+def test_heights_at_which_drones_hover_do_not_count_as_the_spread_of_legs(tmp_path: Path) -> None:
+    """They vary by 2.5 cm, so landings vary by three times as much as legs here."""
+    truth = replace(SLOW, spread=0.005)
+    spread = surveyed_and_fitted(tmp_path, truth, trips=60, seed=2).found["spread"]
+    assert spread.low <= truth.spread <= spread.high
+
+
+def test_an_acceleration_is_left_open_if_one_twice_as_large_explains_legs_as_well() -> None:
+    """All legs of this case are long: near what explains them best, only less would do worse."""
+    truth, what = fitted_case(86)
+    assert "acceleration" in what.untold
+    assert what.found["down"].low <= truth.down <= what.found["down"].high
+
+
+def test_legs_that_lead_down_take_what_the_descent_takes() -> None:
+    """As plans count with; else they would look like slow ones."""
+    chance = Random(1)
+    truth = replace(STEADY, pace=1.1)
+    legs = []
+    for at in range(40):
+        start = (0.0, 0.0, 10.0 if at % 2 else 30.0)
+        end = (chance.uniform(10.0, 90.0), 0.0, 40.0 - start[2])
+        (_, _, seconds, settles), *_ = truth.stages([start, end], 5.0, False, False)
+        legs.append(leg(start, end, seconds + settles))
+    what = calibrated([of(legs)], STEADY)
+    assert what.far_off == 0
+    assert what.found["pace"].value == pytest.approx(1.1, abs=1e-3)
+
+
+def test_an_overhead_that_is_less_than_none_is_none_and_the_rest_makes_up_for_it() -> None:
+    """As with an autopilot that brakes more gently than the model: its longer legs must not be a second off."""
+    truth = replace(STEADY, acceleration=1.0, settles=-1.0)
+    chance = Random(1)
+    metres = [chance.uniform(10.0, 90.0) for _ in range(60)]
+    legs = [leg((0.0, 0.0, 9.0), (d, 0.0, 9.0), truth.flies(d, 5.0)) for d in metres]
+    what = calibrated([of(legs)], STEADY)
+    found = {name: one.value for name, one in what.found.items() if name in SHAPING}
+    assert found["settles"] == 0.0
+    motion = replace(STEADY, **found)
+    for one in legs:
+        assert motion.flies(one.metres, 5.0) == pytest.approx(one.seconds, abs=0.3)
+
+
+SHAPING = ("pace", "settles", "acceleration", "jerk")
+
+
+def leg(start: Point, end: Point, seconds: float) -> Command:
+    return Command(
+        drone="d",
+        category="scout",
+        what=LEG,
+        start=start,
+        end=end,
+        speed=5.0,
+        seconds=round(seconds, 4),
+        ended_at=0.0,
+        battery=(1.0, 1.0),
+        ended=DONE,
+    )
 
 
 def test_some_commands_that_take_far_too_long_change_little(tmp_path: Path) -> None:
@@ -170,3 +232,18 @@ def test_measurements_that_do_not_determine_the_parameters_are_not_fitted() -> N
     assert fitted(alike, relative=True, finest=1e-4, near=0.0) is None
     assert fitted(alike[:2], relative=True, finest=1e-4, near=0.0) is None
     assert fitted([], relative=True, finest=1e-4, near=0.0) is None
+
+
+def test_each_kind_of_measurements_has_a_spread_of_its_own() -> None:
+    """And those that vary less count more."""
+    chance = Random(1)
+    rows = [
+        Row((1.0,), chance.gauss(5.0, spread), kind=kind)
+        for kind, spread in (("fine", 0.01), ("coarse", 1.0))
+        for _ in range(200)
+    ]
+    fit = fitted(rows, relative=False, finest=1e-4, near=0.0)
+    assert fit is not None
+    assert fit.spreads["fine"].value == pytest.approx(0.01, rel=0.15)
+    assert fit.spreads["coarse"].value == pytest.approx(1.0, rel=0.15)
+    assert fit.values[0].error == pytest.approx(0.01 / 200**0.5, rel=0.15)
