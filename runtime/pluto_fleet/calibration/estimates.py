@@ -97,8 +97,6 @@ class Profile(Estimate):
                 rest = sqrt(reach**2 - point.off**2) * point.error
                 low = min(low, point.value - rest)
                 high = max(high, point.value + rest)
-        if abs(self.points[0].off) <= reach or abs(self.points[-1].off) <= reach:
-            return -inf, inf  # what lies beyond may be as well
         return low, high
 
 

@@ -65,7 +65,7 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
         )
         fit = fit_of(what.model, moves, known)
     fit, shapes = _with_shapes(what, moves, known, fit)
-    below = _less_than_none(fit, known)
+    below = _less_than_none(fit, known) if "acceleration" in shapes else {}
     if below:  # what else was found counts with that: without it all else is otherwise
         known |= dict.fromkeys(below, 0.0)
         fit, shapes = _with_shapes(what, moves, known, fit_of(what.model, moves, known))

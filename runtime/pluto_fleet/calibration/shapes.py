@@ -70,7 +70,7 @@ def shaped(
     while shapes:
         fit = _bent(what.model, moves, known, shapes)
         if fit is None:
-            least = _unknown(what.model, moves, known, shapes) or shapes[-1]
+            least = _unknown(what.model, moves, known, shapes) or shapes[0]
         else:
             widths = _widths(fit, len(shapes))
             least = shapes[widths.index(max(widths))]
@@ -213,8 +213,10 @@ class _Walk:
         best = min(stops, key=lambda one: one.squares)
         profiles: list[Estimate] = []
         for at, one in enumerate(self._fit.values):
-            points = tuple(self._point(stop, best, at) for stop in stops)
-            profiles.append(Profile(one.value, one.error, one.spare, points))
+            points = [self._point(stop, best, at) for stop in stops]
+            if at == self._at and abs(points[0].off) < _FAR:  # all larger ones explain as much
+                points.insert(0, points[0]._replace(value=0.0))
+            profiles.append(Profile(one.value, one.error, one.spare, tuple(points)))
         return tuple(profiles)
 
     def _side(self, begun: _Stop, step: float) -> list[_Stop]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import pytest
 from msgspec import structs
@@ -97,7 +98,7 @@ def test_an_overhead_that_is_less_than_none_is_none_and_the_rest_makes_up_for_it
     metres = [chance.uniform(10.0, 90.0) for _ in range(60)]
     legs = [leg((0.0, 0.0, 9.0), (d, 0.0, 9.0), truth.flies(d, 5.0)) for d in metres]
     what = calibrated([of(legs)], STEADY)
-    found = {name: one.value for name, one in what.found.items() if name in SHAPING}
+    found: dict[str, Any] = {name: what.found[name].value for name in SHAPING if name in what.found}
     assert found["settles"] == 0.0
     motion = replace(STEADY, **found)
     for one in legs:
