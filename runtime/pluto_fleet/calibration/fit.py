@@ -33,7 +33,15 @@ from .estimates import (
     student,
     too_few,
 )
-from .moves import NEAR, OVERHEAD, PARAMETERS, TICK, fit_of, leaves_pace_open, with_value
+from .moves import (
+    NEAR,
+    OVERHEAD,
+    PARAMETERS,
+    TICK,
+    fit_of,
+    leaves_pace_open,
+    with_value,
+)
 from .shapes import SHAPES, shaped
 
 MOVED = 0.01
