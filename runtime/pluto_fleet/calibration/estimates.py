@@ -216,7 +216,7 @@ def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: f
     """Find the least sum of squares, and by how much each kind of measurements varies."""
     scale = _scale(relative, [row.measured for row in rows])
     spreads = {row.kind: Spread(1.0, 0.0, 1.0) for row in rows}
-    estimates: tuple[Estimate, ...] = ()
+    estimates: tuple[Estimate, ...] | None = None
     whole = len(rows) - len(rows[0].factors)
     for _ in range(_EVEN):
         weights = [
@@ -239,6 +239,8 @@ def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: f
             value = max(value, finest)
             spreads[kind] = Spread(value, value / sqrt(2 * spare), spare)
         estimates = _estimates(solved, parts, spreads)
+    if estimates is None:
+        return None
     remaining = iter(off)
     residuals = tuple(next(remaining) if keep else None for keep in kept)
     return Fit(estimates, spreads, residuals, tuple(weights))
@@ -246,12 +248,15 @@ def _evenly(rows: Sequence[Row], kept: Sequence[bool], relative: bool, finest: f
 
 def _estimates(
     solved: Solution, parts: Mapping[str, Matrix], spreads: Mapping[str, Spread]
-) -> tuple[Estimate, ...]:
+) -> tuple[Estimate, ...] | None:
+    """Return the parameters with their errors; None: numbers are too far apart to tell these."""
     estimates: list[Estimate] = []
     for value, line in zip(solved.values, solved.inverse, strict=True):
         # Welch and Satterthwaite: what each kind adds to the variance
         adds = {kind: _twice(line, part) for kind, part in parts.items()}
         variance = sum(adds.values())
+        if variance <= 0:
+            return None
         spare = variance**2 / sum(adds[kind] ** 2 / spreads[kind].spare for kind in adds)
         estimates.append(Estimate(value, sqrt(variance), spare))
     return tuple(estimates)
@@ -296,7 +301,7 @@ def solve(rows: Sequence[Row], weights: Sequence[float]) -> Solution | None:
     """Return the parameters with the least weighted sum of squares; None: nothing determines them."""
     matrix, right = _normal_equations(rows, weights)
     inverse = _inverse(matrix)
-    if inverse is None:
+    if inverse is None or any(line[at] <= 0 for at, line in enumerate(inverse)):
         return None
     values = [sum(map(mul, line, right)) for line in inverse]
     expected = [row.given + sum(map(mul, row.factors, values)) for row in rows]
