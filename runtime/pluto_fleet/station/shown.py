@@ -76,9 +76,10 @@ class Shown:
 
     def take(self, event: Row) -> Frame:
         """Take an event; return what changes. Raises an error of any kind if it says nothing of rows."""
-        if not _suits(event.get("state", {}), State):
+        state = event.get("state", self.state)
+        if not _suits(state, State) or "phase" not in state:
             raise ValueError("no state is like that")
-        self.state = event.get("state", self.state)
+        self.state = state
         frame: Frame = {}
         for kind, by in NAMED_BY.items():
             changes = event.get(kind, {})

@@ -20,6 +20,7 @@ from pluto_fleet.shared.domain.actions import BUILT_IN
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.station.config import StationConfig
 from pluto_fleet.station.history.past import PastFlights
+from pluto_fleet.station.shown import Shown
 from tests.kit.journals import entry
 from tests.kit.told import Told
 from tests.library.files.an_app import APP, POLLINATE
@@ -194,6 +195,12 @@ def test_who_commanded_what_is_told_by_journal_and_log(tmp_path: Path) -> None:
 
 def _utc(at: int) -> str:
     return time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(at / 1000))
+
+
+def test_a_state_that_does_not_say_whether_it_flies_ends_a_replay_there() -> None:
+    """And no page shows it."""
+    with pytest.raises(ValueError, match="no state"):
+        Shown().take({"event": "shown", "t": 1.0, "state": {}})
 
 
 def test_an_mcap_file_is_read_by_its_own_library(tmp_path: Path) -> None:
