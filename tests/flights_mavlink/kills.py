@@ -37,7 +37,7 @@ from tests.flights_mavlink.vehicles import (
 )
 from tests.kill.judge import lost, phase, unkept, wrong
 from tests.kill.lives import eventually
-from tests.kill.trial import gateway_of
+from tests.kill.trial import gateway_of, killed
 from tests.kit.campaign import Campaign
 
 BRAIN = "brain"
@@ -54,7 +54,9 @@ _AT_ITS_TARGET = 2.0
 _BY_ITSELF = 60.0
 """Seconds in which a vehicle whose failsafe returns or lands it must be down."""
 _HOLDS = 0.3
-"""Metres that one that holds may move in two seconds."""
+"""Metres that one that holds may move while it is watched."""
+_WATCHED = 2.0
+"""Seconds for which it is watched."""
 _LAST_LEG = 20.0
 """Seconds in which all have come to the ends of their legs."""
 
@@ -75,9 +77,7 @@ class Tally:
     trips: int = 0
 
     def lines(self) -> Iterator[str]:
-        for what, kills in (("brain", self.brains), ("gateway", self.gateways)):
-            where = ", ".join(f"{count} {phase}" for phase, count in kills.most_common())
-            yield f"{kills.total()} kill -9 of the {what}: {where or 'none'}"
+        yield from killed(self.brains, self.gateways)
         yield f"{self.photos} photos of {self.trips} trips"
         left = ", ".join(f"{count} {how}" for how, count in self.left.most_common())
         yield f"left to themselves: {left or 'none'}"
@@ -200,7 +200,7 @@ class Trial:
         eventually(lambda: not set(down) & set(flight.airborne()), _BY_ITSELF)
         time.sleep(_LAST_LEG)
         before = self._places()
-        time.sleep(2.0)
+        time.sleep(_WATCHED)
         after = self._places()
         airborne = flight.airborne()
         for id in left:

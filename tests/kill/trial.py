@@ -29,6 +29,13 @@ PLACES = ((2.0, 3.0), (4.0, 1.0), (6.0, 5.0))
 """Where events happen that it is told of."""
 
 
+def killed(brains: Counter[str], gateways: Counter[str]) -> Iterator[str]:
+    """Yield how often each was killed, and what went on then."""
+    for what, kills in (("brain", brains), ("gateway", gateways)):
+        where = ", ".join(f"{count} {phase}" for phase, count in kills.most_common())
+        yield f"{kills.total()} kill -9 of the {what}: {where or 'none'}"
+
+
 @dataclass(slots=True)
 class Tally:
     """All flights of one campaign."""
@@ -45,9 +52,7 @@ class Tally:
     decided: int = 0
 
     def lines(self) -> Iterator[str]:
-        for what, kills in (("brain", self.brains), ("gateway", self.gateways)):
-            where = ", ".join(f"{count} {phase}" for phase, count in kills.most_common())
-            yield f"{kills.total()} kill -9 of the {what}: {where or 'none'}"
+        yield from killed(self.brains, self.gateways)
         yield f"missions: {', '.join(f'{n} {end}' for end, n in self.ends.most_common())}"
         yield from (f"  {count} × {reason}" for reason, count in self.reasons.most_common())
         answered = ", ".join(f"{count} {how}" for how, count in self.told.most_common())

@@ -40,6 +40,7 @@ from .moves import (
     TICK,
     fit_of,
     leaves_pace_open,
+    measured,
     with_value,
 )
 from .shapes import SHAPES, shaped
@@ -64,19 +65,19 @@ def find_durations(what: Calibration, done: Sequence[Command]) -> None:
     moves = [one for one in done if one.what != ACTION and one.metres >= MOVED]
     known = _known(what, moves)
     moves = [one for one in moves if OVERHEAD.get(one.what) not in known]
-    fit = fit_of(what.model, moves, known)
+    fit = fit_of(measured(what.model, moves, known))
     if "settles" not in known and (fit is None or leaves_pace_open(fit)):
         known["settles"] = what.model.settles
         what.untold["settles"] = (
             "all legs are about as long, so it cannot be told from the pace: the rest is found as if it"
             f" were {what.model.settles:g} s"
         )
-        fit = fit_of(what.model, moves, known)
+        fit = fit_of(measured(what.model, moves, known))
     fit, shapes = _with_shapes(what, moves, known, fit)
     below = _less_than_none(fit, known) if "acceleration" in shapes else {}
     if below:  # what else was found counts with that: without it all else is otherwise
         known |= dict.fromkeys(below, 0.0)
-        fit, shapes = _with_shapes(what, moves, known, fit_of(what.model, moves, known))
+        fit, shapes = _with_shapes(what, moves, known, fit_of(measured(what.model, moves, known)))
     if fit is None or fit.spare < SPARE:
         for name in (*PARAMETERS, "spread"):
             what.untold.setdefault(name, too_few(len(moves), "flown command", SPARE + 4))
@@ -154,7 +155,7 @@ def _look_at_short_legs(
     fits = [
         (length, fit.values[-1])
         for length in {lengths[len(lengths) * part // 8] for part in _SHORT}
-        if (fit := fit_of(model, moves, known, short=length)) and fit.spare >= SPARE
+        if (fit := fit_of(measured(model, moves, known, short=length))) and fit.spare >= SPARE
     ]
     if not fits:
         return

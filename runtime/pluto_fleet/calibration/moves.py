@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -22,18 +22,9 @@ _STEP = 1e-3
 """By what share a value is changed to see how durations change with it."""
 
 
-def fit_of(
-    model: Motion,
-    moves: Sequence[Command],
-    known: Mapping[str, float],
-    *,
-    short: float = 0.0,
-    shapes: Sequence[str] = (),
-    pace: float = 1.0,
-) -> Fit | None:
-    """Fit what is not known to commands, as `measured` has them."""
-    rows = [*measured(model, moves, known, short=short, shapes=shapes, pace=pace)]
-    return fitted(rows, relative=True, finest=TICK, near=NEAR)
+def fit_of(rows: Iterable[Row]) -> Fit | None:
+    """Fit what is not known to what commands tell of it, as `measured` yields that."""
+    return fitted([*rows], relative=True, finest=TICK, near=NEAR)
 
 
 def measured(

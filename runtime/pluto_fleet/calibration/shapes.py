@@ -143,7 +143,7 @@ def _followed(
     """
     pace = 1.0
     for turn in range(_ROUNDS):
-        fit = fit_of(model, moves, known, shapes=shapes, pace=pace)
+        fit = fit_of(measured(model, moves, known, shapes=shapes, pace=pace))
         if fit is None:
             return None
         pace = fit.values[0].value

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 import pytest
@@ -20,6 +19,7 @@ from pluto_fleet.process.surroundings import Surroundings
 from pluto_fleet.shared.domain.errors import BadInput
 from pluto_fleet.shared.domain.fleet_data import Feature, Source, WorldData
 from pluto_fleet.shared.domain.model import Item, Photo
+from tests.library.mavlink.together import Cases, came_of
 
 PLANE = LocalPlane(47.397742, 8.545594, 488.0, bearing=0.5)
 HOME = (5.0, 5.0, 0.0)
@@ -117,7 +117,7 @@ async def sees(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     assert photo.width == pytest.approx(1.6 * photo.position[2])
 
 
-CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, object]] = {
+CASES: Cases = {
     measures: MEASURE,
     falls_silent: MEASURE,
     is_not_heard: {"measure": {"pm10": "smog"}},
@@ -156,34 +156,10 @@ async def _all_at_once(make: str, tmp_path: Path) -> list[BaseException | None]:
         for number, case in enumerate(CASES, 1)
     ]
     server = Server(builds, Around(AROUND, PLANE))
-    await server.start()
-    flown = [
-        MavlinkVehicle(
-            DroneSetup(
-                id=case.__name__,
-                uri=server.uris[case.__name__],
-                home=HOME,
-                speed=5.0,
-                options=options,
-                folder=tmp_path,
-                plane=PLANE,
-            )
-        )
-        for case, options in CASES.items()
-    ]
-
-    async def fly(
-        case: Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], flies: MavlinkVehicle
-    ) -> None:
-        await flies.connect()
-        await case(flies, server.vehicles[case.__name__])
-
-    try:
-        flights = (fly(*one) for one in zip(CASES, flown, strict=True))
-        return await asyncio.gather(*flights, return_exceptions=True)
-    finally:
-        await asyncio.gather(*(flies.close() for flies in flown), return_exceptions=True)
-        await server.close()
+    setup = DroneSetup(
+        id="", uri=None, home=HOME, speed=5.0, options={}, folder=tmp_path, plane=PLANE
+    )
+    return await came_of(CASES, server, setup, connects=True)
 
 
 GRAB = 1.0

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import subprocess
-from collections.abc import Awaitable, Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -23,9 +22,11 @@ from pluto_fleet.drones.protocol import (
 )
 from pluto_fleet.geodesy import LocalPlane
 from pluto_fleet.mavlink.navigation import MavlinkVehicle
+from pluto_fleet.mavlink.state import ON_GROUND
 from pluto_fleet.process import respawn
 from pluto_fleet.shared.domain.airspace import Airspace
 from pluto_fleet.shared.domain.model import Photo
+from tests.library.mavlink.together import Cases, came_of
 
 pytestmark = pytest.mark.process
 
@@ -33,8 +34,8 @@ PLANE = LocalPlane(47.397742, 8.545594, 488.0)
 HOME = (5.0, 5.0, 0.0)
 FAR = (40.0, 5.0, 3.0)
 MAP = Airspace(size=(50.0, 20.0), ceiling=10.0)
-_LONGEST = 90.0
-"""Seconds that a case may take."""
+_SOON = 0.5
+"""Seconds in which an order would have come: it takes some milliseconds."""
 
 
 async def pilot(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
@@ -174,7 +175,8 @@ async def stopped_as_it_lands(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     landing = asyncio.create_task(flies.land(1.0))
     while vehicle.high:
         await asyncio.sleep(0.02)
-    await asyncio.sleep(0.5)
+    while flies._state.landed != ON_GROUND:
+        await asyncio.sleep(0.02)
     assert vehicle.armed
     landing.cancel()
     await flies.hold()
@@ -212,7 +214,7 @@ async def handed_back(flies: MavlinkVehicle, vehicle: Vehicle) -> None:
     with pytest.raises(Rejected, match="acts by itself"):
         await going
     landing = asyncio.create_task(flies.land(1.0))
-    await asyncio.sleep(0.5)
+    await asyncio.sleep(_SOON)
     let(vehicle, "pilot", "go")
     assert "21: 0" not in vehicle.record.orders
     await landing
@@ -292,7 +294,7 @@ async def told(flies: MavlinkVehicle, kind: str) -> str:
 BESIDE: list[Vehicle] = []
 """One that no fleet file has."""
 
-CASES: dict[Callable[[MavlinkVehicle, Vehicle], Awaitable[None]], dict[str, object]] = {
+CASES: Cases = {
     pilot: {},
     blind: {},
     unready: {},
@@ -348,34 +350,17 @@ async def _all_at_once(tmp_path: Path) -> list[BaseException | None]:
     (one,) = (build for build in builds if build.id == twin.__name__)
     server = Server([*builds, replace(one, id="other", home=PLANE.to_degrees((8.0, 5.0, 0.0)))])
     BESIDE[:] = [server.join(replace(one, id="beside", system=200))]
-    await server.start()
-    flown = [
-        MavlinkVehicle(
-            DroneSetup(
-                id=case.__name__,
-                uri=server.uris[case.__name__],
-                home=HOME,
-                speed=5.0,
-                options=options,
-                folder=tmp_path,
-                plane=PLANE,
-                airspace=MAP,
-            )
-        )
-        for case, options in CASES.items()
-    ]
-    try:
-        return await asyncio.gather(
-            *(
-                asyncio.wait_for(case(flies, server.vehicles[case.__name__]), _LONGEST)
-                for case, flies in zip(CASES, flown, strict=True)
-            ),
-            return_exceptions=True,
-        )
-    finally:
-        let(server.vehicles["silent"], "silent", False)
-        await asyncio.gather(*(flies.close() for flies in flown), return_exceptions=True)
-        await server.close()
+    setup = DroneSetup(
+        id="",
+        uri=None,
+        home=HOME,
+        speed=5.0,
+        options={},
+        folder=tmp_path,
+        plane=PLANE,
+        airspace=MAP,
+    )
+    return await came_of(CASES, server, setup)
 
 
 @pytest.mark.long
