@@ -164,11 +164,11 @@ class Campaign:
 def _by_its_name(one: Callable[[Case], Came]) -> Callable[[Case], Came]:
     """Return a function of the script that runs as one that other processes find, too: they run no package's script.
 
-    One within another function stays what it is: it is tried in threads.
+    One within another function, and a method, stay what they are: they are tried here, or in threads.
     """
     script = sys.modules["__main__"].__spec__
     is_own = getattr(one, "__module__", "") == "__main__"
-    if script is None or not is_own or "<locals>" in one.__qualname__:
+    if script is None or not is_own or "." in one.__qualname__:
         return one
     found: Callable[[Case], Came] = getattr(import_module(script.name), one.__name__)
     return found
